@@ -13,7 +13,7 @@ from unittest import mock
 import natator
 import numpy as np
 from natator.program import simulator_path
-from natator.simulator import _exchange, make_request
+from natator.simulator import make_request
 
 ROOT = Path(__file__).resolve().parents[2]
 TANK = "bench/small-tank"
@@ -94,7 +94,7 @@ class EvaluationTest(unittest.TestCase):
 
     def test_an_interrupted_simulator_is_closed(self):
         with natator.Simulator(1) as simulator:
-            with mock.patch("natator.simulator._read", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            with mock.patch("natator.program.hear", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
                 simulator.evaluate(TANK, GAIT, duration=0.05)
             with self.assertRaisesRegex(natator.ProgramError, "closed"):
                 simulator.evaluate(TANK, GAIT, duration=0.05)
@@ -108,16 +108,16 @@ class EvaluationTest(unittest.TestCase):
         self.assertEqual([r["frames"] for r in results], [3, 6, 9, 3, 6, 9, 3])
 
     def test_threads_that_share_one_get_their_own_answers(self):
-        def most_at_once(process, lines):
+        def most_at_once(self, lines):
             nonlocal inside, most
             inside += 1
             most = max(most, inside)
             time.sleep(0.02)
             inside -= 1
-            return _exchange(process, lines)
+            return answers(self, lines)
 
-        inside, most = 0, 0
-        with natator.Simulator(1) as simulator, mock.patch("natator.simulator._exchange", most_at_once):
+        inside, most, answers = 0, 0, natator.Simulator._answers
+        with natator.Simulator(1) as simulator, mock.patch("natator.Simulator._answers", most_at_once):
             with ThreadPoolExecutor(4) as pool:
                 results = list(pool.map(lambda start: simulator.evaluate(TANK, GAIT, duration=0.05, start=start), range(4)))
             self.assertEqual(most, 1)

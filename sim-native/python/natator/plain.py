@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import sys
 
 import numpy as np
 
@@ -30,7 +31,7 @@ def plain(name, value, depth=0):
     if isinstance(value, (list, tuple)):
         return [plain(f"{name}[{i}]", part, depth + 1) for i, part in enumerate(value)]
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return os.fsdecode(value)
     if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"{name} = {value}: must be a finite number")
     if value is not None and not isinstance(value, (bool, int, float, str)):
@@ -41,3 +42,13 @@ def plain(name, value, depth=0):
 def line(value, name=""):
     """A dict as a line of JSON, in bytes."""
     return json.dumps(plain(name, value)).encode() + b"\n"
+
+
+def is_number(value):
+    """Whether a value that was read from JSON is a number that a float can hold."""
+    return type(value) in (int, float) and abs(value) <= sys.float_info.max
+
+
+def is_whole(value, least=0):
+    """Whether it is a whole number from `least` on."""
+    return type(value) is int and value >= least

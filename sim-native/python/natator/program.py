@@ -1,9 +1,13 @@
-"""The program natator-sim, and how it is started."""
+"""The program natator-sim: how it is started, spoken to and ended."""
 
+import errno
+import json
 import os
+import select
 import shutil
 import subprocess
-import tempfile
+import time
+import weakref
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -13,9 +17,11 @@ from natator.errors import InputError, ProgramError
 def simulator_path(program=None):
     """Path of natator-sim: `program`, else $NATATOR_SIM, else that on the PATH, else that of the checkout which this package
     is run from. Raises ProgramError where there is none."""
+    if program is not None and not isinstance(program, (str, os.PathLike)):
+        raise InputError(f"program = {program!r}: must be a path")
     named = program or os.environ.get("NATATOR_SIM")
     if named:
-        if not os.access(named, os.X_OK) or os.path.isdir(named):
+        if "\0" in str(named) or not os.access(named, os.X_OK) or os.path.isdir(named):
             raise _other_program(named)
         return str(named)
     found = shutil.which("natator-sim")
@@ -28,7 +34,7 @@ def simulator_path(program=None):
 
 
 def _other_program(path, wrong=""):
-    return ProgramError(f"{path}{wrong}: must be the program natator-sim (argument `program`, or $NATATOR_SIM)")
+    return ProgramError(f"{_printable(str(path))}{wrong}: must be the program natator-sim (argument `program`, or $NATATOR_SIM)")
 
 
 def listed(name, values):
@@ -38,48 +44,256 @@ def listed(name, values):
     return list(values)
 
 
-def start(program, arguments):
-    """natator-sim with pipes as input and output. What it says on standard error is kept for `ended`."""
-    command = [simulator_path(program), *map(str, arguments)]
-    said = tempfile.TemporaryFile()
+class Program:
+    """A natator-sim with pipes, which one thread writes and reads, so that a signal's exception ends each wait.
+
+    It ends with this object, or with Python, where it was not closed before. It is of the process that started it alone: a
+    forked child has none of its pipes. Raises InputError and ProgramError.
+    """
+
+    def __init__(self, program, arguments):
+        self.path = simulator_path(program)
+        self._unsent, self._heard, self._searched = memoryview(b""), bytearray(), 0
+        self._said, self._noise = b"", 0
+        self._deaf = self._closed = self._foreign = False
+        try:
+            self._process = subprocess.Popen([self.path, *map(str, arguments)], bufsize=0, stdin=subprocess.PIPE,
+                                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        except OSError as error:
+            kind = InputError if error.errno == errno.E2BIG else ProgramError
+            raise kind(f"{self.path}: cannot be started: {error.strerror}") from error
+        except ValueError as error:
+            raise InputError(f"argument of {self.path}: {error}") from error
+        self._finalizer = weakref.finalize(self, _drop, self._process)
+        self._open = {self._process.stdout, self._process.stderr}
+        os.set_blocking(self._process.stdin.fileno(), False)
+        _running.add(self)
+
+    def send_later(self, data):
+        """What is sent while others are waited for; see `hear`."""
+        self._unsent = memoryview(bytes(self._unsent) + data)
+
+    def send(self, data):
+        """Sends all of it. What the program says meanwhile is kept: neither waits for the other with a full pipe."""
+        self.send_later(data)
+        while self._unsent:
+            if self._deaf:
+                raise self.ended()
+            if len(self._heard) > MOST_HEARD:
+                raise self.no_simulator()
+            _wait([self])
+
+    def peek(self, size):
+        """The next so many bytes, which stay to be read."""
+        while len(self._heard) < size:
+            hear([self])
+        return bytes(self._heard[:size])
+
+    def read(self, size):
+        """So many bytes; where a wait is interrupted, none of them."""
+        data = self.peek(size)
+        self._forget(size)
+        return data
+
+    def line(self):
+        """The next line, or None if there is no whole one yet."""
+        end = self._heard.find(b"\n", self._searched)
+        if end < 0:
+            self._searched = len(self._heard)
+            if self._searched > MOST_LINE:
+                raise self.no_simulator()
+            return None
+        data = bytes(self._heard[:end])
+        self._forget(end + 1)
+        return data
+
+    def _forget(self, size):
+        del self._heard[:size]
+        self._searched = 0
+
+    def require_open(self):
+        """Raises ProgramError where nobody may speak to it any more, or this process never might."""
+        if self._foreign:
+            raise ProgramError("natator-sim was started by the process that this one is forked from: each must start its own")
+        if self._closed:
+            raise ProgramError("natator-sim is closed")
+
+    def ended(self):
+        """The error that it has ended with, though it was to go on. What has closed its pipes alone is ended by this."""
+        if self._closed:
+            return ProgramError("natator-sim is closed")
+        until = time.monotonic() + GRACE
+        while self._process.stderr in self._open and time.monotonic() < until:
+            if not _wait([self], 0.05, only=self._process.stderr) and self._process.poll() is not None:
+                break  # another holds its standard error
+        try:
+            code = self._process.wait(max(until - time.monotonic(), 0))
+        except subprocess.TimeoutExpired:
+            self._kill()
+            return _other_program(self.path, " reads or says no more, and goes on")
+        lines = self._said.decode(errors="replace").split("\n")
+        last = next((_printable(text.strip()) for text in reversed(lines) if text.strip()), "")
+        if code == 2 and last.startswith(NAME):
+            return InputError(last.removeprefix(NAME))
+        return ProgramError(f"natator-sim has ended, exit code {code}" + (f": {last.removeprefix(NAME)}" if last else ""))
+
+    def no_simulator(self):
+        """The error of a program that answers as none of ours does, which is ended."""
+        self._kill()
+        return _other_program(self.path, " answers as no simulator does")
+
+    def _kill(self):
+        self._process.kill()
+        self._process.wait()
+
+    def json(self, data):
+        """A dict that the program has sent as JSON."""
+        try:
+            value = json.loads(data, parse_constant=_refuse)
+        except (ValueError, RecursionError):
+            value = None
+        if not isinstance(value, dict):
+            raise self.no_simulator()
+        return value
+
+    def _watched(self):
+        """Pipes to wait for, and for what."""
+        if not self._deaf:
+            yield self._process.stdin, select.POLLOUT if self._unsent else 0
+        for pipe in self._open:
+            yield pipe, select.POLLIN
+
+    def _move(self, pipe):
+        """Writes or reads what a pipe is ready for."""
+        if pipe is self._process.stdin:
+            try:
+                self._unsent = self._unsent[os.write(pipe.fileno(), self._unsent[:CHUNK]):]
+            except BlockingIOError:
+                pass
+            except BrokenPipeError:
+                self._deaf = True
+            return
+        data = os.read(pipe.fileno(), CHUNK)
+        if not data:
+            self._open.discard(pipe)
+        elif pipe is self._process.stdout:
+            self._heard += data
+            self._noise = 0
+        else:
+            self._said = (self._said + data)[-MOST_SAID:]
+            self._noise += len(data)
+
+    def _let_go(self):
+        """The process, whose pipes are closed by this."""
+        self._closed = True
+        _close_pipes(self._process)
+        return self._process
+
+    def _leave_to_parent(self):
+        """Has no part in it, in a forked child."""
+        self._foreign = True
+        self._finalizer.detach()
+        self._let_go().returncode = 0  # which the parent will know
+
+
+def hear(programs):
+    """Sends what is unsent, and waits until a program has said more. Raises ProgramError or InputError if one will not."""
+    for program in programs:
+        if program._process.stdout not in program._open:
+            raise program.ended()
+        if program._noise > MOST_NOISE:
+            raise program.no_simulator()
+    deaf = [program for program in programs if program._deaf]
+    if not _wait(programs, GRACE if deaf else None) and deaf:
+        raise deaf[0].ended()
+
+
+def stop(programs, patience):
+    """Ends programs, whose pipes are closed by this; those that go on for so many seconds are told to end, then killed."""
+    programs = [program for program in programs if not program._foreign]
+    _end([program._let_go() for program in programs], patience)
+    for program in programs:
+        program._finalizer.detach()
+        _running.discard(program)
+
+
+def _wait(programs, seconds=None, only=None):
+    """Until a pipe is ready, whose content is moved; whether one was."""
+    poll, watched = select.poll(), {}
+    for program in programs:
+        program.require_open()
+        for pipe, events in program._watched():
+            if only in (None, pipe):
+                poll.register(pipe, events)
+                watched[pipe.fileno()] = program, pipe
+    ready = poll.poll(None if seconds is None else 1000 * seconds)
+    for number, events in ready:
+        program, pipe = watched[number]
+        program.require_open()  # may have been closed meanwhile
+        if pipe is program._process.stdin and not events & select.POLLOUT:
+            program._deaf = True
+        else:
+            program._move(pipe)
+    return bool(ready)
+
+
+def _end(processes, patience):
     try:
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said)
-    except OSError as error:
-        said.close()
-        raise ProgramError(f"{command[0]}: cannot be started: {error.strerror}") from error
-    except ValueError as error:
-        said.close()
-        raise InputError(f"argument of {command[0]}: {error}") from error
-    process.said = said
-    return process
+        for tell, seconds in ((None, patience), (subprocess.Popen.terminate, GRACE), (subprocess.Popen.kill, None)):
+            until = None if seconds is None else time.monotonic() + seconds
+            for process in processes if tell else ():
+                tell(process)
+            processes = [process for process in processes if not _has_ended(process, until)]
+    except BaseException:
+        for process in processes:
+            process.kill()
+        for process in processes:
+            process.wait()
+        raise
 
 
-def ended(process):
-    """The error that a program has ended with, though it was to go on."""
-    code = process.wait()
-    process.said.seek(0)
-    said = process.said.read().decode(errors="replace").strip().removeprefix("natator-sim: ")
-    if code == 2 and said:
-        return InputError(said)
-    return ProgramError(f"natator-sim has ended, exit code {code}" + (f": {said}" if said else ""))
-
-
-def no_simulator(process):
-    """The error of a program that answers as none of ours does, which is ended."""
-    process.kill()
-    return _other_program(process.args[0], " answers as no simulator does")
-
-
-def stop(process, patience=10):
-    """Ends a program whose input is closed by this; kills one that goes on for so many seconds."""
+def _has_ended(process, until):
     try:
-        process.stdin.close()
-    except BrokenPipeError:
-        pass
-    try:
-        process.wait(timeout=patience)
+        process.wait(None if until is None else max(until - time.monotonic(), 0))
     except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-    process.stdout.close()
-    process.said.close()
+        return False
+    return True
+
+
+def _close_pipes(process):
+    for pipe in (process.stdin, process.stdout, process.stderr):
+        pipe.close()
+
+
+def _drop(process):
+    """Ends a program that nobody can speak to any more."""
+    _close_pipes(process)
+    _end([process], 0)
+
+
+def _leave_all_to_parent():
+    for program in list(_running):
+        program._leave_to_parent()
+
+
+def _refuse(constant):
+    raise ValueError(f"{constant} is no JSON")
+
+
+def _printable(text):
+    text = text if len(text) <= MOST_QUOTED else text[:MOST_QUOTED] + "…"
+    return "".join(letter if letter.isprintable() else "\ufffd" for letter in text)
+
+
+NAME = "natator-sim: "
+PATIENCE = 0.5            # s for a program that has nothing to do, to end with its input
+GRACE = 1.0               # s for one that was told to end, or seems to
+CHUNK = 1 << 18           # bytes written or read at once
+MOST_LINE = 1 << 24       # bytes of a line that has no end
+MOST_HEARD = 1 << 30      # bytes that are said before a command is read
+MOST_SAID = 1 << 16       # bytes of standard error that are kept
+MOST_NOISE = 1 << 24      # bytes on it without any on standard output
+MOST_QUOTED = 1000        # letters of it in a message
+
+_running = weakref.WeakSet()
+os.register_at_fork(after_in_child=_leave_all_to_parent)

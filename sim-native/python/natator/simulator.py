@@ -1,15 +1,14 @@
 """Evaluations through `natator-sim serve`."""
 
-import json
+import itertools
 import os
 import threading
 from collections.abc import Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 
 from natator import program as programs
 from natator.errors import InputError, ProgramError
 from natator.gait import as_json, whole
-from natator.plain import line
+from natator.plain import is_number, is_whole, line
 
 
 class Simulator:
@@ -17,17 +16,18 @@ class Simulator:
 
     workers: how many at a time, from 1, by default as many as there are processors. With --backend cuda one worker does, which
     computes what it is given together. arguments: a list of more arguments of `natator-sim serve`. Threads may share one: they
-    take turns. To be closed; a context manager. Raises InputError.
+    take turns; a forked process needs its own. A context manager; what nobody closes or refers to is closed too. Raises
+    InputError and ProgramError.
     """
 
     def __init__(self, workers=None, arguments=(), program=None):
         count = whole("workers", workers, 1) if workers is not None else _processors()
         arguments = programs.listed("arguments", arguments)
-        self._processes = []
-        self._turn = threading.Lock()
+        self._programs, self._ids = [], itertools.count()
+        self._turn = threading.RLock()
         try:
             for _ in range(count):
-                self._processes.append(programs.start(program, ["serve", *arguments]))
+                self._programs.append(programs.Program(program, ["serve", *arguments]))
         except BaseException:
             self.close()
             raise
@@ -43,36 +43,56 @@ class Simulator:
         one request gives does not depend on the others, nor on the number of workers. Raises InputError for the first that
         can't be used: when all are done, or at once where JSON has no form for it. A simulator that is interrupted is closed."""
         requests = _mappings(requests)
-        lines = [line(dict(request, id=number), f"requests[{number}]" if len(requests) > 1 else "")
-                 for number, request in enumerate(requests)]
+        lines = {}
+        for number, request in enumerate(requests):
+            own = next(self._ids)  # of no other request: what was said to another is not taken for its answer
+            lines[own] = line(dict(request, id=own), f"requests[{number}]" if len(requests) > 1 else "")
+        self._require_open()
         with self._turn:
+            self._require_open()
             answers = self._answers(lines)
-        answers.sort(key=lambda answer: answer["id"])
-        for answer in answers:
+        for number, answer in enumerate(answers):
             if answer["status"] == "error":
-                which = f"requests[{answer['id']}]: " if len(requests) > 1 else ""
-                raise InputError(which + answer["error"])
+                raise InputError((f"requests[{number}]: " if len(requests) > 1 else "") + answer["error"])
+            answer["id"] = number
         return answers
 
-    def _answers(self, lines):
-        """Of all programs, in any order."""
-        if not self._processes:
+    def _require_open(self):
+        if not self._programs:
             raise ProgramError("the simulator is closed")
-        shares = [lines[k::len(self._processes)] for k in range(len(self._processes))]
+        self._programs[0].require_open()
+
+    def _answers(self, lines):
+        """To the lines of so many ids, in their order."""
+        ids, shares, answers = list(lines), {}, {}
+        for k, program in enumerate(self._programs):
+            if mine := ids[k::len(self._programs)]:
+                shares[program] = _Share(program, mine)
         try:
-            with ThreadPoolExecutor(len(shares)) as pool:
-                return [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
+            for program, share in shares.items():
+                program.send_later(b"".join(lines[own] for own in share.left))
+            while shares:
+                programs.hear(list(shares))
+                for program, share in list(shares.items()):
+                    if share.take():
+                        answers |= shares.pop(program).answers
         except BaseException:
             self._end(patience=0)  # what was not read would be the answers to the next requests
             raise
+        return [answers[own] for own in ids]
 
     def close(self):
-        self._end(patience=10)
+        """Also while another thread waits for answers, which gets a ProgramError."""
+        idle = self._turn.acquire(blocking=False)
+        try:
+            self._end(programs.PATIENCE if idle else 0)
+        finally:
+            if idle:
+                self._turn.release()
 
     def _end(self, patience):
-        for process in self._processes:
-            programs.stop(process, patience)
-        self._processes = []
+        ended, self._programs = self._programs, []
+        programs.stop(ended, patience)
 
     def __enter__(self):
         return self
@@ -108,31 +128,38 @@ def _processors():
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
-def _exchange(process, lines):
-    """Gives a program its requests while it answers: neither waits for the other with a full pipe."""
-    with ThreadPoolExecutor(1) as writer:
-        written = writer.submit(_write, process, lines)
-        answers = [_read(process) for _ in lines]
-        written.result()
-    return answers
+class _Share:
+    """What one program is asked and answers."""
+
+    def __init__(self, program, ids):
+        self.answers = {}
+        self.left, self._program, self._unnamed = dict.fromkeys(ids), program, []
+
+    def take(self):
+        """Takes the answers that are there; whether they are all."""
+        while len(self._unnamed) < len(self.left):
+            text = self._program.line()
+            if text is None:
+                return False
+            answer = self._program.json(text)
+            if not _is_answer(answer) or answer["id"] is not None and answer["id"] not in self.left:
+                raise self._program.no_simulator()
+            if answer["id"] is None:
+                self._unnamed.append(answer)
+            else:
+                del self.left[answer["id"]]
+                self.answers[answer["id"]] = answer
+        self.answers |= zip(self.left, self._unnamed)  # of requests too damaged to tell whose they are
+        return True
 
 
-def _write(process, lines):
-    try:
-        process.stdin.write(b"".join(lines))
-        process.stdin.flush()
-    except BrokenPipeError:
-        pass  # its end is seen by the reader
-
-
-def _read(process):
-    line = process.stdout.readline()
-    if not line:
-        raise programs.ended(process)
-    try:
-        answer = json.loads(line)
-    except ValueError:
-        answer = None
-    if not isinstance(answer, dict) or not {"id", "status"} <= answer.keys():
-        raise programs.no_simulator(process)
-    return answer
+def _is_answer(answer):
+    """Whether it has what result.schema.json requires."""
+    own, status = answer.get("id", ""), answer.get("status")
+    if status == "error":
+        return isinstance(answer.get("error"), str) and (own is None or is_whole(own))
+    return (status in ("ok", "unstable") and is_whole(own) and is_number(answer.get("fitness"))
+            and (is_number(answer.get("distance")) if status == "ok" else answer.get("distance", 0) is None)
+            and is_number(answer.get("simulated")) and is_whole(answer.get("frames"))
+            and all(isinstance(answer.get(key), str) for key in ("stopped", "scheme", "precision"))
+            and (isinstance(answer.get("hash"), str) if status == "ok" else isinstance(answer.get("unstable"), dict)))

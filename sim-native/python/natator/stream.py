@@ -1,8 +1,9 @@
 """A swimmer that a program drives, through `natator-sim stream` (sim-native/protocol/stream.md)."""
 
+import collections
+import itertools
 import json
 import os
-import re
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
 from natator.gait import Gait, numbers, rows, whole
-from natator.plain import line, plain
+from natator.plain import is_number, is_whole, line, plain
 
 SIDES = ("left", "right", "above", "below")
 
@@ -48,15 +49,33 @@ class Senses:
     target_distance: float    #: length; nan without one
 
     @classmethod
-    def from_json(cls, senses):
-        flow, target = senses.get("flow", []), senses.get("target", {})
+    def from_json(cls, senses, actuators):
+        """Raises ValueError, TypeError, KeyError or AttributeError for what is none."""
+        flow, target = senses.get("flow", []), senses.get("target", {"direction": None, "distance": None})
+        if not (is_whole(senses["frame"]) and isinstance(senses["touchesPlane"], bool)):
+            raise ValueError
         return cls(
-            senses["frame"], senses["time"], senses["distance"], senses["touchesPlane"], senses.get("work", np.nan),
-            *(np.array(senses[key], float) for key in
-              ("centre", "forward", "up", "right", "velocity", "turnRate", "drive", "bend")),
-            np.array([place["velocity"] for place in flow], float).reshape(-1, 3),
-            np.array([place["particles"] for place in flow], int),
-            np.array(target.get("direction", [np.nan] * 3), float), target.get("distance", np.nan))
+            senses["frame"], _number(senses["time"]), _number(senses["distance"]), senses["touchesPlane"],
+            _number(senses.get("work")),
+            *(_vector(senses[key], 3) for key in ("centre", "forward", "up", "right", "velocity", "turnRate")),
+            *(_vector(senses[key], actuators) for key in ("drive", "bend")),
+            np.array([_vector(place["velocity"], 3) for place in flow]).reshape(-1, 3),
+            np.array([place["particles"] if is_whole(place["particles"]) else None for place in flow], int),
+            _vector(target["direction"] or [None] * 3, 3), _number(target["distance"]))
+
+
+def _number(value):
+    """A number of a message; nan for null."""
+    if value is not None and not is_number(value):
+        raise ValueError
+    return np.nan if value is None else value
+
+
+def _vector(values, size):
+    """So many."""
+    if not isinstance(values, list) or len(values) != size:
+        raise ValueError
+    return np.array([_number(value) for value in values], float)
 
 
 @dataclass(frozen=True)
@@ -77,32 +96,39 @@ class Stream:
 
     scene: name or path. gait, overrides (a dict merged into the scene), scheme, start (an int: which of its many starts):
     as in a request. fields: what frames hold of each particle, of "position", "velocity", "density"; without any there are
-    no frames. arguments: a list of more arguments of `natator-sim stream`. To be closed; a context manager. Raises InputError.
+    no frames. arguments: a list of more arguments of `natator-sim stream`. A context manager; what nobody closes or refers to
+    is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
     Frame, None without fields.
     """
 
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
-        fields = [fields] if isinstance(fields, str) else programs.listed("fields", fields)
+        fields = [fields] * bool(fields) if isinstance(fields, str) else programs.listed("fields", fields)
         arguments = programs.listed("arguments", arguments)
         if not isinstance(scene, (str, os.PathLike)):
             raise InputError(f"scene = {scene!r}: must be a name or a path")
-        options = ["stream", scene, "--paused", "--fields", ",".join(fields) or "none"]
+        for i, field in enumerate(fields):
+            if not isinstance(field, str) or not field:
+                raise InputError(f"fields[{i}] = {field!r}: must be a text, not empty")
+        scene = os.fsdecode(scene)
+        options = ["stream", "./" * scene.startswith("-") + scene,  # a file, not an option
+                   "--paused", "--fields=" + (",".join(fields) or "none")]
         for name, value in (("--gait", gait), ("--overrides", overrides)):
             if value is None:
                 continue
             if not isinstance(value, (Mapping, Gait)):
                 raise InputError(f"{name.removeprefix('--')} = {value!r}: must be a dict" + " or a Gait" * (name == "--gait"))
-            options += [name, json.dumps(plain(name.removeprefix("--"), value))]
-        for name, value in (("--scheme", scheme), ("--start", start)):
-            if value is not None:
-                options += [name, value]
+            options.append(f"{name}={json.dumps(plain(name.removeprefix('--'), value))}")
+        if scheme is not None:
+            options.append(f"--scheme={scheme}")
+        if start is not None:
+            options.append(f"--start={whole('start', start, 0)}")
         self.scene, self.frame = {}, None
         self._framed = bool(fields)
-        self._unstable, self._closed = None, False
-        self._unanswered, self._torn = 0, False
-        self._process = programs.start(program, [*options, *arguments])
+        self._unstable, self._torn = None, False
+        self._ids, self._unanswered = itertools.count(1), collections.deque()
+        self._program = programs.Program(program, [*options, *arguments])
         try:
             self._take(*self._message())
             self._first_frame()
@@ -190,33 +216,34 @@ class Stream:
 
     def send(self, command):
         """Sends a command without waiting for its answer."""
-        if self._closed:
-            raise ProgramError("the stream is closed")
+        self._program.require_open()
+        command = {"id": next(self._ids), **command}
         text, self._torn = line(command), True
-        try:
-            self._process.stdin.write(text)
-            self._process.stdin.flush()
-        except BrokenPipeError:
-            raise programs.ended(self._process) from None
-        self._unanswered, self._torn = self._unanswered + 1, False
+        self._program.send(text)
+        self._unanswered.append(command["id"])
+        self._torn = False
 
     def receive(self):
         """The answer to the first command that has none yet. Raises InputError."""
+        if not self._unanswered:
+            raise ProgramError("there is no answer to come: nothing was asked")
         while True:
             letters, body = self._message()
             if letters != b"ANSW":
                 self._take(letters, body)
                 continue
-            self._unanswered -= 1
-            answer = json.loads(body)
-            if "error" in answer:
+            answer, own = self._program.json(body), self._unanswered.popleft()
+            refused = isinstance(answer.get("error"), str)
+            named = answer.get("id") == own or refused and answer.get("id") is None  # of what is too damaged to tell whose it is
+            if not named or not refused and answer.get("ok") is not True:
+                raise self._program.no_simulator()
+            if refused:
                 raise InputError(answer["error"])
             return answer
 
     def close(self):
-        if not self._closed:
-            self._closed = True
-            programs.stop(self._process)
+        """Ends what is under way, too."""
+        close_all([self])
 
     def __enter__(self):
         return self
@@ -231,51 +258,102 @@ class Stream:
 
     def _senses(self, answer):
         self.require_stable()
-        return Senses.from_json(answer["senses"])
+        try:
+            return Senses.from_json(answer["senses"], self.actuators)
+        except (AttributeError, KeyError, OverflowError, TypeError, ValueError):
+            raise self._program.no_simulator() from None
 
     def _first_frame(self):
         """The settled start, which waits for credit."""
-        if self._framed and not self._unstable:
-            self.ask({"do": "credit"})
-            if not self._unstable:  # which is told before the answer
-                self._take(*self._message())
+        if not self._framed or self._unstable:
+            return
+        self.ask({"do": "credit"})
+        letters = None
+        while letters != b"FRAM" and not self._unstable:  # which is told before the answer
+            letters, body = self._message()
+            if letters not in (b"SENS", b"FRAM"):
+                raise self._program.no_simulator()
+            self._take(letters, body)
 
     def _message(self):
-        self._torn = True
-        head = self._read(8)
-        if not re.fullmatch(b"[A-Z]{4}", head[:4]):
-            raise programs.no_simulator(self._process)
-        body = self._read(struct.unpack_from("<I", head, 4)[0])
-        self._torn = False
-        return head[:4], body
-
-    def _read(self, size):
-        data = self._process.stdout.read(size)
-        if len(data) < size:
-            raise programs.ended(self._process)
-        return data
+        letters, size = struct.unpack("<4sI", self._program.peek(8))
+        if size % 4 or size > LARGEST.get(letters, -1):
+            raise self._program.no_simulator()
+        return letters, self._program.read(8 + size)[8:]
 
     def _take(self, letters, body):
-        if letters == b"SCEN":
-            change = json.loads(body)
-            if change["restarted"]:
-                self.scene, self._unstable = change, None
-            else:
-                self.scene.update(change)
-        elif letters == b"STOP":
-            stop = json.loads(body)
-            if stop["reason"] == "unstable":
-                self._unstable = stop["time"], stop["particle"], stop["stage"], stop["law"]
-        elif letters == b"FRAM":
+        if letters == b"FRAM":
             self.frame = self._frame_of(body)
+        elif letters == b"SCEN":
+            self._take_scene(self._program.json(body))
+        elif letters == b"STOP":
+            stop = self._program.json(body)
+            if stop.get("reason") == "unstable":
+                self._unstable = tuple(stop.get(key) for key in ("time", "particle", "stage", "law"))
+                if not (is_number(self._unstable[0]) and is_whole(self._unstable[1]) and all(isinstance(text, str) for text in self._unstable[2:])):
+                    raise self._program.no_simulator()
+
+    def _take_scene(self, change):
+        if change.get("restarted") is True and is_whole(change.get("protocol")) and change["protocol"] != PROTOCOL:
+            self.close()
+            raise ProgramError(f"{self._program.path} speaks protocol {change['protocol']}: must be {PROTOCOL}, as this client does")
+        scene = change if change.get("restarted") is True else {**self.scene, **change}
+        if not isinstance(change.get("restarted"), bool) or not _is_scene(scene):
+            raise self._program.no_simulator()
+        if change["restarted"]:
+            self.scene, self._unstable = scene, None
+        else:
+            self.scene.update(change)
 
     def _frame_of(self, body):
+        at = self.scene.get("actuators", 0)
+        widths = {field: WIDTHS[field] for field in self.scene.get("fields", ())}
+        if len(body) != 72 + 4 * (at + sum(widths.values()) * self.scene.get("particles", 0)):
+            raise self._program.no_simulator()
         number = struct.unpack_from("<I", body, 4)[0]
         time, _, distance = struct.unpack_from("<3d", body, 16)
-        values, at = np.frombuffer(body, "<f4", offset=72), self.actuators
+        values = np.frombuffer(body, "<f4", offset=72)
         drive, count, arrays = values[:at], self.scene["particles"], {}
-        for field, width in (("position", 3), ("velocity", 3), ("density", 1)):
-            if field in self.scene["fields"]:
-                part = values[at:at + width * count]
-                arrays[field], at = part.reshape(count, 3) if width == 3 else part, at + width * count
+        for field, width in widths.items():
+            part = values[at:at + width * count]
+            arrays[field], at = part.reshape(count, 3) if width == 3 else part, at + width * count
         return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"))
+
+
+def close_all(streams):
+    """Closes streams at the same time."""
+    busy = any(stream._torn or stream._unanswered for stream in streams)
+    programs.stop([stream._program for stream in streams], 0 if busy else programs.PATIENCE)
+
+
+def _is_scene(scene):
+    """Whether a SCEN message has what this package reads of it."""
+    def listed(value, check):
+        return isinstance(value, list) and all(check(part) for part in value)
+
+    def muscle(value):
+        return isinstance(value, dict) and is_whole(value.get("actuator")) and value["actuator"] < scene["actuators"]
+
+    def index(value):
+        return is_whole(value) and value < scene["particles"]
+
+    try:
+        tank = scene["definition"].get("movingTank") or {}
+        return (isinstance(scene["scene"], str) and isinstance(tank.get("along", ""), str)
+                and is_whole(scene["actuators"]) and is_whole(scene["particles"])
+                and is_number(scene["timeStep"]) and scene["timeStep"] > 0 and is_number(scene["bodyLength"])
+                and (scene["bodyLength"] > 0 or scene["actuators"] == 0)
+                and listed(scene["fields"], WIDTHS.__contains__) and listed(scene["body"], index)
+                and listed(scene["slices"], lambda slice_: listed(slice_, index)) and listed(scene["muscles"], muscle)
+                and len({one["actuator"] for one in scene["muscles"]}) == scene["actuators"]
+                and listed(scene["planes"], lambda plane: listed(plane, is_number) and len(plane) == 4)
+                and listed(scene["fluid"], is_whole) and len(scene["fluid"]) == 2
+                and sum(scene["fluid"]) <= scene["particles"])
+    except (AttributeError, KeyError, TypeError):
+        return False
+
+
+PROTOCOL = 2
+WIDTHS = {"position": 3, "velocity": 3, "density": 1}
+#: bytes of a message's body
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

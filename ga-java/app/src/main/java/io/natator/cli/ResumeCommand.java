@@ -107,7 +107,12 @@ final class ResumeCommand implements Callable<Integer> {
         Backend before = settings.backend();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
         String scene = SceneDigest.of(settings, execution.simulator());
-        stored.folders().forEach(folder -> SceneDigest.check(folder, settings, scene));
+        stored.folders().forEach(folder -> {
+            SceneDigest.check(folder, settings, scene);
+            if (StoredRun.isFinished(folder)) {  // others are opened
+                RunFolder.checkUnedited(folder);
+            }
+        });
         Archipelago extended = generations == null ? stored : extended(stored, generations);
         boolean isFinished = extended.plan().islands() == IslandsRun.finished(extended);
         Archipelago archipelago = isChanged(before, isFinished, options) ? extended.withBackend(options.backend()) : extended;

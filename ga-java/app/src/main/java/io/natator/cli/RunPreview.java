@@ -77,8 +77,8 @@ final class RunPreview {
     private void printTime(ExecutionSettings limited, SceneInfo scene, double duration, long evaluations, PrintWriter out)
             throws InterruptedException {
         int together = execution.trials(settings.population());
-        try (Evaluator evaluator = EvolutionRun.telling(settings, Evaluator.open(limited.withCache(null)), scene)) {
-            double whole = new EvaluationTime(settings, evaluator).of(together, duration);
+        try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
+            double whole = new EvaluationTime(settings, EvolutionRun.telling(settings, evaluator, scene)).of(together, duration);
             out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d %s %.2f s%n",
                     ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),
                     together, together == 1 ? "takes" : "take", whole);

@@ -40,7 +40,7 @@ public final class CachedEvaluator implements Evaluator {
         this(evaluator, cache, new EvaluationKeys(execution));
     }
 
-    /** The same evaluator and cache with a count of its own. */
+    /** The same evaluator and cache with a count of its own; the evaluator is closed with either. */
     public CachedEvaluator counting() {
         return new CachedEvaluator(evaluator, cache, keys);
     }

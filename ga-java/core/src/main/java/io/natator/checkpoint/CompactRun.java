@@ -32,8 +32,12 @@ public final class CompactRun {
         if (!StoredRun.isFinished(directory)) {
             throw new InvalidInputException(directory + " is not a finished run");
         }
+        EvolutionState state = Json.read(directory.resolve(RunFolder.CHECKPOINT), EvolutionState.class, "checkpoint");
+        RunDigests.renew(directory, () -> drop(directory, state));
+    }
+
+    private static void drop(Path directory, EvolutionState state) {
         Path checkpoint = directory.resolve(RunFolder.CHECKPOINT);
-        EvolutionState state = Json.read(checkpoint, EvolutionState.class, "checkpoint");
         try {
             if (!state.population().isEmpty()) {
                 CompressedJson.write(directory.resolve(WHOLE), state);

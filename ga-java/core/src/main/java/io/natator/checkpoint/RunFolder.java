@@ -49,7 +49,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE, CONFIG, ".");
+            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
+            RunDigests.LINES, RunDigests.WHOLE, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;
@@ -59,6 +60,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** How many evaluations are not in the log any more. */
     private final long dropped;
     private final JsonLines<Departure> departures;
+    private final RunDigests digests;
     private final GenerationTimes timings;
 
     private RunFolder(Path directory, EvolutionSettings settings) {
@@ -71,6 +73,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             this.checkpoint = last.state();
             this.dropped = last.dropped();
             this.departures = JsonLines.of(directory.resolve(MIGRANTS), Departure.class);
+            this.digests = new RunDigests(directory);
         } catch (InvalidInputException e) {
             log.close();
             throw e;
@@ -171,8 +174,26 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         folder.refuse(RunDamage.misplacedEvaluation(directory, folder.recorded()));
         folder.refuse(RunDamage.genes(directory, folder.genome, folder.checkpoint));
         folder.refuse(RunDamage.lostMigrants(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
+        folder.refuse(RunDigests.damage(directory));
+        try {
+            folder.digests.check(folder.log.size());
+        } catch (InvalidInputException e) {
+            folder.refuse(e.getMessage());
+        }
         folder.dropFailures();
         return folder;
+    }
+
+    /**
+     * Refuses a run, also a finished one, whose files but for its evaluations are not as it wrote them.
+     *
+     * @throws InvalidInputException that says which was edited or is gone
+     */
+    public static void checkUnedited(Path directory) {
+        String damage = RunDigests.damage(directory);
+        if (damage != null) {
+            throw new InvalidInputException(damage);
+        }
     }
 
     /**
@@ -205,6 +226,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
         if (EvolutionFailedException.isDue(failed, all.size() - first)) {
             log.dropFrom(firstFailed);
+            digests.check(firstFailed);
         }
     }
 
@@ -263,8 +285,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Writes, to the disk itself, which gaits leave the run: the next island goes on by them. */
     public void append(Departure departure) {
-        departures.append(departure);
-        departures.force();
+        digests.append(MIGRANTS, Json.line(departure), () -> {
+            departures.append(departure);
+            departures.force();
+        });
     }
 
     /** Writes where and how the run is carried out. */
@@ -274,13 +298,12 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Writes what the run did not have to simulate. */
     public void write(EvaluationStatistics statistics) {
-        AtomicFile.write(directory.resolve(SAVINGS), Json.document(statistics));
+        digests.write(SAVINGS, Json.document(statistics));
     }
 
     /** Writes the best gaits that were run in vacuum, in the order in which they were found. */
     public void write(List<VacuumRecord> records) {
-        AtomicFile.write(directory.resolve(VACUUM),
-                records.stream().map(Json::line).collect(Collectors.joining("\n", "", "\n")));
+        digests.write(VACUUM, records.stream().map(Json::line).collect(Collectors.joining("\n", "", "\n")));
     }
 
     @Override
@@ -291,6 +314,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     @Override
     public void evaluated(EvaluationRecord evaluation) {
         if (evaluation.result().id() >= dropped + log.size()) {
+            digests.expectEvaluation(Json.line(evaluation));
             log.append(evaluation);
         }
     }
@@ -299,7 +323,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     @Override
     public void generationFinished(EvolutionState state) {
         log.force();
-        AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
+        digests.write(CHECKPOINT, Json.document(state));
         writeResults(state);
         timings.append(state);
     }
@@ -326,7 +350,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Writes the best gait. */
     public void write(BestGait best) {
-        AtomicFile.write(directory.resolve(BEST), Json.document(best));
+        digests.write(BEST, Json.document(best));
     }
 
     /** The folder for pictures of a run, which need not be there. */
@@ -346,6 +370,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     @Override
     public void close() {
+        digests.close();
         departures.close();
         log.close();
     }

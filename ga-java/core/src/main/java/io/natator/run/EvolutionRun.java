@@ -176,7 +176,7 @@ public final class EvolutionRun {
      * An evaluator that tells, as the run's own will, what the run asks of results beside the distance: its objectives, or what its map tells
      * gaits apart by. What the simulator does not measure in the scene it refuses with the first result.
      *
-     * @param evaluator carries out the evaluations; closed with this one
+     * @param evaluator carries out the evaluations; closed with this one, open where there is none
      * @throws InvalidInputException if the scene has goals, and the run would have another fitness
      */
     public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {

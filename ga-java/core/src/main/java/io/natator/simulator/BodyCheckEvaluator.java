@@ -25,7 +25,7 @@ public final class BodyCheckEvaluator implements Evaluator {
     private final SceneMemory<String> faults = new SceneMemory<>();
 
     /**
-     * Wraps an evaluator, which stays the caller's to close.
+     * Wraps an evaluator, which is closed with this one.
      *
      * @param settings  of the run whose bodies these are
      * @param simulator the native program

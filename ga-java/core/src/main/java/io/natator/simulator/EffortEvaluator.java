@@ -14,7 +14,7 @@ public final class EffortEvaluator implements Evaluator {
     private final ToDoubleFunction<SimulationRequest> bodyLength;
 
     /**
-     * Wraps an evaluator of one body, which stays the caller's to close.
+     * Wraps an evaluator of one body, which is closed with this one.
      *
      * @param bodyLength of the creature in scene units
      * @throws InvalidInputException if that is not known
@@ -28,7 +28,7 @@ public final class EffortEvaluator implements Evaluator {
     }
 
     /**
-     * Wraps an evaluator of several bodies, which stays the caller's to close.
+     * Wraps an evaluator of several bodies, which is closed with this one.
      *
      * @param bodyLength of a request's creature in scene units
      */

@@ -14,7 +14,7 @@ public final class NetEvaluator implements Evaluator {
 
     private final Evaluator evaluator;
 
-    /** Wraps an evaluator, which stays the caller's to close. */
+    /** Wraps an evaluator, which is closed with this one. */
     public NetEvaluator(Evaluator evaluator) {
         this.evaluator = evaluator;
     }

@@ -19,7 +19,7 @@ public final class ObjectiveEvaluator implements Evaluator {
     private final List<WeightedObjective> objectives;
 
     /**
-     * Wraps an evaluator, which stays the caller's to close.
+     * Wraps an evaluator, which is closed with this one.
      *
      * @param objectives at least one
      */

@@ -37,6 +37,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
@@ -140,7 +141,7 @@ class RunFolderTest {
     void holdsAllThatARunIsMadeOf() throws IOException {
         evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
 
-        assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json",
+        assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json", "digests.json", "digests.txt",
                 "evaluations.jsonl", "generations.csv");
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(6);
@@ -314,5 +315,94 @@ class RunFolderTest {
 
         assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("evaluations.jsonl has 0 whole lines");
+    }
+
+    /** A run after some generation, as a kill leaves it. */
+    private Path killed(int generation) throws IOException {
+        List<Path> snapshots = new ArrayList<>();
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)), new EvolutionListener() {
+            @Override
+            public void evaluated(EvaluationRecord evaluation) {
+                if (evaluation.generation() == generation) {
+                    snapshot(snapshots);
+                }
+            }
+        });
+        return snapshots.get(snapshots.size() - 1);
+    }
+
+    private static void edit(Path file, String from, String to) throws IOException {
+        String before = Files.readString(file);
+        Files.writeString(file, before.replaceFirst(from, to));
+        assertThat(before).isNotEqualTo(Files.readString(file));
+    }
+
+    /** Of a generation that is finished, and of one that is not. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "evaluations.jsonl|\"distance\":[-0-9.eE]+|\"distance\":-1.0|evaluations.jsonl, line 1 was edited",
+        "evaluations.jsonl|\"simulated\":[-0-9.eE]+|\"simulated\":1.25|evaluations.jsonl, line 1 was edited",
+        "evaluations.jsonl|(?s)^(.*\"distance\":)[-0-9.eE]+|$19.5|was edited",
+        "checkpoint.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|checkpoint.json was edited",
+        "checkpoint.json|\"mean\" : [-0-9.eE]+|\"mean\" : 9.5|checkpoint.json was edited",
+        "checkpoint.json|\"evaluations\" : [0-9]+|\"evaluations\" : 3|checkpoint.json was edited",
+        "best.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|best.json was edited"})
+    void whatWasEditedIsToldOf(String name, String from, String to, String message) throws IOException {
+        Path folder = killed(2);
+        edit(folder.resolve(name), from, to);
+
+        assertThatThrownBy(() -> RunFolder.open(folder)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining(message).hasMessageContaining("; expected it as the run wrote it").hasMessageNotContaining("\n");
+        Files.delete(folder.resolve("digests.json"));
+        Files.delete(folder.resolve("digests.txt"));
+        RunFolder.open(folder).close();
+    }
+
+    /** Whichever file is removed or cut anywhere: it is told, or the outcome is the same. */
+    @Test
+    void aFileThatIsGoneOrCutIsToldOfOrDoesNotMatter() throws IOException {
+        Path folder = killed(2);
+        Map<String, String> whole = lastingFiles(run);
+        Map<String, String> files = lastingFiles(folder);
+        int same = 0;
+        for (String name : files.keySet()) {
+            for (double share : new double[] {-1, 0, 0.3, 0.5, 0.999}) {
+                Path copy = Files.createDirectories(temporary.resolve(name + share));
+                for (Map.Entry<String, String> file : files.entrySet()) {
+                    Files.writeString(copy.resolve(file.getKey()), file.getValue());
+                }
+                if (share < 0) {
+                    Files.delete(copy.resolve(name));
+                } else {
+                    Files.writeString(copy.resolve(name), files.get(name).substring(0, (int) (share * files.get(name).length())));
+                }
+                try {
+                    evolve(RunFolder.open(copy));
+                } catch (InvalidInputException e) {
+                    assertThat(e.getMessage()).contains(copy.toString()).doesNotContain("\n");
+                    continue;
+                }
+                same++;
+                for (Map.Entry<String, String> file : lastingFiles(copy).entrySet()) {
+                    assertThat(List.of("digests.json", "config.json").contains(file.getKey()) || file.getValue().equals(whole.get(file.getKey())))
+                            .as("%s, %s of %s", file.getKey(), share, name).isTrue();
+                }
+            }
+        }
+        assertThat(same).isBetween(10, 25);
+    }
+
+    /** It has none of the digests, gets them, and is guarded from then on. */
+    @Test
+    void aRunOfAnEarlierVersionGoesOn() throws IOException {
+        Path folder = killed(2);
+        Map<String, String> whole = lastingFiles(run);
+        Files.delete(folder.resolve("digests.json"));
+        Files.delete(folder.resolve("digests.txt"));
+        evolve(RunFolder.open(folder));
+        assertThat(lastingFiles(folder)).isEqualTo(whole);
+
+        edit(folder.resolve("evaluations.jsonl"), "\"distance\":[-0-9.eE]+", "\"distance\":-1.0");
+        assertThatThrownBy(() -> RunFolder.open(folder)).hasMessageContaining("evaluations.jsonl, line 1 was edited");
     }
 }

@@ -1,6 +1,7 @@
 package io.natator.run;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.cache.CachedEvaluator;
@@ -14,6 +15,7 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Judge;
 import io.natator.config.Objective;
@@ -165,6 +167,7 @@ class EvolutionRunTest {
 
         String whole = Files.readString(folder.resolve("run/savings.json"));
         Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(states.get(2)));
+        Files.delete(folder.resolve("run/digests.json"));  // else it is noticed
         try (RunFolder again = RunFolder.open(folder.resolve("run"));
                 Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);
@@ -264,6 +267,9 @@ class EvolutionRunTest {
 
         String before = Files.readString(folder.resolve("run/vacuum.jsonl"));
         Files.delete(folder.resolve("run/vacuum.jsonl"));
+        assertThatThrownBy(() -> RunFolder.open(folder.resolve("run"))).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(folder.resolve("run") + " is damaged: it has no vacuum.jsonl");
+        Files.delete(folder.resolve("run/digests.json"));
         try (RunFolder again = RunFolder.open(folder.resolve("run"));
                 Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);

@@ -43,9 +43,9 @@ record ClientCommand(String what, ObjectNode content) {
         return new ClientCommand(content.get("do").textValue(), content);
     }
 
-    /** The {@code id} that its answer is to have; a null node without one. */
+    /** The {@code id} that its answer is to have; a null node without one that is a whole number. */
     JsonNode id() {
-        return content.has("id") ? content.get("id") : NullNode.getInstance();
+        return content.path("id").isIntegralNumber() ? content.get("id") : NullNode.getInstance();
     }
 
     /** The scene that it names, or null. */
@@ -71,8 +71,8 @@ record ClientCommand(String what, ObjectNode content) {
      */
     void check(Set<String> files) {
         if (what.equals(START) || content.has("scene")) {
-            String scene = content.path("scene").asText();
-            if (!NAME.matcher(scene).matches() && !files.contains(scene)) {
+            String scene = scene();
+            if (scene == null || !NAME.matcher(scene).matches() && !files.contains(scene)) {
                 throw new InvalidInputException("scene: expected a named scene or one that the server was started with");
             }
         }

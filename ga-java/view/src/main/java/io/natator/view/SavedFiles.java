@@ -5,6 +5,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
+import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.nio.file.attribute.BasicFileAttributes;
 import java.nio.file.attribute.FileTime;
@@ -12,6 +13,8 @@ import java.util.HashMap;
 import java.util.Map;
 import java.util.Set;
 import java.util.function.Consumer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /**
  * Looks several times a second whether a scene's file has been saved, or one that it builds on: its base or its creature. It
@@ -19,6 +22,7 @@ import java.util.function.Consumer;
  */
 final class SavedFiles implements AutoCloseable {
 
+    private static final Logger LOG = LoggerFactory.getLogger(SavedFiles.class);
     private static final String FILE_ENDING = ".json";
     private static final long LOOK_MILLISECONDS = 250;
     private static final int MOST_BASES = 8;
@@ -73,7 +77,11 @@ final class SavedFiles implements AutoCloseable {
             return before;
         }
         Map<Path, Stamp> now = stamps(scene);
-        saved.accept(scene);
+        try {
+            saved.accept(scene);
+        } catch (RuntimeException e) {
+            LOG.error("{} was saved: {}", scene, e, e);  // and will be again
+        }
         return now;
     }
 
@@ -90,6 +98,9 @@ final class SavedFiles implements AutoCloseable {
             return;
         }
         stamps.put(file, Stamp.of(file));
+        if (!Files.isRegularFile(file)) {
+            return;  // a pipe would be waited for
+        }
         try {
             JsonNode content = Json.read(file, JsonNode.class, "scene");
             addNamed(file, content.path("base").asText(), stamps, levels - 1);
@@ -101,7 +112,12 @@ final class SavedFiles implements AutoCloseable {
 
     /** Of what a file names there are two places: beside the file, and from the working directory, where it is looked for next. */
     private static void addNamed(Path file, String name, Map<Path, Stamp> stamps, int levels) {
-        Path beside = file.resolveSibling(name);
+        Path beside;
+        try {
+            beside = file.resolveSibling(name);
+        } catch (InvalidPathException e) {
+            return;  // what no file can be called
+        }
         add(beside.toString(), stamps, levels);
         if (!Files.exists(beside)) {
             add(name, stamps, levels);

@@ -8,11 +8,14 @@ import io.natator.stream.StreamException;
 import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamProcess;
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
+import java.util.Iterator;
 import java.util.LinkedHashMap;
+import java.util.LinkedHashSet;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.CompletableFuture;
@@ -35,6 +38,7 @@ final class StreamSession implements AutoCloseable {
 
     private static final Logger LOG = LoggerFactory.getLogger(StreamSession.class);
     private static final int MOST_RESTARTS = 3;
+    private static final int MOST_REASON_BYTES = 100;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
     private static final long ANALYSIS_NANOSECONDS = 1_000_000_000L;
 
@@ -45,6 +49,9 @@ final class StreamSession implements AutoCloseable {
     private final ReentrantLock sending = new ReentrantLock();
     private final LiveKinematics motion = new LiveKinematics();
     private final Deque<Long> deaths = new ArrayDeque<>();
+    /** Scenes that were saved since the page was told of them. */
+    private final Set<String> untold = new LinkedHashSet<>();
+    private boolean telling;
     private SessionState course;
     private StreamProcess process;
     private boolean closed;
@@ -152,6 +159,10 @@ final class StreamSession implements AutoCloseable {
             }
         } catch (SocketGoneException e) {
             close();
+        } catch (RuntimeException | StackOverflowError e) {
+            LOG.error("simulation: {}", e, e);
+            close();
+            socket.close(StatusCode.SERVER_ERROR, "internal error", Callback.NOOP);
         }
     }
 
@@ -249,11 +260,37 @@ final class StreamSession implements AutoCloseable {
         send("LOST", Json.line(body));
     }
 
-    /** Tells the page of a scene whose file was saved; whether and how it reads it again is the page's. Does not wait. */
+    /**
+     * Tells the page of a scene whose file was saved; whether and how it reads it again is the page's. Does not wait: what is saved
+     * again while the page takes nothing is told once.
+     */
     void saved(String scene) {
-        Thread teller = new Thread(() -> sendUnlessGone("SAVED", Map.of("scene", scene)), "view-saved");
+        synchronized (untold) {
+            untold.add(scene);
+            if (telling) {
+                return;
+            }
+            telling = true;
+        }
+        Thread teller = new Thread(this::tellSaved, "view-saved");
         teller.setDaemon(true);
         teller.start();
+    }
+
+    private void tellSaved() {
+        for (String scene = nextUntold(); scene != null; scene = nextUntold()) {
+            sendUnlessGone("SAVED", Map.of("scene", scene));
+        }
+    }
+
+    private String nextUntold() {
+        synchronized (untold) {
+            Iterator<String> left = untold.iterator();
+            telling = left.hasNext();
+            String next = telling ? left.next() : null;
+            untold.remove(next);
+            return next;
+        }
     }
 
     private void sendUnlessGone(String type, Object body) {
@@ -287,7 +324,11 @@ final class StreamSession implements AutoCloseable {
 
     /** The reason of a close frame has at most 123 bytes. */
     static String shortened(String reason) {
-        return reason.length() > 100 ? reason.substring(0, 100) : reason;
+        int end = Math.min(reason.length(), MOST_REASON_BYTES);
+        while (reason.substring(0, end).getBytes(StandardCharsets.UTF_8).length > MOST_REASON_BYTES) {
+            end--;
+        }
+        return reason.substring(0, end);
     }
 
     private synchronized boolean isClosed() {

@@ -8,6 +8,7 @@ import java.util.Set;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 /** A page reads no file of the user's but those that the server was started with, whatever part of a scene names it. */
 class ClientCommandTest {
@@ -30,6 +31,15 @@ class ClientCommandTest {
         "{\"base\":\"/etc/x.json\"}|overrides.base: expected a named one"})
     void filesOfTheUserAreRefusedWhereverTheyAreNamed(String overrides, String message) {
         assertThatThrownBy(() -> check(overrides)).isInstanceOf(InvalidInputException.class).hasMessageStartingWith(message);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"3", "null", "true", "[]", "[\"pool/eel\"]", "{}", "\"\"", "\"-h\"", "\"--help\"", "\"a\\u0000\"", "\"../x\"", "\"a b\""})
+    void aSceneIsAName(String scene) {
+        for (String what : new String[] {"start", "scene"}) {
+            assertThatThrownBy(() -> ClientCommand.read("{\"do\":\"" + what + "\",\"scene\":" + scene + "}").check(FILES))
+                    .isInstanceOf(InvalidInputException.class).hasMessageStartingWith("scene: expected a named scene");
+        }
     }
 
     @Test

@@ -332,4 +332,31 @@ class StreamSocketTest {
 
         assertThat(page.awaitClose()).isEqualTo("1003 expected text");
     }
+
+    /** Whatever a page sends is answered, and leaves its simulation as it was. */
+    @Test
+    void noCommandCostsThePageItsSimulation() throws InterruptedException {
+        StreamClient page = openStarted(true);
+        List<String> hostile = new ArrayList<>(List.of("", "x", "3", "null", "[]", "{}", "{\"do\":3}", "{\"do\":null}", "{\"do\":\"\"}",
+                "{\"do\":\"none\"}", "{\"do\":\"start\"}", "{\"do\":\"start\",\"scene\":3}", "{\"do\":\"scene\"}", "{\"do\":\"scene\",\"scene\":[]}",
+                "{\"do\":\"scene\",\"scene\":\"--help\"}", "{\"do\":\"scene\",\"scene\":\"a\\u0000.json\"}", "{\"do\":\"step\",\"frames\":1e999}",
+                "{\"do\":\"step\",\"frames\":-1}", "{\"do\":\"rate\"}", "{\"do\":\"rate\",\"value\":\"x\"}", "{\"do\":\"gait\",\"gait\":3}",
+                "{\"do\":\"gait\",\"gait\":{}}", "{\"do\":\"overrides\",\"overrides\":[]}", "{\"do\":\"overrides\",\"overrides\":{\"base\":\"\\u0000.json\"}}",
+                "{\"do\":\"overrides\",\"overrides\":{\"creature\":{\"mesh\":{\"file\":\"\\u0000\"}}}}", "{\"do\":\"none\",\"do\":\"run\"}",
+                "{\"do\":\"none\",\"id\":{\"a\":[]}}", "{\"do\":\"none\",\"id\":\"x\"}", "{\"do\":\"none\",\"id\":1.5}", "{\"do\":\"none\",\"id\":-1}",
+                "{\"do\":\"none\",\"id\":true}", "{\"do\":\"\\ud800\"}", "{\"do\":\"drive\",\"drive\":[\"x\"]}", "{\"do\":\"sense\",\"flow\":3}",
+                "{\"do\":\"none\"", "{\"do\":\"none\"} {\"do\":\"none\"}", "\u0000", "{\"do\":\"a\\nb\"}"));
+        for (int depth : new int[] {900, 999, 1000, 20000}) {
+            hostile.add("{\"do\":\"none\",\"id\":" + "[".repeat(depth) + "]".repeat(depth) + "}");
+            hostile.add("{\"do\":\"overrides\",\"overrides\":" + "{\"a\":".repeat(depth / 2) + "1" + "}".repeat(depth / 2) + "}");
+            hostile.add("{\"do\":\"none\",\"id\":" + "9".repeat(depth) + "}");
+        }
+        for (String command : hostile) {
+            page.send(command);
+            JsonNode answer = page.await("ANSW");
+            assertThat(answer.path("error").asText()).as(command).isNotEmpty().doesNotContain("internal error", "\n");
+        }
+        page.send("{'do':'step','id':7}");
+        assertThat(page.await("ANSW").toString()).isEqualTo("{\"id\":7,\"ok\":true}");
+    }
 }
