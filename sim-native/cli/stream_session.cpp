@@ -170,7 +170,9 @@ void StreamSession<Real>::apply(const stream::Overrides& overrides) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewScene& scene) {
-    simulation_.load(scene.setup);
+    LiveSetup setup = scene.setup;
+    setup.until = settings_.until;
+    simulation_.load(setup);
     forget_senses();
     scene_changed(true);
 }
