@@ -36,7 +36,7 @@ constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several th
 constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so many neighbours at most
 constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
 constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
-constexpr int most_samples = 4096;
+constexpr double most_samples = 4096, most_looks = 2e7;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
 
@@ -86,16 +86,19 @@ double near_at_start(const Model& model, double distance, const Grid& grid, bool
         asked.push_back(i);
     }
     if (asked.empty()) return 0;
-    const std::size_t every = (asked.size() + most_samples - 1) / most_samples;
-    double sum = 0, samples = 0;
-    for (std::size_t k = 0; k < asked.size(); k += every, ++samples) {
+    constexpr std::size_t stride = 999'983;  // a prime: samples that are few are not all of one corner
+    const double wanted = std::min<double>(static_cast<double>(asked.size()), most_samples);
+    double sum = 0, samples = 0, looks = 0;
+    for (std::size_t k = 0; samples < wanted && looks < most_looks; k = (k + stride) % asked.size(), ++samples) {
         const Eigen::Vector3d& x = model.position[asked[k]];
         const int cell = grid.cell(x.x(), x.y(), x.z());
         const Grid::Rows rows = grid.rows_around(grid.row(cell));
         const Grid::Range range = grid.range_around(cell);
         for (int row = 0; row < rows.count; ++row)
-            for (int c = rows.first_cell[row] + range.first; c <= rows.first_cell[row] + range.last; ++c)
+            for (int c = rows.first_cell[row] + range.first; c <= rows.first_cell[row] + range.last; ++c) {
                 for (const int j : in_cell[c]) sum += (model.position[j] - x).squaredNorm() < distance * distance && j != asked[k] ? 1 : 0;
+                looks += static_cast<double>(in_cell[c].size());
+            }
     }
     return sum / samples;
 }
