@@ -11,7 +11,7 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium and pycma, from PyPI into .readers (1 GB); the validator of glTF, where npm
             is; and valgrind, in which they run the program on a processor without AVX-512
-  --tidy    also what .ci/tidy looks for mistakes with: clang-tidy
+  --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
 TEXT
 }
 
@@ -136,6 +136,7 @@ find_missing() {
     $with_browser && ! browser_works && missing+=(chromium)
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
     $with_tidy && ! command -v clang-tidy >/dev/null && missing+=(clang-tidy)
+    $with_tidy && ! command -v clang++ >/dev/null && missing+=(clang)
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true

@@ -89,9 +89,9 @@ std::string ResultTable::text() const {
 }
 
 void ResultTable::write(const std::string& path) const {
-    std::ofstream file(path, std::ios::trunc);
-    file << text() << std::flush;
-    if (!file) throw cannot_be_written(path);
+    WholeFile file(path);
+    file.stream() << text();
+    if (!file.finish()) throw cannot_be_written(path);
 }
 
 std::string joined(const Row& row, const std::string& separator) {

@@ -26,7 +26,7 @@ struct NamedScene {
     int settling;     ///< updates, each about a substep's work
 };
 
-constexpr std::array scenes = {
+constexpr std::array known_scenes = {
     NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},  NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
     NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},  NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
     NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0}, NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
@@ -46,8 +46,8 @@ Scene make_scene(const NamedScene& named, bool quick) {
 
 const NamedScene& find_scene(const std::string& name) {
     const auto found =
-        std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
-    if (found != scenes.end()) return *found;
+        std::find_if(known_scenes.begin(), known_scenes.end(), [&](const auto& scene) { return scene.name == name; });
+    if (found != known_scenes.end()) return *found;
     throw InputError("unknown speed scene \"" + name + "\": must be one of " + joined(speed_scene_names(), ", "));
 }
 
@@ -140,7 +140,7 @@ Row figures(const TimedScene& one) {
 
 std::vector<std::string> speed_scene_names() {
     std::vector<std::string> names;
-    for (const NamedScene& scene : scenes) names.emplace_back(scene.name);
+    for (const NamedScene& scene : known_scenes) names.emplace_back(scene.name);
     return names;
 }
 

@@ -33,6 +33,14 @@ std::string with_error(double value, double error) {
     return text.str();
 }
 
+/// In per cent of the first speed, as a speed where that may be 0; nothing where there is none.
+std::string change_text(const Sample& from, const Sample& to) {
+    if (from.runs == 0) return "";
+    if (const auto relative = relative_change(from, to)) return with_error(100 * relative->mean, 100 * relative->error) + " %";
+    const Sample by = difference(from, to);
+    return with_error(by.mean, by.error) + " length/s";
+}
+
 std::string scatter_text(const Estimate& estimate) {
     if (!std::isfinite(estimate.statistical)) return "not known from one run";
     std::ostringstream text;
@@ -69,8 +77,8 @@ ordered_json convergence_json(const std::vector<LevelRuns>& levels, const std::o
         if (runs.distance().runs > 0) {
             level["distance"] = sample_json(runs.distance());
             level["speed"] = sample_json(runs.speed());
-            if (const auto change = relative_change(base.speed(), runs.speed()); change && &runs != &base)
-                level["change"] = sample_json(*change);
+            if (const auto relative = relative_change(base.speed(), runs.speed()); relative && &runs != &base)
+                level["change"] = sample_json(*relative);
         }
         ordered_json stopped = ordered_json::object();
         for (const json& one : runs.results) {
@@ -107,11 +115,10 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
     row("level", "substeps", "particles", "runs", "distance", "speed", "change of speed");
     for (const LevelRuns& runs : levels) {
         const Sample distance = runs.distance(), speed = runs.speed();
-        const auto change = relative_change(levels.front().speed(), speed);
         const bool any = distance.runs > 0;
         row(runs.level.name, std::to_string(runs.substeps), std::to_string(runs.particles), std::to_string(distance.runs),
             any ? with_error(distance.mean, distance.error) : "unstable", any ? with_error(speed.mean, speed.error) : "",
-            any && change && &runs != &levels.front() ? with_error(100 * change->mean, 100 * change->error) + " %" : "");
+            any && &runs != &levels.front() ? change_text(levels.front().speed(), speed) : "");
     }
     if (estimate)
         text << "speed at time step and spacing 0: " << with_error(estimate->value, estimate->error)

@@ -5,6 +5,7 @@
 
 #include "commit.h"
 #include "evaluate/perturb.h"
+#include "io/strict_json.h"
 #include "measure/fnv1a.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
@@ -39,7 +40,7 @@ LevelRuns read_level(const Level& level, const json& request, const std::string&
         throw InputError(document + ": scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);
     check_gait(runs.job.gait, runs.job.scene.creature->actuators());
-    check_evaluation_cost(runs.job.scene, model);
+    check_evaluation_cost(runs.job.scene, model, {.doubles = runs.job.request.precision == Precision::double_precision});
     runs.substeps = model.parameters.substeps;
     runs.particles = model.particles();
     runs.body_length = model.body.length;

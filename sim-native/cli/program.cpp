@@ -10,6 +10,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "io/strict_json.h"
@@ -107,7 +108,7 @@ extern "C" void remove_unfinished_and_end(int signal) {
 
 /// Lets a program that is told to end leave no file that it has begun. A signal that is ignored stays so, as under nohup.
 void leave_nothing_unfinished() {
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU}) {
         struct sigaction before {}, handler {};
         handler.sa_handler = remove_unfinished_and_end;
         handler.sa_flags = SA_RESETHAND;
@@ -139,7 +140,8 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
 
 int complaining(const std::string& program, const std::function<int()>& work) {
     hold_closed_streams();
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print, not a death
+    // A closed pipe and a file that is larger than it may be are errors of who writes, not a death.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
     leave_nothing_unfinished();
     try {
         return work();
@@ -156,7 +158,7 @@ int complaining(const std::string& program, const std::function<int()>& work) {
 
 void print(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw std::runtime_error("standard output cannot be written");
+        throw std::runtime_error("standard output cannot be written: " + std::generic_category().message(errno));
     }
 }
 

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -155,10 +156,11 @@ int run_scene(RunOptions& options) {
     std::exception_ptr snapshot_failure;
     SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
-        snapshot.at = options.snapshot_at.value_or(scene.duration);
-        if (snapshot.at > scene.duration) {
-            throw InputError("--at = " + number_text(snapshot.at) + ": must be at most the duration, " + number_text(scene.duration) + " s");
-        }
+        snapshot.at = options.snapshot_at;
+        const double end = std::round(scene.duration / scene.time_step) * scene.time_step;  // of the last frame, which may not be the duration
+        if (snapshot.at && !(end > *snapshot.at - scene.time_step / 1000))
+            throw InputError("--at = " + number_text(*snapshot.at) + ": must be at most " + number_text(end) +
+                             ", the end of the last frame");
         snapshot.take = [&](const Model& model, const Snapshot& taken) {
             snapshot_taken = true;
             try {
@@ -180,9 +182,9 @@ int run_scene(RunOptions& options) {
     print(summary(options, scene, result, wall.count()));
     if (snapshot_failure) std::rethrow_exception(snapshot_failure);
     if (result.instability) return unstable;
-    if (snapshot.take && !snapshot_taken) {
+    if (snapshot.at && snapshot.take && !snapshot_taken) {
         throw std::runtime_error("no snapshot: the run ended at " + number_text(result.simulated) + " s, before --at " +
-                                 number_text(snapshot.at));
+                                 number_text(*snapshot.at));
     }
     return ok;
 }
@@ -212,7 +214,7 @@ void add_run(CLI::App& app, int& status) {
     auto* snapshot = command->add_option(
         "--snapshot", options->snapshot,
         "CSV file for all particles at one time: time,kind,mass,x,y,z,vx,vy,vz,density (fluid too).");
-    command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end.")
+    command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end of the run, wherever that is.")
         ->needs(snapshot)
         ->check(seconds());
     command->add_option("--perturbation", options->perturbation,

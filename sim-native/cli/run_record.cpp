@@ -99,7 +99,7 @@ void RunRecord::add(const json& of, const json& request, const nlohmann::ordered
     line["result"] = result;
     std::ofstream file(path_, std::ios::binary | std::ios::app);
     file << line.dump() + "\n" << std::flush;
-    if (!file) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written");
+    if (!file) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written: " + std::generic_category().message(errno));
 }
 
 }  // namespace natator::cli

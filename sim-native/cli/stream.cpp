@@ -36,6 +36,7 @@ LiveSetup read_setup(const StreamOptions& options) {
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     setup.start = options.start;
+    setup.until = options.settings.until;
     if (!options.gait.empty()) setup.gait = read_gait_argument(options.gait);
     return setup;
 }

@@ -54,7 +54,7 @@ void StreamSession<Real>::carry_out(const std::string& line) {
         answer_["id"] = request_id(value);
         refuse_if(ended_);
         answer_["ok"] = true;
-        std::visit([this](const auto& command) { apply(command); }, parse_stream_command(value));
+        std::visit([this](const auto& command) { this->apply(command); }, parse_stream_command(value));
     } catch (const InputError& error) {
         answer_ = {{"id", answer_["id"]}, {"error", error.what()}};
     } catch (const std::bad_alloc& error) {
@@ -170,7 +170,9 @@ void StreamSession<Real>::apply(const stream::Overrides& overrides) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewScene& scene) {
-    simulation_.load(scene.setup);
+    LiveSetup setup = scene.setup;
+    setup.until = settings_.until;
+    simulation_.load(setup);
     forget_senses();
     scene_changed(true);
 }

@@ -16,10 +16,12 @@ write_basic_package_version_file(natatorConfigVersion.cmake COMPATIBILITY SameMi
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/natatorConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/natatorConfigVersion.cmake
     DESTINATION ${NATATOR_PACKAGE_DIR})
 
-install(TARGETS natator-sim RUNTIME DESTINATION bin)
-install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
-install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
-install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
+if(NATATOR_PROGRAMS)
+    install(TARGETS natator-sim RUNTIME DESTINATION bin)
+    install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
+    install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
+    install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
+endif()
 install(DIRECTORY scenes creatures references DESTINATION ${NATATOR_DATA_DIR})
 install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} FILES_MATCHING PATTERN "*.schema.json")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/natator)

@@ -29,7 +29,7 @@ int main() {
         }
         double height = 0, radius = 0;
         for (const auto& x : state.position) {
-            height += x.y() / model.particles();
+            height += x.y() / static_cast<float>(model.particles());
             radius = std::max<double>(radius, std::hypot(x.x(), x.z()));
         }
         if (frame % 6 == 0) std::printf("%8.1f   %20.3f   %6.3f\n", state.time, height, radius);

@@ -1,19 +1,6 @@
 # Installs the build BUILD into a prefix below WORK, moves the prefix, and does there what README.md says under "Use from
 # C++": configures and builds the examples of SOURCE against it, and runs them. Any step that fails ends it.
-function(run)
-    execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
-    message("${output}")
-    if(NOT result EQUAL 0)
-        message(FATAL_ERROR "exit ${result}: ${ARGV}")
-    endif()
-    set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-function(expect regex)
-    if(NOT output MATCHES "${regex}")
-        message(FATAL_ERROR "expected in the output: ${regex}")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})

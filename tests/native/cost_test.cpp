@@ -51,7 +51,8 @@ TEST(CostTest, LongRunsAreWithinTheLimits) {
     const Model tank = build_model(load_scene("thesis/tank"));
     const double of_particle = cost_of(tank).per_substep / tank.particles();
     EXPECT_LT(1e7 * of_particle * 960, limits::work);
-    EXPECT_LT(1e7 * cost_of(tank).bytes / tank.particles(), 20e9);
+    const double of_program = cost_of(test::bare_model(Scheme::flex, test::Points{{1, 1, 1}}, test::fluid_phase)).bytes;
+    EXPECT_LT(1e7 * (cost_of(tank).bytes - of_program) / tank.particles() + of_program, 20e9);
 }
 
 /// The estimate is never below what the solver finds, and not absurdly above it.
@@ -121,6 +122,37 @@ TEST(CostTest, AnEvaluationThatCostsTooMuchDoesNotBegin) {
     setup.scene = "thesis/creature-1-vacuum";
     setup.overrides = R"({"settling":{"updates":1000000,"substeps":1000}})";
     EXPECT_THROW(LiveSimulation<float>{setup}, InputError);
+}
+
+/// Whatever else it costs: nothing moves there but a single particle.
+TEST(CostTest, MoreTimeStepsThanTenMillionAreRefusedOfWhateverRuns) {
+    const Variable work("NATATOR_MOST_WORK", "1e30");
+    const std::string limit = "must be at most 10 million time steps of timeStep = ";
+    const char* const small = R"({"fluid":{"count":[1,1,1]},"settling":{"updates":0},"timeStep":0.01})";
+    Scene scene = with("thesis/tank", small);
+    scene.duration = 99'999.9;
+    EXPECT_EQ(refusal(scene), "");
+    for (const double duration : {100'000.1, 1e6, 1e300}) {
+        scene.duration = duration;
+        EXPECT_NE(refusal(scene).find(": duration = "), std::string::npos) << refusal(scene);
+        EXPECT_NE(refusal(scene).find(limit + "0.01"), std::string::npos) << refusal(scene);
+    }
+    LiveSetup setup{.scene = "thesis/tank", .overrides = small, .until = 1e6};
+    const std::string refused = test::refusal_of([&] { LiveSimulation<float>{setup}; });
+    EXPECT_EQ(refused, "scene \"thesis/tank\": until = 1e+06: " + limit + "0.01");
+    setup.until = 1000;
+    LiveSimulation<float> live(setup);
+    EXPECT_NE(test::refusal_of([&] { live.merge_overrides(R"({"timeStep":1e-5})"); }).find(limit + "1e-05"), std::string::npos);
+    setup.until = 1e6;
+    EXPECT_THROW(live.load(setup), InputError);
+    EXPECT_TRUE(live.frame());
+}
+
+/// As an evaluation of that duration, where 100 frames would not cost too much.
+TEST(CostTest, AStreamWithAnEndMayCostWhatAnEvaluationMay) {
+    EXPECT_NE(refusal(with("thesis/creature-1", R"({"duration":1e5})")).find("pair visits"), std::string::npos);
+    const LiveSetup setup{.scene = "thesis/creature-1", .until = 1e5};
+    EXPECT_NE(test::refusal_of([&] { LiveSimulation<float>{setup}; }).find("pair visits"), std::string::npos);
 }
 
 TEST(CostTest, TheEnvironmentReplacesTheLimits) {

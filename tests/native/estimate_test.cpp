@@ -27,6 +27,14 @@ TEST(Convergence, RelativeChangesHaveTheErrorOfBoth) {
     EXPECT_DOUBLE_EQ(change->mean, 0.5);
     EXPECT_NEAR(change->error, std::hypot(0.2, 1.5 * 0.1) / 2, 1e-12);
     EXPECT_FALSE(relative_change(exactly(0), exactly(1)));
+    EXPECT_TRUE(relative_change({0.21, 0.1, 8}, {3, 0.2, 8}));
+    EXPECT_TRUE(relative_change({-0.21, 0.1, 8}, {3, 0.2, 8}));
+    for (const double mean : {-0.2, 0.01, 0.19})
+        EXPECT_FALSE(relative_change({mean, 0.1, 8}, {3, 0.2, 8})) << "what may be 0 is no measure: " << mean;
+    EXPECT_TRUE(relative_change(sample_of({1}), {3, 0.2, 8})) << "one run does not tell";
+    const Sample by = difference({0.01, 0.3, 8}, {0.05, 0.4, 8});
+    EXPECT_NEAR(by.mean, 0.04, 1e-12);
+    EXPECT_NEAR(by.error, 0.5, 1e-12);
 }
 
 /// f(h) = 5 + 3 h at 1 and 1/2.

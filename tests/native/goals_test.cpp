@@ -52,6 +52,13 @@ private:
     double time_ = 0;
 };
 
+/// A run ends with a whole frame, which may be later than the duration.
+TEST(Goals, WhoArrivesInTheLastFrameHasArrived) {
+    Path path(asked_for(R"([{"measure":"reach","target":[1,0,0],"within":0.2}])", R"({"duration":0.99})"));
+    path.to({0.9, 0, 0});
+    EXPECT_EQ(path.results()[0].score, 1);
+}
+
 TEST(Goals, WhatIsNotArrivedAtIsScoredByWhatIsLeft) {
     Path path(asked_for(R"([{"measure":"reach","target":[2,0,0]}])"));
     EXPECT_FALSE(path.to({0.5, 0, 0}));

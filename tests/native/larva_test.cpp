@@ -101,8 +101,6 @@ TEST(FreeMotion, ForcesMoveAndTurnIt) {
     for (int k = 0; k <= 20; ++k) bar.emplace_back(0.1 * k - 1, 0, 0);
     FreeMotion motion(bar);
     constexpr double h = 0.001, time = 1;
-    double inertia = 0;
-    for (const auto& x : bar) inertia += x.squaredNorm();
     for (int k = 0; k < time / h; ++k) {
         motion.set_off(bar, h);
         Places forces;

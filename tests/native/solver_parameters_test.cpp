@@ -84,7 +84,7 @@ TEST_P(Parameters, SleepingParticlesStayWhereTheyAre) {
 
 /// A stack of ten solids under gravity sinks together less with shock propagation.
 TEST_P(Parameters, ShockPropagationKeepsAStackUp) {
-    const auto height = [this](double k, auto real) {
+    const auto height = [](double k, auto real) {
         Model model = bare_model(GetParam(), lattice(1, 10, 1, 0.15, {0, 0.725, 0}), solid_phase);
         model.planes = {{{0, 1, 0}, 0}};
         model.parameters.gravity = {0, -10, 0};
@@ -103,7 +103,7 @@ TEST_P(Parameters, ShockPropagationKeepsAStackUp) {
 
 /// A cluster of overlapping solids parts more slowly; a pair and a triangle are damped as documented, exactly.
 TEST_P(Parameters, DissipationDampsInContacts) {
-    const auto parted = [this](double dissipation, const Points& points, auto real) {
+    const auto parted = [](double dissipation, const Points& points, auto real) {
         Model model = bare_model(GetParam(), points, solid_phase);
         for (int i = 0; i < model.particles(); ++i) model.inverse_mass[i] = 1 + i % 3;
         model.parameters.dissipation = dissipation;

@@ -22,8 +22,6 @@ namespace {
 
 using namespace test;
 
-constexpr double spacing = water_spacing;
-
 /// Of particles of mass 1.
 struct Momenta {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();

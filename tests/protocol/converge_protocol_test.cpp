@@ -122,6 +122,22 @@ TEST_F(ConvergeTest, PlainWritesTheTable) {
     EXPECT_TRUE(std::regex_search(outcome.out, columns)) << outcome.out;
 }
 
+/// A body at rest: its speed is nothing but scatter, of which no share can be told.
+TEST_F(ConvergeTest, AChangeOfASpeedThatMayBeNoneIsNoShareOfIt) {
+    json resting = swim;
+    resting["scene"] = "thesis/creature-1";
+    resting["duration"] = 0.02;
+    resting["gait"]["amplitude"] = {0, 0};
+    resting["overrides"] = {{"settling", {{"updates", 0}}}, {"solver", {{"gravity", {0, 0, 0}}}}, {"fluid", {{"count", {1, 1, 1}}}}};
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "8", "--levels", "time/2"}, resting.dump());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json base = json::parse(outcome.out)["levels"][0], finer = json::parse(outcome.out)["levels"][1];
+    const double speed = base["speed"]["mean"], error = base["speed"]["error"];
+    ASSERT_LT(std::abs(speed), 2 * error) << base;
+    EXPECT_FALSE(finer.contains("change")) << finer;
+    EXPECT_TRUE(std::regex_search(outcome.err, std::regex(R"(\ntime/2 .* \+- [0-9.e-]+ length/s\n)"))) << outcome.err;
+}
+
 TEST_F(ConvergeTest, APerturbationNeedsNoSeed) {
     json perturbed = swim;
     perturbed["perturbation"] = {{"amplitude", 2e-4}};

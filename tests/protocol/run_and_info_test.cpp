@@ -1,5 +1,8 @@
 // natator-sim run and info, usage errors, and the form of their output.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -252,6 +255,70 @@ TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
                                          "--overrides", R"({"stopping":{"noProgressAfter":0.05}})"});
     EXPECT_EQ(early.exit_code, 1);
     EXPECT_NE(early.err.find("before --at 3"), std::string::npos) << early.err;
+}
+
+/// KiB that a run had at most.
+long peak_of_run(std::vector<std::string> arguments) {
+    const pid_t child = fork();
+    if (child == 0) {
+        arguments.insert(arguments.begin(), simulator());
+        std::vector<char*> words;
+        for (std::string& word : arguments) words.push_back(word.data());
+        words.push_back(nullptr);
+        dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
+        execv(simulator(), words.data());
+        _exit(127);
+    }
+    int status = 0;
+    rusage used{};
+    EXPECT_EQ(wait4(child, &status, 0, &used), child);
+    EXPECT_EQ(status, 0);
+    return used.ru_maxrss;
+}
+
+/// What a run is said to need is what it takes, and not much more: of both schemes and precisions, of one thread and two.
+TEST(RunTest, MemoryIsWhatWasSaid) {
+    if (sanitized()) GTEST_SKIP() << "sanitizers take memory of their own";
+    const char* const settings = R"("settling":{"updates":0},"planes":[[0,1,0,0]],"stopping":{"planeContact":false})";
+    const std::vector<std::vector<std::string>> ways{
+        {"flex", "float", "1", "[90,20,100]"},       {"flex", "double", "2", "[70,20,100]"},       {"conserving", "float", "1", "[40,20,50]"},
+        {"conserving", "float", "2", "[40,20,50]"}, {"conserving", "double", "1", "[40,20,50]"}, {"conserving", "double", "2", "[40,10,80]"}};
+    for (const auto& way : ways) {
+        const std::string overrides = std::string("{") + settings + R"(,"fluid":{"clearance":0,"spacing":0.1,"count":)" + way[3] + "}}";
+        const std::vector<std::string> run{"run", "thesis/tank", "--scheme", way[0], "--precision", way[1], "--threads", way[2], "--duration", "0.02",
+                                           "--no-cache", "--overrides", overrides};
+        const Outcome refused = run_limited("export NATATOR_MOST_MEMORY=1e-9", run);
+        const std::size_t at = refused.err.find("need about ");
+        ASSERT_NE(at, std::string::npos) << refused.err;
+        const double said = std::stod(refused.err.substr(at + 11)) * 1024 * 1024;
+        const double taken = static_cast<double>(peak_of_run(run));
+        EXPECT_GE(said, taken) << way[0] << ' ' << way[1] << ' ' << way[2];
+        EXPECT_LE(said, 1.35 * taken) << way[0] << ' ' << way[1] << ' ' << way[2];
+    }
+}
+
+/// Without --at it is that of the run's last frame: of a duration that frames do not fill, up or down, and of a run that ends early.
+TEST(RunTest, ASnapshotOfTheEndIsThatOfTheLastFrame) {
+    struct Run {
+        const char *scene, *duration, *overrides, *end;
+    };
+    for (const Run& run : {Run{"thesis/creature-1-vacuum", "0.105", "{}", "0.1"}, Run{"thesis/creature-1-vacuum", "0.11", "{}", "0.116666667"},
+                           Run{"thesis/creature-1-vacuum", "0.1", R"({"timeStep":0.03})", "0.09"},
+                           Run{"thesis/creature-1", "3", R"({"stopping":{"noProgressAfter":0.05}})", ""}}) {
+        const TemporaryPath file("-snapshot.csv");
+        const Outcome outcome = run_simulator({"run", run.scene, "--duration", run.duration, "--overrides", run.overrides, "--snapshot", file.path});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        std::ifstream in(file.path);
+        std::string line;
+        std::getline(in, line);
+        std::getline(in, line);
+        const std::size_t at = outcome.out.find("simulated  ") + 11;
+        EXPECT_NEAR(std::stod(line), std::stod(outcome.out.substr(at)), 1e-6) << line;
+        EXPECT_TRUE(*run.end == 0 || line.substr(0, line.find(',')) == run.end) << line;
+    }
+    const Outcome beyond = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.105", "--snapshot", "/dev/null", "--at", "0.104"});
+    EXPECT_EQ(beyond.exit_code, 2);
+    EXPECT_EQ(beyond.err, "natator-sim: --at = 0.104: must be at most 0.1, the end of the last frame\n");
 }
 
 TEST(RunTest, AShiftedStartTakesAnotherCourse) {

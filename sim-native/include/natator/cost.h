@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "natator/model.h"
@@ -7,16 +8,22 @@
 
 namespace natator {
 
-/// What a Model takes, an estimate that is rather too high: neighbours are counted at the start, in the cells that the
-/// solver sorts particles into, and in fluid at rest, whichever is more.
+/// What a Model takes, an estimate that is rather too high: neighbours are counted at the start and in fluid at rest, whichever is
+/// more. Those of the work are counted in the cells that the solver sorts particles into.
 struct Cost {
     double candidates = 0;  ///< pairs that the search for neighbours looks at in a substep
     double neighbours = 0;  ///< entries of the neighbour lists, fluid and contacts
     double per_substep = 0;  ///< pair visits in a substep, with all its iterations; other work is counted as if it were
-    double bytes = 0;
+    double bytes = 0;  ///< of memory on the CPU: what such runs were measured to take at most is not less, and mostly no fifth less
 };
 
-Cost cost_of(const Model& model);
+/// What memory depends on beside the Model; as it is the most that it may take.
+struct Computing {
+    bool doubles = true;          ///< Precision::double_precision
+    bool several_threads = true;  ///< which put together lists of their own
+};
+
+Cost cost_of(const Model& model, const Computing& computing = {});
 
 /// What may be spent on one evaluation: those of limits.h, or what the environment says instead.
 struct Budget {
@@ -29,12 +36,12 @@ struct Budget {
 
 /// Throws InputError, one line that begins with `where`, if so many substeps of the model, or its memory and
 /// `more_bytes`, are beyond the user's budget.
-void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where);
+void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where, const Computing& computing = {});
 
-/// The same for an evaluation of a scene, from settling to its duration.
-void check_evaluation_cost(const Scene& scene, const Model& model);
+/// The same for an evaluation of a scene, from settling to its duration, and if that is too many time steps.
+void check_evaluation_cost(const Scene& scene, const Model& model, const Computing& computing = {});
 
-/// The same for a stream, which has no duration: settling and some frames.
-void check_live_cost(const Scene& scene, const Model& model);
+/// The same for a stream: settling and the time steps until then, s, of one without an end some.
+void check_live_cost(const Scene& scene, const Model& model, std::optional<double> until = {}, const Computing& computing = {});
 
 }  // namespace natator

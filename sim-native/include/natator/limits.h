@@ -30,6 +30,8 @@ inline constexpr int threads = 1024;
 /// Lattice points that are looked at when the fluid is kept clear of a body, a minute's worth.
 inline constexpr double clearance_points = 1e10;
 
+/// Time steps of an evaluation, or of a stream that has an end: they are counted in 32 bits, and a file of a path has a line for each.
+inline constexpr double time_steps = 1e7;
 /// Visits of a pair of particles in one evaluation, an estimate that is rather too high (cost.h): a core does one to two
 /// thousand million a second, so this is about an hour of one. 4 s of the thesis' tank are 3e9, of 10 million particles
 /// 5e12. $NATATOR_MOST_WORK replaces it.

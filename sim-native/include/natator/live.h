@@ -24,6 +24,8 @@ struct LiveSetup {
     std::optional<Gait> gait{};    ///< none: muscles at rest
     std::optional<int> start{};    ///< which of its many starts (choose_start); none: the scene's own
     std::filesystem::path data{};  ///< where the scene is looked up, as in SceneOptions
+    /// s; how long it is to run, for what that may cost (cost.h); it goes on all the same. None: not known
+    std::optional<double> until{};
 };
 
 /// A scene that runs frame by frame and can be changed in between. Until a change each frame is, bit by bit, that of

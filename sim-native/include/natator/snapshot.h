@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct Snapshot {
 
 /// Request for one snapshot at a given time. Taking it changes nothing in the run.
 struct SnapshotRequest {
-    double at = 0;  ///< s; taken after the first frame that ends at this time or later, of time 0 after the first frame
+    /// s; taken after the first frame that ends at this time or later, of time 0 after the first frame. Without it taken after the
+    /// last frame: that of the duration, or the one that ends the run before.
+    std::optional<double> at;
     std::function<void(const Model&, const Snapshot&)> take;  ///< empty = no snapshot; not called if the run ends before
 };
 

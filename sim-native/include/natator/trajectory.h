@@ -27,7 +27,7 @@ public:
     void finish();
 
 private:
-    void add_row(double time, std::size_t index, const Eigen::Vector3d& place);
+    void add_row(double time, std::size_t index, const Eigen::Vector3d& x);
     void check(bool written) const;
 
     std::string path_;

@@ -35,7 +35,7 @@ def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **opti
         if duration > longest:
             raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MOST_STEPS} time steps")
         frames = [stream.frame]
-        for _ in range(int(round(duration / stream.scene["timeStep"])) // every):
+        for _ in range(int(duration / stream.scene["timeStep"] + 0.5) // every):
             for left in range(every, 0, -1000):
                 stream.step(min(left, 1000))
             frames.append(stream.frame)

@@ -41,8 +41,13 @@ Sample sample_of(const std::vector<double>& values) {
     return {mean, error, static_cast<int>(values.size())};
 }
 
+Sample difference(const Sample& from, const Sample& to) {
+    return {to.mean - from.mean, std::hypot(to.error, from.error), to.runs};
+}
+
 std::optional<Sample> relative_change(const Sample& from, const Sample& to) {
-    if (from.mean == 0) return std::nullopt;
+    const bool may_be_zero = std::isfinite(from.error) && std::abs(from.mean) <= significant * from.error;
+    if (from.mean == 0 || may_be_zero) return std::nullopt;
     const double ratio = to.mean / from.mean;
     return Sample{ratio - 1, std::hypot(to.error, weighted(ratio, from)) / std::abs(from.mean), to.runs};
 }

@@ -23,7 +23,10 @@ struct Sample {
 /// Of as many values as there are; a single one does not tell its error.
 Sample sample_of(const std::vector<double>& values);
 
-/// to / from - 1 and its standard error. None where `from` is 0.
+/// to - from and its standard error.
+Sample difference(const Sample& from, const Sample& to);
+
+/// to / from - 1 and its standard error. None where `from` is not known to differ from 0: where it is within two standard errors of it.
 std::optional<Sample> relative_change(const Sample& from, const Sample& to);
 
 /// A figure's way to its limit as a step h goes to 0: f(h) = f(0) + c h^p, from its values at h, h/2 and, perhaps, h/4.

@@ -22,9 +22,21 @@ using Grid = cpu::CellGrid<double>;
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-// Bytes, with the larger type of numbers and the room that growing arrays leave.
-constexpr double bytes_of_particle = 500, bytes_of_neighbour = 16, bytes_of_contact = 32, bytes_of_spring = 100,
-                 bytes_of_member = 80, bytes_of_cell = 16, bytes_of_image = 200, bytes_of_gradient = 32;
+/// Bytes of memory that something takes: so many, and so many numbers of the solver's type.
+struct Room {
+    double bytes, numbers;
+
+    double with(const Computing& computing) const { return bytes + numbers * (computing.doubles ? sizeof(double) : sizeof(float)); }
+};
+// As measured, with the room that growing arrays leave.
+constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_image{60, 36}, of_contact{24, 1}, of_spring{80, 4},
+    of_member{56, 6}, of_cell{28, 0}, of_neighbour{4, 0}, of_water_neighbour{4, 4};
+constexpr double growth = 1.5;  // of a list that gets too short
+constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several threads put together, an entry
+constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so many neighbours at most
+constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
+constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
+constexpr double most_samples = 4096, most_looks = 2e7;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
 
@@ -62,6 +74,35 @@ double images_at_start(const Model& model, double distance) {
     return with_images - particles;
 }
 
+/// Mean over some fluid particles of how many are nearer than a distance, fluid ones or all.
+double near_at_start(const Model& model, double distance, const Grid& grid, bool among_all) {
+    const auto counts = [&](int i) { return among_all || model.is_fluid(i); };
+    std::vector<std::vector<int>> in_cell(grid.cells());
+    std::vector<int> asked;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!counts(i)) continue;
+        const Eigen::Vector3d& x = model.position[i];
+        in_cell[grid.cell(x.x(), x.y(), x.z())].push_back(i);
+        asked.push_back(i);
+    }
+    if (asked.empty()) return 0;
+    constexpr std::size_t stride = 999'983;  // a prime: samples that are few are not all of one corner
+    const double wanted = std::min<double>(static_cast<double>(asked.size()), most_samples);
+    double sum = 0, samples = 0, looks = 0;
+    for (std::size_t k = 0; samples < wanted && looks < most_looks; k = (k + stride) % asked.size(), ++samples) {
+        const Eigen::Vector3d& x = model.position[asked[k]];
+        const int cell = grid.cell(x.x(), x.y(), x.z());
+        const Grid::Rows rows = grid.rows_around(grid.row(cell));
+        const Grid::Range range = grid.range_around(cell);
+        for (int row = 0; row < rows.count; ++row)
+            for (int c = rows.first_cell[row] + range.first; c <= rows.first_cell[row] + range.last; ++c) {
+                for (const int j : in_cell[c]) sum += (model.position[j] - x).squaredNorm() < distance * distance && j != asked[k] ? 1 : 0;
+                looks += static_cast<double>(in_cell[c].size());
+            }
+    }
+    return sum / samples;
+}
+
 /// Number of particles in all cells before each.
 using Counts = std::vector<int>;
 
@@ -69,9 +110,10 @@ struct Candidates {
     double fluid = 0;     ///< of fluid particles among fluid particles
     double contacts = 0;  ///< of solid particles among all
     double cells = 0;
+    double near = 0;  ///< mean number of particles within the distance of a fluid particle, itself left out
 };
 
-Candidates candidates_at_start(const Model& model, double search_distance) {
+Candidates candidates_at_start(const Model& model, double search_distance, bool among_all) {
     const Grid grid = grid_over(model, search_distance);
     Counts fluid(static_cast<std::size_t>(grid.cells()) + 1), solid = fluid;
     const auto cell_of = [&](int i) {
@@ -99,6 +141,7 @@ Candidates candidates_at_start(const Model& model, double search_distance) {
         sum.fluid += fluid_here * fluid_near;
         sum.contacts += solid_here * (fluid_near + solid_near);
     }
+    sum.near = near_at_start(model, search_distance, grid, among_all);
     return sum;
 }
 
@@ -121,13 +164,22 @@ std::string in_gib(double bytes) {
     return figure_text(bytes / gibibyte) + " GiB";
 }
 
+/// In so much time, s, which is called `what`. Throws InputError when they are too many.
+double time_steps_of(double time, const Scene& scene, const std::string& what) {
+    const double steps = std::round(time / scene.time_step);
+    if (!(steps <= limits::time_steps))
+        throw InputError(what + " = " + number_text(time) + ": must be at most 10 million time steps of timeStep = " +
+                         number_text(scene.time_step));
+    return steps;
+}
+
 double substeps_of_settling(const Scene& scene) {
     return static_cast<double>(scene.settling.updates) * scene.settling.substeps;
 }
 
 }  // namespace
 
-Cost cost_of(const Model& model) {
+Cost cost_of(const Model& model, const Computing& computing) {
     Cost cost;
     const double particles = model.particles();
     const SolverParameters& p = model.parameters;
@@ -135,7 +187,7 @@ Cost cost_of(const Model& model) {
     const bool water = model.scheme == Scheme::conserving;
     const double support = p.kernelSupport * p.fluidRestDistance;
     const double reach = water ? support : p.radius;
-    const Candidates start = candidates_at_start(model, water ? reach : reach + p.particleCollisionMargin);
+    const Candidates start = candidates_at_start(model, water ? reach : reach + p.particleCollisionMargin, water);
     double fluid = 0;
     for (int i = 0; i < model.particles(); ++i) fluid += water || model.is_fluid(i) ? 1 : 0;
 
@@ -160,10 +212,21 @@ Cost cost_of(const Model& model) {
                                  work_of_substep;
     cost.per_substep = cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
-    cost.bytes = bytes_of_particle * particles + bytes_of_neighbour * fluid_neighbours +
-                 bytes_of_contact * 2 * start.contacts + bytes_of_spring * springs + bytes_of_member * members +
-                 bytes_of_cell * start.cells;
-    if (water) cost.bytes += bytes_of_image * images + bytes_of_gradient * cost.neighbours;
+
+    const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;
+    const double listed = fluid * std::min(raggedness * resting + of_bursting * std::max(start.near - resting, 0.0), most);
+    const auto add = [&](double count, const Room& room) { cost.bytes += count * room.with(computing); };
+    add(1, of_program);
+    add(particles, of_particle);
+    add(springs, of_spring);
+    add(members, of_member);
+    add(start.cells, of_cell);
+    add(2 * start.contacts, of_contact);
+    add(growth * listed, water ? of_water_neighbour : of_neighbour);
+    if (computing.several_threads) add(listed, water ? of_water_part : of_part);
+    if (!water) add(std::min(listed, kept_distances), {0, 1});
+    if (water) add(particles, of_water_particle);
+    if (water) add(images, of_image);
     return cost;
 }
 
@@ -173,8 +236,8 @@ Budget Budget::of_user() {
             gibibyte * from_environment("NATATOR_MOST_MEMORY", memory)};
 }
 
-void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where) {
-    const Cost cost = cost_of(model);
+void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where, const Computing& computing) {
+    const Cost cost = cost_of(model, computing);
     const Budget budget = Budget::of_user();
     const std::string particles =
         std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
@@ -191,15 +254,16 @@ void check_cost(const Model& model, double substeps, double more_bytes, const st
                          " pair visits: must be at most " + figure_text(budget.work) + " (NATATOR_MOST_WORK)");
 }
 
-void check_evaluation_cost(const Scene& scene, const Model& model) {
-    const double frames = std::round(scene.duration / scene.time_step);
+void check_evaluation_cost(const Scene& scene, const Model& model, const Computing& computing) {
+    const double frames = time_steps_of(scene.duration, scene, "scene " + quoted(scene.name) + ": duration");
     check_cost(model, substeps_of_settling(scene) + frames * model.parameters.substeps, 2 * sizeof(double) * frames,
-               "scene " + quoted(scene.name));
+               "scene " + quoted(scene.name), computing);
 }
 
-void check_live_cost(const Scene& scene, const Model& model) {
-    check_cost(model, substeps_of_settling(scene) + limits::live_frames * model.parameters.substeps, 0,
-               "scene " + quoted(scene.name));
+void check_live_cost(const Scene& scene, const Model& model, std::optional<double> until, const Computing& computing) {
+    const double frames = until ? time_steps_of(*until, scene, "scene " + quoted(scene.name) + ": until") : limits::live_frames;
+    check_cost(model, substeps_of_settling(scene) + frames * model.parameters.substeps, 0,
+               "scene " + quoted(scene.name), computing);
 }
 
 }  // namespace natator

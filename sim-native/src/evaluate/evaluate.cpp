@@ -78,7 +78,8 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
         if (over) result.stopped = *over;
         state.origin = record.origin();
         observe(model.body, state, options.on_frame);
-        if (snapshot_due && state.time > snapshot.at - scene.time_step / 1000) {
+        const bool last = over || result.frames == frames;
+        if (snapshot_due && (snapshot.at ? state.time > *snapshot.at - scene.time_step / 1000 : last)) {
             snapshot_due = false;
             snapshot.take(model, snapshot_of(state, solver.densities()));
         }
@@ -122,7 +123,7 @@ double Evaluation::fitness() const {
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     const Model model = build_model(scene);
-    check_evaluation_cost(scene, model);
+    check_evaluation_cost(scene, model, {.doubles = options.precision == Precision::double_precision, .several_threads = options.execution.threads > 1});
     Model start = model;  // volumes, and all else that is measured at rest, are those of the model
     perturb(options.perturbation, start);
     EvaluationOptions own = options;

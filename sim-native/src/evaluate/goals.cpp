@@ -1,5 +1,6 @@
 #include "goals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -109,7 +110,7 @@ std::vector<GoalResult> GoalRecord::results(double distance, double forward, std
         if (goal.arrives()) {
             result.left = progress.left;
             result.arrived_at = progress.arrived_at;
-            result.score = progress.arrived_at ? 2 - *progress.arrived_at / duration_
+            result.score = progress.arrived_at ? std::max(1.0, 2 - *progress.arrived_at / duration_)
                                                : 1 - progress.left / progress.at_start;
         } else if (goal.measure == Measure::hold) {
             result.score = frames_ > 0 ? 1 / (1 + progress.away / frames_ / body_length_) : 1;

@@ -39,8 +39,8 @@ void TrajectoryCsv::finish() {
     check(file_->finish());
 }
 
-void TrajectoryCsv::add_row(double time, std::size_t index, const Eigen::Vector3d& place) {
-    file_->stream() << frame_ << ',' << time << ',' << index << ',' << place.x() << ',' << place.y() << ',' << place.z() << '\n';
+void TrajectoryCsv::add_row(double time, std::size_t index, const Eigen::Vector3d& x) {
+    file_->stream() << frame_ << ',' << time << ',' << index << ',' << x.x() << ',' << x.y() << ',' << x.z() << '\n';
 }
 
 void TrajectoryCsv::check(bool written) const {

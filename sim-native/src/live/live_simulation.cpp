@@ -30,9 +30,9 @@ std::vector<Real> densities_at_rest(Model model, State<Real> state) {
 }
 
 /// The scene's model, if a stream of it does not cost too much.
-Model affordable(const Scene& scene) {
+Model affordable(const Scene& scene, std::optional<double> until, const Computing& computing) {
     Model model = build_model(scene);
-    check_live_cost(scene, model);
+    check_live_cost(scene, model, until, computing);
     return model;
 }
 
@@ -41,8 +41,13 @@ Model affordable(const Scene& scene) {
 /// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
 template <class Real>
 struct LiveSimulation<Real>::Run {
-    Run(Scene of, const Perturbation& by, const Execution& execution)
-        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution), laws(model) {
+    Run(Scene of, const Perturbation& by, const LiveSetup& setup, const Execution& execution)
+        : scene(std::move(of)),
+          perturbation(by),
+          model(affordable(scene, setup.until,
+                           {.doubles = sizeof(Real) > sizeof(float), .several_threads = execution.threads > 1})),
+          solver(model, execution),
+          laws(model) {
         if (scene.moving_tank) follower.emplace(scene, model);
     }
 
@@ -227,7 +232,7 @@ template <class Real>
 std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
     Scene scene = load_scene(setup.scene, {setup.overrides, setup.data});
     const Perturbation shift = setup.start ? choose_start(*setup.start, scene) : Perturbation{};
-    return std::make_unique<Run>(std::move(scene), shift, execution_);
+    return std::make_unique<Run>(std::move(scene), shift, setup, execution_);
 }
 
 template <class Real>

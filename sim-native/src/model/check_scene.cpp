@@ -34,8 +34,8 @@ public:
     void ascending(const char* key, const std::vector<int>& slices, int first, int last) const {
         for (std::size_t i = 0; i < slices.size(); first = slices[i++] + 1)
             if (slices[i] < first || slices[i] > last)
-                refuse(key + ("[" + std::to_string(i) + "]"), slices[i],
-                       "a slice in [" + std::to_string(first) + ", " + std::to_string(last) + "]");
+                refuse(std::string(key) + "[" + std::to_string(i) + "]", slices[i],
+                       std::string("a slice in [") + std::to_string(first) + ", " + std::to_string(last) + "]");
     }
     [[noreturn]] void refuse(const std::string& key, double value, const std::string& must_be) const {
         throw InputError(place_ + key + " = " + number_text(value) + ": must be " + must_be);

@@ -44,13 +44,13 @@ std::vector<double> particle_volumes(const Model& model) {
     const double whole = lattice_volume(p.fluidRestDistance, support(model));
     std::vector<double> volumes(model.particles(), whole);
     // Solids by group and cell of one rest distance: what is nearer than that is in the cells around.
-    using Cell = std::array<std::int64_t, 4>;
+    using GroupCell = std::array<std::int64_t, 4>;
     const auto cell_of = [&](int i, int dx, int dy, int dz) {
         const Eigen::Array3d at = (model.position[i] / p.fluidRestDistance).array().floor();
-        return Cell{model.phase[i] & phase::group_mask, std::int64_t(at.x()) + dx, std::int64_t(at.y()) + dy,
-                    std::int64_t(at.z()) + dz};
+        return GroupCell{model.phase[i] & phase::group_mask, std::int64_t(at.x()) + dx, std::int64_t(at.y()) + dy,
+                         std::int64_t(at.z()) + dz};
     };
-    std::map<Cell, std::vector<int>> cells;
+    std::map<GroupCell, std::vector<int>> cells;
     for (int i = 0; i < model.particles(); ++i)
         if (!model.is_fluid(i)) cells[cell_of(i, 0, 0, 0)].push_back(i);
     for (int i = 0; i < model.particles(); ++i) {

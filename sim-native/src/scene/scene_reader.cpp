@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/strict_json.h"
+#include "natator/limits.h"
 #include "readers.h"
 #include "scene/scene_json.h"
 
@@ -13,7 +14,6 @@ using fields::Place;
 using nlohmann::json;
 
 constexpr std::size_t max_planes = 32;
-constexpr double max_frames = 10'000'000;
 
 const std::vector<Field<Scene>>& scene_fields() {
     static const std::vector<Field<Scene>> table = {
@@ -64,7 +64,7 @@ std::vector<Plane> read_planes(const json& value, const Place& place) {
 
 void check_frames(const Scene& scene, const Place& place) {
     const double frames = scene.duration / scene.time_step;
-    if (frames > max_frames) {
+    if (frames > limits::time_steps) {
         fields::refuse(place.key("duration"), scene.duration, "at most 10 million time steps of timeStep");
     }
     if (frames < 0.5) fields::refuse(place.key("duration"), scene.duration, "at least one timeStep");

@@ -16,7 +16,6 @@ import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SimulationRequest;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
-import java.util.List;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -72,7 +71,7 @@ final class CheckCommand implements Callable<Integer> {
     /** Halfway and at the end; null without water, and, with a warning, if that fails: the controls are worth having without. */
     private Double underWater(SimulationRequest request, double duration, ExecutionSettings execution) throws InterruptedException {
         try {
-            return WaterCheck.shareUnderWater(request, List.of(duration / 2, duration), execution);
+            return WaterCheck.shareUnderWater(request, duration / 2, execution);
         } catch (InvalidInputException | RequestRejectedException | UncheckedIOException e) {
             OneLineErrors.warn(spec.commandLine(), e.getMessage() + "; how much of the body is under water is left out");
             return null;

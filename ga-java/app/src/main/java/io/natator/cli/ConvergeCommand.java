@@ -77,7 +77,7 @@ final class ConvergeCommand implements Callable<Integer> {
                 Convergence.runs(run.directory()), new Told());
         PrintWriter out = spec.commandLine().getOut();
         try {
-            out.println("converged: " + ConvergenceText.of(Convergence.write(run.directory(), swimmer, answer)));
+            out.println(ConvergenceText.of(Convergence.write(run.directory(), swimmer, answer)));
         } catch (JsonProcessingException e) {
             throw new RequestRejectedException("converge: unexpected answer", false);
         }

@@ -68,7 +68,7 @@ final class ShowCommand implements Callable<Integer> {
                 out.println("  checked     " + ControlVerdict.of(controls).text());
             }
             if (convergence != null) {
-                out.println("  converged   " + ConvergenceText.of(convergence));
+                out.println("  finer steps " + ConvergenceText.of(convergence));
             }
             printFront(run, out);
             if (run.elites() != null) {

@@ -129,6 +129,36 @@ class RealSimulatorTest {
         assertThat(out.toString()).contains("  checked     ");
     }
 
+    /** As a single run is: no file is begun that would fill the disk. */
+    @ParameterizedTest
+    @ValueSource(strings = {"export", "page"})
+    void moreTimeStepsThanARunMayHaveAreRefused(String command) {
+        Path output = folder.resolve("out.html");
+        String[] where = "export".equals(command) ? new String[] {"--format", "csv", "--output-dir", output.toString()}
+                : new String[] {"--output", output.toString(), "--max-size", "1000000"};
+        for (String duration : List.of("1e6", "200000")) {
+            err.getBuffer().setLength(0);
+            List<String> arguments = new ArrayList<>(List.of(command, "--duration", duration));
+            arguments.addAll(List.of(where));
+            arguments.add("thesis/creature-1-vacuum");
+            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isEqualTo(2);
+            assertThat(err.toString()).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
+            assertThat(output).doesNotExist();
+        }
+    }
+
+    /** A duration that frames do not fill ends with the last of them. */
+    @Test
+    void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration", "0.105",
+                "--output-dir", run.toString())).as(err.toString()).isZero();
+        err.getBuffer().setLength(0);
+        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+        assertThat(err.toString()).doesNotContain("no snapshot", "--at");
+        assertThat(run.resolve("check.json")).content().contains("underWater");
+    }
+
     /** A body that evolved, too, and what is run already is not run again. */
     @Test
     void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
@@ -139,7 +169,7 @@ class RealSimulatorTest {
         err.getBuffer().setLength(0);
 
         assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", "\nconverged: ");
+        assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", " at time step and spacing 0, from ");
         assertThat(err.toString().lines()).as("runs").hasSize(4).allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4).contains("\"profile\"");
 

@@ -34,7 +34,7 @@ final class WinnerRuns {
             scheme.put("scheme", Json.name(settings.scheme()));
         }
         this.scene = SceneInfo.of(settings.scene(), MergePatch.both(settings.overrides(), scheme), simulator);
-        this.duration = settings.duration() != null ? settings.duration() : scene.duration();
+        this.duration = scene.end(settings.duration());
     }
 
     /** In seconds, of a run that nothing ends early. */

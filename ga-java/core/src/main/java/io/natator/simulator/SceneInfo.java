@@ -38,6 +38,17 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
     }
 
     /**
+     * When a run ends that nothing ends early: after a whole number of frames, in seconds.
+     *
+     * @param asked duration in seconds, or null for the scene's own
+     */
+    public double end(Double asked) {
+        double wanted = asked == null ? duration : asked;
+        double end = Math.max(1, Math.round(wanted / timeStep)) * timeStep;
+        return Math.abs(end - wanted) < timeStep / 1000 ? wanted : end;
+    }
+
+    /**
      * Asks the simulator about a scene.
      *
      * @param overrides JSON Merge Patch on the scene, or null

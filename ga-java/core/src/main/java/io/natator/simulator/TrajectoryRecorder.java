@@ -25,13 +25,13 @@ public final class TrajectoryRecorder {
      *
      * @param trajectory where the paths go, or null
      * @param snapshot   where all particles go, or null
-     * @param at         the moment of the snapshot, in seconds
+     * @param at         the moment of the snapshot, in seconds, or null for the end of the run
      * @return whether the run stayed stable; if not, the paths end before that
      * @throws RefusedSceneException    if the program refuses the request
      * @throws RequestRejectedException if it fails
      * @throws InterruptedException     if the calling thread is interrupted
      */
-    public boolean record(SimulationRequest request, Path trajectory, Path snapshot, double at)
+    public boolean record(SimulationRequest request, Path trajectory, Path snapshot, Double at)
             throws InterruptedException {
         List<String> arguments = new ArrayList<>(List.of("run", request.scene()));
         add(arguments, "--gait", request.gait() == null ? null : Json.line(request.gait()));

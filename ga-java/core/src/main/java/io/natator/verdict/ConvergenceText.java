@@ -3,33 +3,83 @@ package io.natator.verdict;
 import io.natator.checkpoint.Convergence;
 import io.natator.config.Numbers;
 import io.natator.simulator.FinerLevel;
+import java.util.List;
 import java.util.function.DoubleUnaryOperator;
 import java.util.stream.Collectors;
 
 /** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
 public final class ConvergenceText {
 
+    /** Share of the speed that it changes by at most where it is called converged. */
+    private static final double CONVERGED = 0.1;
+    /** Standard errors on either side of a figure in which the true one is taken to be. */
+    private static final double SURE = 2;
+
     private ConvergenceText() {
     }
 
-    /** On one line: what the speed goes to, and by how much each finer level changes it. */
+    /** On one line: whether the speed is converged, what it goes to, and by how much each finer level changes it. */
     public static String of(Convergence convergence) {
-        String changes = convergence.levels().stream().skip(1).map(ConvergenceText::change).collect(Collectors.joining(", "));
-        return convergence.estimate() == null ? changes : speed(convergence) + ", from " + changes;
+        String changes = finer(convergence).stream().map(level -> change(level, convergence)).collect(Collectors.joining(", "));
+        return verdict(convergence) + ": " + (convergence.estimate() == null ? changes : speed(convergence) + ", from " + changes);
+    }
+
+    private static List<Convergence.Level> finer(Convergence convergence) {
+        return convergence.levels().subList(Math.min(1, convergence.levels().size()), convergence.levels().size());
+    }
+
+    /** What follows from the errors: more than the means alone are not said to show anything. */
+    private static String verdict(Convergence convergence) {
+        if (speedMayBeNone(convergence)) {
+            return "no speed that could be told from none";
+        }
+        List<Convergence.Level> finer = finer(convergence);
+        if (finer.stream().anyMatch(level -> reach(level, -SURE) > CONVERGED)) {
+            return "not converged";
+        }
+        return finer.stream().allMatch(level -> reach(level, SURE) <= CONVERGED) ? "converged to within 10 %"
+                : "not known whether converged";
+    }
+
+    /** How large a level's change may be, or has to be, as a share; nothing is known where it has none or no error. */
+    private static double reach(Convergence.Level level, double errors) {
+        boolean known = level.change() != null && level.change().error() != null;
+        return known ? Math.abs(level.change().mean()) + errors * level.change().error() : Double.NaN;
+    }
+
+    private static boolean speedMayBeNone(Convergence convergence) {
+        Convergence.Value base = baseSpeed(convergence);
+        return base != null && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= SURE * base.error());
+    }
+
+    private static Convergence.Value baseSpeed(Convergence convergence) {
+        return convergence.levels().isEmpty() ? null : convergence.levels().get(0).speed();
     }
 
     private static String speed(Convergence convergence) {
-        Verdict.Length length = Verdict.Length.of(convergence.bodyLength());
-        Convergence.Estimate estimate = convergence.estimate();
-        return withError(estimate.speed(), estimate.error(), speed -> speed / length.unit(), 3) + " " + length.name()
-                + "/s at time step and spacing 0";
+        return inLengths(convergence.estimate().speed(), convergence.estimate().error(), convergence) + " at time step and spacing 0";
     }
 
-    private static String change(Convergence.Level level) {
+    private static String change(Convergence.Level level, Convergence convergence) {
         String where = " at " + FinerLevel.of(level.level()).words();
         String unstable = level.unstable() == 0 ? "" : " (" + Numbers.count(level.unstable(), "run") + " unstable)";
-        return (level.change() == null ? "no speed" : withError(level.change().mean(), level.change().error(), share -> 100 * share, 1)
-                + " %") + where + unstable;
+        return changeAlone(level, convergence) + where + unstable;
+    }
+
+    /** A share of the speed, or where that may be none, a speed. */
+    private static String changeAlone(Convergence.Level level, Convergence convergence) {
+        if (speedMayBeNone(convergence) && level.speed() != null) {
+            Convergence.Value base = baseSpeed(convergence);
+            Double error = base.error() == null || level.speed().error() == null ? null
+                    : Double.valueOf(Math.hypot(base.error(), level.speed().error()));
+            return inLengths(level.speed().mean() - base.mean(), error, convergence) + " more";
+        }
+        return level.change() == null ? "no speed" : withError(level.change().mean(), level.change().error(), share -> 100 * share, 1) + " %";
+    }
+
+    private static String inLengths(double speed, Double error, Convergence convergence) {
+        Verdict.Length length = Verdict.Length.of(convergence.bodyLength());
+        return withError(speed, error, one -> one / length.unit(), 3) + " " + length.name() + "/s";
     }
 
     /** In other units; one run does not tell its error. */

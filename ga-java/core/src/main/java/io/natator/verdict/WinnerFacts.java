@@ -39,7 +39,7 @@ public final class WinnerFacts {
         }
         Convergence convergence = Convergence.of(run, best.swimmer());
         if (convergence != null) {
-            facts.put("converged", ConvergenceText.of(convergence));
+            facts.put("finer steps", ConvergenceText.of(convergence));
         }
         Map<String, String> fresh = FreshText.of(best);
         for (String about : List.of("speed", "distance", "half step", "selected")) {

@@ -118,8 +118,8 @@ public final class GaitReport {
         }
         sentences.add(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
                 : "By its controls it " + ControlVerdict.of(controls).text() + ".");
-        if (facts.containsKey("converged")) {
-            sentences.add("At finer steps: " + facts.get("converged") + ".");
+        if (facts.containsKey("finer steps")) {
+            sentences.add("At finer steps: " + facts.get("finer steps") + ".");
         }
         if (facts.containsKey("cost")) {
             String cost = facts.get("cost");

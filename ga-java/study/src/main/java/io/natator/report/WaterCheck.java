@@ -10,6 +10,7 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 
 /** Looks whether a swimmer is in the water. */
@@ -19,22 +20,22 @@ public final class WaterCheck {
     }
 
     /**
-     * Mean share of the body's particles under water at these moments.
+     * Mean share of the body's particles under water at a moment and at the end.
      *
-     * @param request   that does not end early; run once for each moment, on the processor
-     * @param moments   in seconds
+     * @param request   that does not end early; run once for each, on the processor
+     * @param moment    in seconds
      * @param execution with a time limit
      * @return null without water
      */
-    public static Double shareUnderWater(SimulationRequest request, List<Double> moments, ExecutionSettings execution)
+    public static Double shareUnderWater(SimulationRequest request, double moment, ExecutionSettings execution)
             throws InterruptedException {
         List<Double> shares = new ArrayList<>();
         try {
             Path file = Files.createTempFile("natator-", ".csv");
             try {
-                for (double moment : moments) {
+                for (Double at : Arrays.asList(moment, null)) {
                     Files.deleteIfExists(file);
-                    new TrajectoryRecorder(execution).record(request, null, file, moment);
+                    new TrajectoryRecorder(execution).record(request, null, file, at);
                     Double share = Files.exists(file) ? WaterLevel.shareBelow(Snapshot.read(file)) : null;
                     if (share != null) {
                         shares.add(share);

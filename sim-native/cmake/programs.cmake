@@ -1,0 +1,61 @@
+# The programs. Each is one translation unit: every source that reads CLI11 compiles all of it.
+function(natator_program program)
+    set(cli ${PROJECT_SOURCE_DIR}/sim-native/cli)
+    list(TRANSFORM ARGN PREPEND ${cli}/)
+    add_executable(${program} ${ARGN} ${cli}/backend.cpp ${cli}/options.cpp ${cli}/program.cpp)
+    target_link_libraries(${program} PRIVATE natator CLI11::CLI11 nlohmann_json::nlohmann_json)
+    target_compile_options(${program} PRIVATE ${NATATOR_WARNINGS} ${NATATOR_PROGRAM_OPTIMISATION})
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)
+    set_target_properties(${program} PROPERTIES UNITY_BUILD ${NATATOR_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 0)
+endfunction()
+
+natator_program(natator-sim
+    commit.cpp
+    converge.cpp
+    convergence_report.cpp
+    evaluate.cpp
+    gait_argument.cpp
+    info.cpp
+    job.cpp
+    json_argument.cpp
+    level_runs.cpp
+    line_queue.cpp
+    main.cpp
+    output_file.cpp
+    particles.cpp
+    run.cpp
+    run_record.cpp
+    serve.cpp
+    start_bench.cpp
+    stream.cpp
+    stream_session.cpp)
+
+# What natator-sim bench starts; who only evolves does without it.
+if(NATATOR_SANITIZE)
+    add_subdirectory(bench EXCLUDE_FROM_ALL)
+else()
+    add_subdirectory(bench)
+endif()
+
+# The Java half under a name of its own, beside them.
+configure_file(cli/natator.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/natator COPYONLY)
+
+# At every build, not when CMake configures: a commit does not make it configure again.
+set(NATATOR_COMMIT_DIR ${CMAKE_CURRENT_BINARY_DIR}/commit)
+add_custom_target(natator-commit BYPRODUCTS ${NATATOR_COMMIT_DIR}/natator_commit.h
+    COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D OUTPUT=${NATATOR_COMMIT_DIR}/natator_commit.h
+        -P ${CMAKE_CURRENT_SOURCE_DIR}/commit.cmake)
+add_dependencies(natator-sim natator-commit)
+set_source_files_properties(cli/commit.cpp PROPERTIES
+    INCLUDE_DIRECTORIES ${NATATOR_COMMIT_DIR} SKIP_PRECOMPILE_HEADERS ON)
+
+# The programs find their scenes beside themselves, wherever the build folder is copied to. Editors find the schemas there.
+file(GLOB NATATOR_SCHEMAS CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/protocol/*.schema.json)
+add_custom_target(natator-data ALL
+    COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/scenes ${PROJECT_BINARY_DIR}/share/natator/scenes
+    COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/creatures ${PROJECT_BINARY_DIR}/share/natator/creatures
+    COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/references ${PROJECT_BINARY_DIR}/share/natator/references
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share/natator/protocol
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${NATATOR_SCHEMAS} ${PROJECT_BINARY_DIR}/share/natator/protocol)
+add_dependencies(natator-sim natator-data)
+add_dependencies(natator-bench natator-data)

@@ -1,0 +1,35 @@
+# Natator as a part of the project in added/: what that one builds, tests and installs is its own, and the library at most.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+
+function(expect_equal what found expected)
+    if(NOT "${found}" STREQUAL "${expected}")
+        message(FATAL_ERROR "${what}: ${found}; expected: ${expected}")
+    endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/added -B ${WORK}/build -G Ninja -D CMAKE_BUILD_TYPE=Release
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_EXPORT_COMPILE_COMMANDS=ON -D SOURCE=${SOURCE} -D SUBDIRECTORY=${SUBDIRECTORY})
+file(GLOB made RELATIVE ${WORK}/build ${WORK}/build/bin ${WORK}/build/share)
+expect_equal("folders of Natator in that of the project" "${made}" "")
+
+# What `cmake --build` would build: no program of Natator's.
+run(${CMAKE_COMMAND} --build ${WORK}/build -- -n -v)
+string(REGEX MATCHALL "natator-(sim|bench|data|tests|studies)" others "${output}")
+expect_equal("targets of Natator in \"all\"" "${others}" "")
+expect("libnatator\\.a")
+
+run(${CMAKE_COMMAND} --build ${WORK}/build --target fish)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/build)
+expect("100% tests passed, 0 tests failed out of 1\n")
+
+run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/prefix)
+file(GLOB_RECURSE installed RELATIVE ${WORK}/prefix ${WORK}/prefix/*)
+expect_equal("installed" "${installed}" "games/fish")
+
+# The project's own sources are compiled as if Natator were not there.
+file(READ ${WORK}/build/compile_commands.json commands)
+string(REGEX MATCH "\"command\": \"([^\"]*fish\\.cpp)\"" command "${commands}")
+if(CMAKE_MATCH_1 MATCHES "-W|-std|-m|EIGEN|natator/")
+    message(FATAL_ERROR "fish.cpp is compiled by ${CMAKE_MATCH_1}; expected the project's own options")
+endif()

@@ -1,0 +1,15 @@
+# Runs a command and shows what it says, which is then in `output`; ends the script where it fails.
+function(run)
+    execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+    message("${output}")
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "exit ${result}: ${ARGV}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect regex)
+    if(NOT output MATCHES "${regex}")
+        message(FATAL_ERROR "expected in the output: ${regex}")
+    endif()
+endfunction()
