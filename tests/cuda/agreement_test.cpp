@@ -139,5 +139,42 @@ TEST(GpuInstability, IsNamedAsTheCpuNamesIt) {
     }
 }
 
+/// A scene that breaks a law, and the law.
+struct BrokenCase {
+    const char* overrides;
+    const char* law;
+};
+
+class GpuBrokenLaws : public testing::TestWithParam<BrokenCase> {};
+
+/// One by itself, a batch, and kernels of the whole GPU see it in the same frame as the CPU does.
+TEST_P(GpuBrokenLaws, AreNamedAsTheCpuNamesThem) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    const Scene scene = load_scene("bench/small-tank", nlohmann::json::parse(GetParam().overrides));
+    const Gait gait = wave(scene);
+    const Evaluation cpu = evaluate(scene, gait);
+    ASSERT_TRUE(cpu.instability);
+    EXPECT_EQ(cpu.instability->law, GetParam().law);
+    for (const bool whole : {false, true})
+        for (const int members : {1, 3})
+            for (const Evaluation& gpu : evaluate_on_gpu(scene, std::vector<BatchMember>(members, {gait, {}}), {.whole_gpu = whole})) {
+                ASSERT_EQ(gpu.stopped, StopReason::unstable);
+                EXPECT_EQ(gpu.fitness(), 0);
+                EXPECT_EQ(gpu.instability->law, cpu.instability->law);
+                EXPECT_EQ(gpu.instability->stage, cpu.instability->stage);
+                EXPECT_NEAR(gpu.instability->time, cpu.instability->time, 1e-12);
+                EXPECT_EQ(gpu.frames, cpu.frames);
+            }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, GpuBrokenLaws,
+    testing::Values(
+        BrokenCase{R"({"fluid": {"mass": {"bottom": 0.005}}})", "tank"},
+        BrokenCase{R"({"solver": {"collisionDistance": 1000}, "stopping": {"planeContact": false}})", "tank"},
+        BrokenCase{R"({"scheme": "conserving", "solver": {"surfaceTension": 100}})", "energy"},
+        BrokenCase{R"({"scheme": "conserving", "fluid": {"mass": {"gradient": "mass-linear", "bottom": 0.001, "top": 1000}}})",
+                   "particle-energy"}));
+
 }  // namespace
 }  // namespace natator::test
