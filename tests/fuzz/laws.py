@@ -11,6 +11,7 @@ import os
 import pathlib
 import random
 import shlex
+import subprocess
 import sys
 import time
 
@@ -172,6 +173,34 @@ class Program:
         pathlib.Path(self.empty).write_text("{}")
 
 
+def on_gpu(scheme, options, program):
+    """Outcomes on a GPU beside the CPU's, of whole evaluations. Those that are near a limit may differ, as last digits do."""
+    same, other = collections.Counter(), []
+    requests = []
+    for number in range(options.first, options.first + options.scenes):
+        scene, gait = random_scene(random.Random(f"{options.seed}/{scheme}/{number}"), scheme)
+        requests.append({"id": number, "scene": program.empty, "overrides": {k: v for k, v in scene.items() if k != "scheme"},
+                         "scheme": scheme} | ({"gait": gait} if gait else {}))
+    answers = {}
+    for backend, workers in (("cpu", options.jobs), ("cuda", 2)):
+        lines = {k: [json.dumps(r) for r in requests[k::workers]] for k in range(workers)}
+        def serve(k):
+            done = subprocess.run([program.path, "serve", "--backend", backend], input="\n".join(lines[k]) + "\n", text=True,
+                                  capture_output=True)
+            return [json.loads(line) for line in done.stdout.splitlines()]
+        with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+            answers[backend] = {a["id"]: a for part in pool.map(serve, range(workers)) for a in part}
+    for number, cpu in sorted(answers["cpu"].items()):
+        gpu = answers["cuda"].get(number, {"status": "no answer"})
+        verdicts = [a["status"] + " " + a.get("unstable", {}).get("law", "") for a in (cpu, gpu)]
+        if verdicts[0] == verdicts[1]:
+            same[verdicts[0]] += 1
+        else:
+            other.append((number, *verdicts))
+    print(f"{scheme} on a GPU: the same verdict {sum(same.values())} times {dict(same)}, another {len(other)} times: {other[:20]}")
+    return len(other) > len(requests) * 0.03
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--simulator", type=pathlib.Path, default=ROOT / "build/release/bin/natator-sim")
@@ -181,11 +210,15 @@ def main():
     parser.add_argument("--seconds", type=float, default=float("inf"), help="end after so long (default: no limit)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--gpu", action="store_true", help="compare the verdicts of a GPU with the CPU's instead")
     parser.add_argument("--show", metavar="LAW", help="also print scenes that broke this law")
     options = parser.parse_args()
     program = Program(options.simulator, ROOT / "build/fuzz")
     begin, faults = time.monotonic(), 0
     for scheme in options.scheme or ("flex", "conserving"):
+        if options.gpu:
+            faults += on_gpu(scheme, options, program)
+            continue
         outcomes, laws = collections.Counter(), collections.Counter()
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             def guarded(number):

@@ -149,8 +149,8 @@ TEST(LawsOfMotion, AreKeptByWhatFallsForEver) {
         EXPECT_EQ(evaluate(scene_from_json(own, "drop"), {}).stopped, StopReason::completed) << scheme;
     }
     json channel = drop;
-    channel.merge_patch(json::parse(R"({"periodic": ["x"], "planes": [[0,1,0,0],[0,-1,0,0.4],[0,0,1,0],[0,0,-1,0.4],[1,0,0,0],[-1,0,0,0.4]],
-        "fluid": {"count": [4,4,4], "origin": [0.05,0.05,0.05]}, "solver": {"gravity": [10,0,0]}})"));
+    channel.merge_patch(json::parse(R"({"periodic": ["x"], "planes": [[0,1,0,0],[0,-1,0,0.4],[0,0,1,0],[0,0,-1,0.4],[1,0,0,0],[-1,0,0,0.6]],
+        "fluid": {"count": [6,4,4], "origin": [0.05,0.05,0.05]}, "solver": {"gravity": [10,0,0]}})"));
     EXPECT_EQ(evaluate(scene_from_json(channel, "channel"), {}).stopped, StopReason::completed);
 }
 

@@ -26,6 +26,7 @@ constexpr double energy_margin = 0.1;   ///< of the energy of a fall of all that
 // What explicit forces set free, measured in a box of water: at most 14 cohesion at R = 1.5 s = 0.15, and without gravity, which
 // gives no measure for it, 0.25 surfaceTension at s = 0.1.
 constexpr double cohesion_energy = 1.0 / 32, tension_energy = 5;
+constexpr double corrected_start = 0.01;  ///< of the radius, by constraints in a substep: starts may be shifted by as much
 constexpr double depth_margin = 1;      ///< of the interaction radius
 constexpr double reach_margin = 3;      ///< of a body's length
 
@@ -110,7 +111,7 @@ struct LawWatch::Parts {
         const Sources own = sources(model);
         for (const double inverse_mass : model.inverse_mass) mass += inverse_mass > 0 ? 1 / inverse_mass : 0;
         highest = begin.particle_energy;
-        fallen = speed_margin * speed_margin * (own.start + own.unequal * own.crowding * own.fall + own.forces + own.noise);
+        fallen = speed_margin * speed_margin * (own.start + own.unequal * own.crowding * own.fall + own.noise) + own.forces;
         gain = mass * (energy_margin * (own.start + own.fall) + (own.crowding - 1) * own.fall + own.forces + own.noise);
         if (length > 0) most = std::max(square(most_body_lengths * length) / 2, 4 * own.crowding * own.fall);
         if (model.scheme != Scheme::conserving) gain = std::numeric_limits<double>::infinity();
@@ -127,7 +128,7 @@ struct LawWatch::Parts {
         double crowding = 1;  ///< how many particles are where one would have room
         double unequal = 1;   ///< the heaviest mass over the lightest, which it can hit
         double forces = 0;    ///< of explicit forces of the water over their range
-        double noise = 0;     ///< what a density that is corrected leaves in velocities, see physics::velocity_limit
+        double noise = 0;     ///< what corrections of a start leave in velocities, see physics::velocity_limit
     };
     static Sources sources(const Model& model) {
         const SolverParameters& p = model.parameters;
@@ -147,6 +148,7 @@ struct LawWatch::Parts {
             own.start = std::max(own.start, model.velocity[i].squaredNorm() / 2);
         }
         if (!(heaviest > 0)) return own;
+        own.noise = square(corrected_start * p.radius * p.substeps / model.time_step) / 2;
         own.unequal = std::min(heaviest / lightest, most_unequal);
         own.fall = std::max(1.0, std::abs(p.buoyancy)) * (high - low) + pull * p.radius;
         if (count == 0) return own;
@@ -154,9 +156,10 @@ struct LawWatch::Parts {
         own.crowding = std::max(1.0, count * spacing * spacing * spacing / room);
         own.forces = cohesion_energy * p.cohesion * square(p.radius / physics::thesis_substep);
         if (!(pull > 0)) own.forces += tension_energy * p.surfaceTension * spacing;
+        own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
         const double expansion = physics::most_excess * p.substeps / model.time_step;
         const double slow = pull > 0 ? physics::expansion * std::sqrt(pull / spacing) : expansion;
-        own.noise = square(spacing * std::min(expansion, slow)) / 2;
+        own.noise += square(spacing * std::min(expansion, slow)) / 2;
         return own;
     }
 
@@ -233,7 +236,8 @@ std::optional<Instability> LawWatch::look(const LawMeasures& measures, double wo
         parts_->work = work;
         parts_->begun = true;
     }
-    own.energy -= work - parts_->work;
+    const double by_muscles = work - parts_->work;
+    own.energy -= by_muscles + energy_margin * std::abs(by_muscles);
     return parts_->look(own, time, "frame");
 }
 
