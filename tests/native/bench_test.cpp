@@ -316,7 +316,7 @@ StabilityCase case_of(const char* scene, const char* axis, double value) {
 TEST(StabilityTest, IsJudgedAsEvaluationsAre) {
     for (const Scheme scheme : {Scheme::flex, Scheme::conserving})
         for (const auto& [axis, value] : std::vector<std::pair<const char*, double>>{
-                 {"dt", 1}, {"dt", 32}, {"gravity", 100}, {"mass-ratio", 1e-4}, {"overlap", 0.5}, {"viscosity", 1e4}}) {
+                 {"dt", 1}, {"dt", 32}, {"gravity", 100}, {"mass-ratio", 1e-4}, {"overlap", 0.5}, {"viscosity", 1e4}, {"radius-ratio", 1.01}}) {
             StabilityCase subject = case_of("small-tank", axis, value);
             subject.scene.scheme = scheme;
             subject.scene.stopping = {.plane_contact = false, .no_progress_after = 0};
