@@ -15,10 +15,25 @@ struct StabilityCase {
     Scene scene;
     Gait gait;
     std::function<void(Model&)> rearrange;  ///< moves particles before the start; may be empty
+    /// Share of the run after which laws are looked at: above 0 where the start breaks one on purpose.
+    double judged_from = 0;
 };
 
-/// The short swimmer in its small tank (scenes/bench/small-tank.json) at the thesis' settings, all of it calm.
-StabilityCase calm_case();
+/// A scene to put under stress.
+struct StabilityScene {
+    std::string name;
+    std::string meaning;
+    const char* overrides;         ///< JSON over scenes/bench/small-tank.json
+    bool conserving_only = false;  ///< scheme `flex` does not have it
+};
+
+/// The first is the small tank alone.
+const std::vector<StabilityScene>& stability_scenes();
+/// Throws InputError for an unknown name.
+const StabilityScene& stability_scene(const std::string& name);
+
+/// The short swimmer in its small tank (scenes/bench/small-tank.json), or a change of it, at the thesis' settings, all of it calm.
+StabilityCase calm_case(const StabilityScene& scene = stability_scenes().front());
 
 /// One direction in which a case is made harder.
 struct StabilityAxis {

@@ -50,6 +50,7 @@ protected:
                 density_apart = std::max(density_apart, std::abs(double(cpu_density[i]) - double(gpu_density[i])));
             EXPECT_LE(density_apart, 100 * frame_bound);
         }
+        EXPECT_NEAR(gpu.muscle_work(), cpu.muscle_work(), 0.01 * std::abs(cpu.muscle_work()));
         const double path = std::abs(mean_x(model.body, on_cpu) - mean_x(model.body, on_gpu));
         std::cout << ", mean x after 0.25 s " << path << ", particles " << largest_distance(on_cpu, on_gpu) << '\n';
         EXPECT_LE(path, path_bound);

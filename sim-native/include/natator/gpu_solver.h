@@ -56,6 +56,9 @@ public:
     /// which must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
+    /// As Solver::muscle_work, of all frames so far; 0 in scheme flex.
+    double muscle_work() const;
+
     /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;

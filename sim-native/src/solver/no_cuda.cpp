@@ -61,6 +61,10 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
     refuse();
 }
 template <class Real>
+double GpuSolver<Real>::muscle_work() const {
+    refuse();
+}
+template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
     refuse();
 }

@@ -87,6 +87,8 @@ public:
         return densities;
     }
 
+    double muscle_work() const { return muscle_work_; }
+
     std::vector<int> neighbour_counts() const {
         std::vector<int> counts(model_.particles(), 0);
         for (std::size_t k = 0; k < neighbours_.size(); ++k) counts[device_model().particle_of()[k]] = neighbours_[k];
@@ -107,6 +109,7 @@ protected:
     const Model& model_;
     std::vector<Real> densities_;
     std::vector<int> neighbours_;
+    double muscle_work_ = 0;  ///< of frames; scheme `flex` has none
 };
 
 template <class Real>
@@ -188,6 +191,7 @@ private:
             progress.bad_time = state.time + end.bad_substep * time_step / substeps;
             return progress;
         }
+        if (gait && has_muscle_work(this->model_)) this->muscle_work_ += end.muscle_work;
         this->densities_ = runner_.densities();
         this->neighbours_ = runner_.neighbour_counts();
         time_ = static_cast<Real>(time_step);
@@ -245,6 +249,10 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Gait
     return implementation_->update(state, model.time_step, model.parameters.substeps, nullptr, &gait);
 }
 
+template <class Real>
+double GpuSolver<Real>::muscle_work() const {
+    return implementation_->muscle_work();
+}
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
     return implementation_->densities();

@@ -4,7 +4,6 @@ import io.natator.config.FileErrors;
 import io.natator.plot.Drawing;
 import io.natator.plot.PrecisionPlot;
 import io.natator.plot.RooflinePlot;
-import io.natator.plot.StabilityPlot;
 import io.natator.plot.ValidationPlot;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -58,12 +57,6 @@ final class PlotCommand implements Callable<Integer> {
             description = "How near the solver's stages come to what the processor can do.")
     int roofline(@Mixin Files files) {
         return draw(RooflinePlot::draw, files);
-    }
-
-    @Command(name = "stability", mixinStandardHelpOptions = true,
-            description = "Map of the stable region, one picture per scheme and pair of settings.")
-    int stability(@Mixin Files files) {
-        return draw(StabilityPlot::draw, files);
     }
 
     @Command(name = "validation", mixinStandardHelpOptions = true,

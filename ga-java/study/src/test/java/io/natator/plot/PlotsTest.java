@@ -52,22 +52,6 @@ class PlotsTest {
         assertDrawn("precision-chain");
     }
 
-    @Test
-    void drawsAMapForEachScheme() throws IOException {
-        Path csv = file("""
-                scheme,precision,axis,value,second_axis,second_value,status
-                flex,float,dt,1,,,ok
-                flex,float,dt,1,iterations,4,ok
-                flex,float,dt,2,iterations,4,diverged
-                flex,float,dt,10,iterations,4,unstable
-                conserving,float,dt,1,iterations,4,ok
-                """);
-
-        assertThat(StabilityPlot.draw(csv, folder.resolve("plots"))).hasSize(2);
-        assertDrawn("stability-flex-float-dt-iterations");
-        assertDrawn("stability-conserving-float-dt-iterations");
-    }
-
     private static final String ROOFLINE = """
             kind,name,scheme,instruction_set,gflops,gbytes_per_second,intensity
             bandwidth,memory,,avx2,,16,
@@ -131,16 +115,5 @@ class PlotsTest {
 
         assertThatThrownBy(() -> ValidationPlot.draw(csv, folder)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("results-fronts.csv");
-    }
-
-    @Test
-    void refusesAnUnknownStatus() throws IOException {
-        Path csv = file("""
-                scheme,precision,axis,value,second_axis,second_value,status
-                flex,float,dt,1,iterations,4,fine
-                """);
-
-        assertThatThrownBy(() -> StabilityPlot.draw(csv, folder)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("fine");
     }
 }
