@@ -162,5 +162,24 @@ TEST(LawsOfMotion, GoOnFromWhatASceneHadBecome) {
     for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(live.frame()) << sentence_of(*live.instability());
 }
 
+/// A crowded start that has not settled comes apart: it rises, and is no explosion.
+TEST(LawsOfMotion, AreKeptByAStartThatIsCrowded) {
+    for (const int iterations : {4, 128}) {
+        const Scene scene = load_scene("bench/small-tank", json{{"scheme", "conserving"}, {"duration", 0.2}, {"settling", {{"updates", 0}}},
+                                                                {"solver", {{"numIterations", iterations}}}});
+        EXPECT_EQ(evaluate(scene, resting_short_swimmer).stopped, StopReason::completed) << iterations;
+    }
+}
+
+/// Who beats beside the swimmer may be as fast as his own gait makes him.
+TEST(LawsOfMotion, AreKeptByCompanions) {
+    const json body = {{"slices", {{{"height", 3}, {"width", 3}, {"count", 9}}}}, {"joints", {2, 4, 6}}, {"rearCentre", {0.4, 0.4, 1.2}}};
+    const json gait = {{"frequency", 30}, {"amplitude", {2, 2}}, {"phase", {0, 0.5}}};
+    const Scene scene = load_scene("bench/small-tank", json{{"scheme", "conserving"}, {"duration", 0.5}, {"stopping", {{"planeContact", false}}},
+        {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 1.54}, {0, 0, -1, 1.72}}},
+        {"fluid", {{"count", {17, 7, 19}}}}, {"companions", {{{"creature", body}, {"gait", gait}}}}});
+    EXPECT_EQ(evaluate(scene, resting_short_swimmer).stopped, StopReason::completed);
+}
+
 }  // namespace
 }  // namespace natator

@@ -105,6 +105,8 @@ struct LawWatch::Parts {
     explicit Parts(const Model& model) : periodic_gravity((model.parameters.gravity - bounded_gravity(model)).norm()) {
         LawMeasures begin = measure_laws(model, initial_state<double>(model));
         length = model.body.length;
+        for (const CompanionBody& other : model.companions)
+            muscle_speed = std::max(muscle_speed, speed_of(other.gait, other.body.length));
         time_step = model.time_step;
         bool soft = false;
         for (const Cluster& cluster : model.clusters) soft |= cluster.stiffness == 0;
@@ -159,8 +161,18 @@ struct LawWatch::Parts {
         own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
         const double expansion = physics::most_excess * p.substeps / model.time_step;
         const double slow = pull > 0 ? physics::expansion * std::sqrt(pull / spacing) : expansion;
-        own.noise += square(spacing * std::min(expansion, slow)) / 2;
+        const double rate = std::min(expansion, slow);
+        own.noise += square(spacing * rate) / 2;
+        // What comes apart everywhere at this rate: r^2 / 6 is the mean square of the way from the middle, half of it energy.
+        if (own.crowding > 1 + physics::most_excess) own.noise += square(rate * fluid.diagonal().norm()) / 6;
         return own;
+    }
+
+    /// No part of a body of length L that beats f times a second goes faster than 2 pi f L.
+    static double speed_of(const Gait& gait, double length) {
+        double largest = 0;
+        for (const double amplitude : gait.amplitude) largest = std::max(largest, std::abs(amplitude));
+        return 2 * std::numbers::pi * gait.frequency * std::max(1.0, gait.power) * largest * length;
     }
 
     void set(double time) {
@@ -203,12 +215,8 @@ LawWatch::LawWatch(const LawWatch& other) : parts_(std::make_unique<Parts>(*othe
 LawWatch::LawWatch(LawWatch&&) noexcept = default;
 LawWatch& LawWatch::operator=(LawWatch&&) noexcept = default;
 
-/// No part of a body of length L that beats f times a second goes faster than 2 pi f L.
 void LawWatch::drive_by(const Gait& gait) {
-    double largest = 0;
-    for (const double amplitude : gait.amplitude) largest = std::max(largest, std::abs(amplitude));
-    const double speed = 2 * std::numbers::pi * gait.frequency * std::max(1.0, gait.power) * largest * parts_->length;
-    parts_->muscle_speed = std::max(parts_->muscle_speed, speed);
+    parts_->muscle_speed = std::max(parts_->muscle_speed, Parts::speed_of(gait, parts_->length));
     parts_->set(0);
 }
 
