@@ -261,7 +261,8 @@ export class View {
   #stopped(stop) {
     this.#setting.paused = true;
     const text = stop.reason === 'unstable'
-        ? `Became unstable at ${stop.time.toFixed(2)} s (particle ${stop.particle}, ${stop.stage}). Reset to go on.`
+        ? `Became unstable at ${stop.time.toFixed(2)} s (${stop.law && stop.law !== 'finite' ? `broke law ${stop.law}, ` : ''}particle ${
+            stop.particle}, ${stop.stage}). Reset to go on.`
         : stop.reason === 'until' ? 'Came to its end.' : stop.reason;
     this.#handlers.notice(text, stop.reason !== 'until');
     this.#handlers.scene();
