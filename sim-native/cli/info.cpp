@@ -17,6 +17,7 @@
 #include "natator/settled_state_cache.h"
 #include "natator/version.h"
 #include "natator/wave_gait.h"
+#include "physics/constants.h"
 #include "scene/scene_json.h"
 #include "scene/tank_ends.h"
 
@@ -102,6 +103,7 @@ ordered_json describe_scene(const Scene& scene) {
         if (scene.creature->joint == Joint::line) info["joint"] = "line";
         if (scene.creature->skin) info["mesh"] = describe_skin(*scene.creature, model);
     }
+    if (scene.scheme == Scheme::flex && !model.clusters.empty()) info["leastSpacing"] = physics::least_flex_spacing;
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();

@@ -154,6 +154,12 @@ const BadInput bad_scenes[] = {
      "obstacles[1] = {", "elsewhere than obstacles[0]"},
     {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]},{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]}]})",
      "obstacles[1] = {", "elsewhere than obstacles[0]"},
+    // Lengths that a scheme does not tell from none.
+    {R"({"planes":[],"fluid":null,"creature":{"spacing":0.0099}})", "creature.spacing = 0.0099", "at least 0.01 in scheme flex"},
+    {R"({"planes":[],"fluid":null,"companions":[{"creature":{"name":"creature-2","spacing":1e-3,"rearCentre":[5,5,5]}}]})",
+     "companions[0].creature.spacing = 0.001", "at least 0.01 in scheme flex"},
+    {R"({"scheme":"conserving","fluid":null,"creature":{"spacing":3e-7}})", "creature.spacing = 3e-07",
+     "at least 5e-07 beside planes"},
     {R"({"creature":{"name":"zebra"}})", "creature.name", "creature-1, creature-2"},
 };
 
@@ -165,6 +171,19 @@ TEST_P(BadSceneTest, IsRefusedWithOneLineThatNamesTheField) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(bad_scenes));
+
+/// Where no plane is to be touched, scheme conserving has no least length.
+TEST(SceneTest, BodiesMayBeSmallWhereNoLengthIsAbsolute) {
+    const auto load = [](const char* overrides) { return load_scene("thesis/creature-1", nlohmann::json::parse(overrides)); };
+    EXPECT_NO_THROW(load(R"({"planes":[],"fluid":null,"creature":{"spacing":0.01}})"));
+    EXPECT_NO_THROW(load(R"({"scheme":"conserving","fluid":null,"creature":{"spacing":6e-7}})"));
+    EXPECT_NO_THROW(load(R"({"scheme":"conserving","planes":[],"fluid":null,"creature":{"spacing":1e-8}})"));
+    // What a refined body is built of counts.
+    Scene scene = load(R"({"planes":[],"fluid":null,"creature":{"spacing":0.018}})");
+    EXPECT_NO_THROW(build_model(scene));
+    scene.creature->refinement = 2;
+    EXPECT_THROW(build_model(scene), InputError);
+}
 
 /// The parameters that act on cloth only may be written out as 0.
 TEST(SceneTest, ClothParametersMayBeZero) {

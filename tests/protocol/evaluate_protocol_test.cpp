@@ -224,6 +224,24 @@ TEST(EvaluateProtocolTest, AnUnstableRunHasFitnessZeroAndSaysWhere) {
     EXPECT_TRUE(result["unstable"]["particle"].is_number_unsigned());
     EXPECT_TRUE(result["unstable"]["stage"].is_string());
     EXPECT_GE(result["unstable"]["time"].get<double>(), 0);
+    EXPECT_FALSE(result["unstable"]["law"].get<std::string>().empty());
+}
+
+/// In scheme flex light water is thrown out of its tank: that is seen at the end of a frame.
+TEST(EvaluateProtocolTest, WaterBehindAWallIsUnstable) {
+    json asked = request("bench/small-tank", 0.5);
+    asked["overrides"] = json::parse(R"({"stopping":{"planeContact":false,"noProgressAfter":0},
+                                         "fluid":{"mass":{"gradient":"uniform","bottom":0.02}}})");
+    const Outcome outcome = run_simulator({"evaluate"}, asked.dump());
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("is behind a plane"), std::string::npos) << outcome.err;
+    const json unstable = json::parse(outcome.out)["unstable"];
+    EXPECT_EQ(unstable["law"], "tank");
+    EXPECT_EQ(unstable["stage"], "frame");
+    const double frames = unstable["time"].get<double>() * 60;
+    EXPECT_GE(frames, 0.99);
+    EXPECT_NEAR(frames, std::round(frames), 1e-6);
 }
 
 TEST(EvaluateProtocolTest, ASceneWithoutActuatorsNeedsNoGait) {

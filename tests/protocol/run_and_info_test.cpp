@@ -57,6 +57,8 @@ TEST(InfoTest, DescribesASceneAsJson) {
 // 18 x 0.075 is 1.3499999999999999 to programs, who get what is computed with.
 TEST(InfoTest, PeopleReadNumbersWithoutTheirRounding) {
     EXPECT_NE(run_simulator({"info", "pool/creature-2"}).out.find("\nbodyLength      1.35\n"), std::string::npos);
+    EXPECT_NE(run_simulator({"info", "thesis/creature-2"}).out.find("\nleastSpacing    0.01\n"), std::string::npos);
+    EXPECT_EQ(run_simulator({"info", "pool/creature-2"}).out.find("leastSpacing"), std::string::npos);
     EXPECT_EQ(json::parse(run_simulator({"info", "pool/creature-2", "--json"}).out).at("bodyLength"), 18 * 0.075);
 }
 

@@ -245,6 +245,7 @@ TEST(StreamCommandTest, AnUnstableSceneStopsAndStartsAnewWhenItIsMended) {
     EXPECT_GE(stop["particle"], 0);
     EXPECT_FALSE(stop["stage"].get<std::string>().empty());
     EXPECT_GE(stop["time"], 0.0);
+    EXPECT_FALSE(stop["law"].get<std::string>().empty());
     client.passed();
     for (const char* refused : {"run", "step"})
         EXPECT_NE(client.ask({{"do", refused}})["error"].get<std::string>().find("unstable"), std::string::npos);

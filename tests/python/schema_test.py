@@ -1,11 +1,13 @@
 """stream.schema.json against the program that reads the commands: what one takes the other takes."""
 
+import re
 import unittest
 
 import natator
 from jsonschema import Draft202012Validator
-from schemas import FILES, validator
+from schemas import FILES, ROOT, validator
 
+LAWS = ["finite", "tank", "particle-energy", "energy", "shape", "compression"]
 GAIT = {"frequency": 1, "amplitude": [0.5, 0.5], "phase": [0, 0.5]}
 
 TAKEN = [
@@ -61,6 +63,25 @@ class SchemaTest(unittest.TestCase):
                 for command in ({"do": "step", "sense": True}, TAKEN[14]):
                     schema.validate(stream.ask(command)["senses"])
         self.assertFalse(schema.is_valid({}))
+
+    def test_results_that_break_a_law_fit(self):
+        schema = validator("result.schema.json")
+        light = {"stopping": {"planeContact": False, "noProgressAfter": 0}, "fluid": {"mass": {"gradient": "uniform", "bottom": 0.02}}}
+        with natator.Simulator() as simulator:
+            for law, scene, overrides in [("tank", "bench/small-tank", light),
+                                          ("any", "thesis/creature-1", {"solver": {"relaxationMode": "global"}})]:
+                with self.subTest(scene):
+                    result = simulator.evaluate(scene, GAIT, duration=0.5, overrides=overrides)
+                    schema.validate(result)
+                    self.assertEqual((result["status"], result["fitness"], result["distance"]), ("unstable", 0, None))
+                    self.assertIn(result["unstable"]["law"], ([law] if law == "tank" else LAWS))
+                    result["unstable"]["law"] = "inertia"
+                    self.assertFalse(schema.is_valid(result))
+
+    def test_every_law_is_explained(self):
+        page = (ROOT / "sim-native/docs/results.md").read_text()
+        table = page[page.index("### The laws"):page.index("## How far")]
+        self.assertEqual(re.findall(r"^\| `([a-z-]+)` \|", table, re.MULTILINE)[1:], LAWS)
 
 
 if __name__ == "__main__":

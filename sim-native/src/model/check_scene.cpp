@@ -107,6 +107,7 @@ void check_scene(const Scene& scene) {
     if (scene.creature) check_creature(*scene.creature, check.at("creature."));
     for (std::size_t k = 0; k < scene.companions.size(); ++k)
         check_creature(scene.companions[k].creature, check.at("companions[" + std::to_string(k) + "].creature."));
+    fields::check_bodies(scene, place);
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
         check_obstacle(scene.obstacles[k], check.at("obstacles[" + std::to_string(k) + "]."));
 }

@@ -25,6 +25,8 @@ inline constexpr double largest_shock_exponent = 20;  ///< keeps the ratio of ma
 // Limits.
 inline constexpr double thesis_substep = 1.0 / 240;       ///< h0, s: what stiffness and cohesion are measured at
 inline constexpr double overlap_tolerance = 0.1;          ///< of rest density or distance held: no overlap up to it
+inline constexpr double least_flex_spacing = 0.01;        ///< of a body in scheme `flex`, length: a thousand times centre_dead_band
+inline constexpr double least_touch_spacing = 5e-7;       ///< of a body beside planes, length: below it measured_touch is further than a particle
 inline constexpr double touching_tolerance = 1e-4;        ///< of the radius: counts as touching a plane
 
 }  // namespace natator::physics

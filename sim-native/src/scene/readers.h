@@ -19,6 +19,8 @@ void check_plane(const Plane& plane, const Place& place);
 /// Throws InputError if scheme `conserving` cannot compute the water of a scene: with this viscosity at this time step, beside
 /// planes that meet like these, and by its modified pressure in this tank.
 void check_water(const Scene& scene, const Place& place);
+/// Throws InputError if a body's particles are nearer to each other than lengths that the scheme does not tell from none.
+void check_bodies(const Scene& scene, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
 /// `data` as in SceneOptions.
 Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data);

@@ -109,6 +109,7 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     fields::check_water(scene, place);
+    fields::check_bodies(scene, place);
     if (fields::has(document, "periodic"))
         scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(),
                                                scene.planes);

@@ -144,7 +144,7 @@ answer() {
     unstable)
         printf '{"id":%s,"status":"unstable","fitness":0,"distance":null,"stopped":"unstable","simulated":0.5,' "$id"
         printf '"frames":30,"scheme":"flex","precision":"float",'
-        printf '"unstable":{"particle":17,"stage":"predict","time":0.5}}\n'
+        printf '"unstable":{"particle":17,"stage":"frame","time":0.5,"law":"tank"}}\n'
         [[ $mode = serve ]] || exit 3
         ;;
     rejected)

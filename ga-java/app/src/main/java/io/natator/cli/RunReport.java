@@ -10,6 +10,7 @@ import io.natator.evolution.GenerationSummary;
 import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.FreshText;
+import io.natator.verdict.Refusals;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
 import java.io.PrintWriter;
@@ -38,6 +39,7 @@ final class RunReport {
     void print(EvolutionSettings settings, EvolutionState state, BestGait best, Path folder) {
         if (best == null) {
             out.println("no gait was measured in " + Numbers.count(state.evaluations(), "evaluation") + ": unstable, refused or failed");
+            printRefusals(state);
             return;
         }
         out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after "
@@ -73,6 +75,7 @@ final class RunReport {
         if (verdict.advice() != null) {
             line("", verdict.advice());
         }
+        printRefusals(state);
         printFailures(state, folder);
         line("watch it", ProgramName.asCalled() + " view --run " + ShellWord.of(folder));
         line("share it", ProgramName.asCalled() + " page " + ShellWord.of(folder));
@@ -86,6 +89,14 @@ final class RunReport {
                 ? number(vacuum.distance()) + " in " + Numbers.fixed(vacuum.simulated(), 2) + " s, "
                         + number(vacuum.speed()) + " units/s"
                 : "no result: " + (vacuum.error() != null ? vacuum.error() : vacuum.status()));
+    }
+
+    /** Evaluations that broke laws of mechanics, from which nothing is selected. */
+    private void printRefusals(EvolutionState state) {
+        String refused = Refusals.of(state);
+        if (refused != null) {
+            line("unstable", refused);
+        }
     }
 
     /** A search that lacks some answers may end elsewhere than one that has them. */

@@ -239,6 +239,7 @@ class BadUsageTest extends FakeSimulatorTest {
     @ValueSource(strings = {"report", "check"})
     void withoutABestGaitIsOneLine(String command) throws IOException {
         assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
+        assertThat(out.toString()).contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
         forget();
 

@@ -80,12 +80,12 @@ class WholeReportTest {
         best.remove(List.of("fresh", "vacuum"));
         best.put("distance", 0).put("speed", 0).set("result", Json.parse("{\"id\":3,\"status\":\"unstable\",\"stopped\":\"unstable\","
                 + "\"distance\":null,\"simulated\":0.05,\"frames\":3,\"scheme\":\"conserving\",\"precision\":\"float\","
-                + "\"unstable\":{\"particle\":7,\"stage\":\"springs\",\"time\":0.05}}", JsonNode.class));
+                + "\"unstable\":{\"particle\":7,\"stage\":\"frame\",\"time\":0.05,\"law\":\"shape\"}}", JsonNode.class));
         Files.writeString(file, Json.document(best));
 
         String page = report();
 
-        assertThat(page).startsWith("# pool/creature-1, seed 1\n\n**The best gait is not judged: unstable at 0.05 s**")
+        assertThat(page).startsWith("# pool/creature-1, seed 1\n\n**The best gait is not judged: unstable at 0.05 s (broke law shape)**")
                 .doesNotContain("NaN", "null").contains("`natator check " + run + "` runs them");
         assertThat(outcomes(page)).containsExactly("way, one run ✘", "half the time step –", "without water –", "resting muscles –",
                 "mirrored –");

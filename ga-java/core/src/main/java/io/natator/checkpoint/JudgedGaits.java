@@ -32,6 +32,7 @@ public final class JudgedGaits {
         private final int number = numbers++;
         private Estimate estimate = new Estimate(0, List.of());
         private boolean measured;
+        private boolean unstable;
         /** Made when it is asked for. */
         private Swimmer swimmer;
 
@@ -44,11 +45,12 @@ public final class JudgedGaits {
             runs.add(result.score());
             estimate = new Estimate(settings.judge().of(runs), runs);
             measured |= result.status() == SimulationResult.Status.OK;
+            unstable |= result.status() == SimulationResult.Status.UNSTABLE;
         }
 
-        /** Whether it has all the runs of a newborn, and swam in one. */
+        /** Whether it has all the runs of a newborn, swam in one, and was unstable in none. */
         boolean counts() {
-            return measured && estimate.runs().size() >= settings.starts();
+            return measured && !unstable && estimate.runs().size() >= settings.starts();
         }
 
         JudgedGait judged() {

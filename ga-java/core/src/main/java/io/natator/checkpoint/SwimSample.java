@@ -83,6 +83,11 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         return known.isEmpty() ? null : Spread.of(known).mean();
     }
 
+    /** How many of its runs broke a law of mechanics. */
+    public int unstable() {
+        return stopped.getOrDefault("unstable", 0);
+    }
+
     /** Whether most of its runs ended by touching a wall. */
     public boolean endsAtWall() {
         return mostlyStopped().equals(SimulationResult.AT_WALL);

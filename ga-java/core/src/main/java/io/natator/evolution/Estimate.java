@@ -1,22 +1,25 @@
 package io.natator.evolution;
 
+import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.Judge;
 import io.natator.simulator.Effort;
 import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 
 /**
  * What a gait is worth, by runs from several starts.
  *
- * @param score      the worth
+ * @param score      the worth; of a gait that was unstable in any run that of its worst run, and never more than 0
  * @param runs       what each run was worth, in the order in which they were made
  * @param objectives means by each of the run's objectives; null where it has none
  * @param effort     what the runs that were measured took together; null where nobody asked
+ * @param unstable   how many runs broke a law of mechanics; null if none did
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Estimate(double score, List<Double> runs, List<Double> objectives, Effort effort) {
+public record Estimate(double score, List<Double> runs, List<Double> objectives, Effort effort, Integer unstable) {
 
     /** Copies the lists. */
     public Estimate {
@@ -26,7 +29,7 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
 
     /** By what the runs were worth alone. */
     public Estimate(double score, List<Double> runs) {
-        this(score, runs, null, null);
+        this(score, runs, null, null, null);
     }
 
     /** By these runs, at least one. */
@@ -38,7 +41,21 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
     Estimate with(List<SimulationResult> more, Judge judge) {
         List<Double> all = new ArrayList<>(runs);
         more.forEach(one -> all.add(one.score()));
-        return new Estimate(judge.of(all), all, means(more), sum(more));
+        int broken = (int) more.stream().filter(one -> one.status() == SimulationResult.Status.UNSTABLE).count()
+                + (unstable == null ? 0 : unstable);
+        return new Estimate(broken == 0 ? judge.of(all) : Math.min(Collections.min(all), 0), all, means(more), sum(more),
+                broken == 0 ? null : broken);
+    }
+
+    /** The same, of a gait that was unstable in a run that is not among these. */
+    Estimate refused() {
+        return isStable() ? new Estimate(Math.min(Collections.min(runs), 0), runs, objectives, effort, 1) : this;
+    }
+
+    /** Whether every run kept to the laws of mechanics; what does not is worth nothing by its other runs. */
+    @JsonIgnore
+    public boolean isStable() {
+        return unstable == null;
     }
 
     private Effort sum(List<SimulationResult> more) {

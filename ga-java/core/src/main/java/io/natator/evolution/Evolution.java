@@ -12,6 +12,8 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Objects;
 import java.util.Set;
+import java.util.SortedMap;
+import java.util.TreeMap;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
@@ -102,16 +104,19 @@ public final class Evolution {
     private EvolutionState finish(EvolutionState before, List<Individual> bred) {
         List<Individual> population = bred;
         List<Individual> champions = null;
+        List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
         List<Individual> natives = bred.stream().filter(exchange::isNative).toList();
         if (settings.starts() > 1) {
-            Race race = new Race(settings, this::repeat, natives, before == null ? List.of() : before.champions());
+            Race race = new Race(settings, this::repeat, natives, before == null ? List.of() : before.champions(),
+                    before == null || before.refused() == null ? List.of() : before.refused());
             champions = race.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
                 champions = race.useUp((int) budgetLeft());
             }
             population = bred.stream().map(race::known).toList();
             best = race.winner();
+            refused = race.refused();
         } else {
             for (Individual individual : natives) {
                 if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
@@ -121,8 +126,9 @@ public final class Evolution {
         }
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, population, simulated.size(),
-                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)).withUnchanged(unchanged(population)));
-        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions);
+                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)).withUnchanged(unchanged(population))
+                .withLaws(broken()));
+        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions, refused);
         listeners.forEach(listener -> listener.generationFinished(state));
         return state;
     }
@@ -242,6 +248,14 @@ public final class Evolution {
 
     private int count(SimulationResult.Status status) {
         return (int) simulated.stream().filter(result -> result.status() == status).count();
+    }
+
+    /** How many broke which law. */
+    private SortedMap<String, Integer> broken() {
+        SortedMap<String, Integer> laws = new TreeMap<>();
+        simulated.stream().map(SimulationResult::brokenLaw).filter(Objects::nonNull)
+                .forEach(law -> laws.merge(law, 1, Integer::sum));
+        return laws;
     }
 
     private void failIfMostFailed() {

@@ -18,9 +18,12 @@ import java.util.Objects;
  *                    the surest of the champions; null if none was measured
  * @param history     one summary per finished generation
  * @param champions   the best gaits of all generations, which are run again in each; null with a single start
+ * @param refused     genes of those that were unstable in some of their runs alone: born again, they are judged by those runs too; null
+ *                    without any
  */
 public record EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
-        List<GenerationSummary> history, @JsonInclude(JsonInclude.Include.NON_NULL) List<Individual> champions) {
+        List<GenerationSummary> history, @JsonInclude(JsonInclude.Include.NON_NULL) List<Individual> champions,
+        @JsonInclude(JsonInclude.Include.NON_NULL) List<List<Double>> refused) {
 
     /**
      * Copies the lists.
@@ -35,6 +38,13 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
                     + generation);
         }
         champions = champions == null ? null : List.copyOf(champions);
+        refused = refused == null ? null : refused.stream().map(List::copyOf).toList();
+    }
+
+    /** Of an evolution in which no gait was unstable in some of its runs. */
+    public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
+            List<GenerationSummary> history, List<Individual> champions) {
+        this(generation, evaluations, population, best, history, champions, null);
     }
 
     /** Of an evolution in which every gait is run once. */

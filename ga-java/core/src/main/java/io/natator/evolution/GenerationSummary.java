@@ -2,8 +2,12 @@ package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonPropertyOrder;
+import io.natator.simulator.SimulationResult;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Map;
+import java.util.SortedMap;
+import java.util.TreeMap;
 
 /**
  * Figures of one generation. Distances are in scene units, negative is backwards, and a chromosome whose evaluation was
@@ -20,17 +24,19 @@ import java.util.List;
  * @param unstable    simulations that became unstable
  * @param failed      simulations without a valid answer
  * @param unchanged   of the chromosomes, those that were not newly simulated; null where an earlier version did not count them
+ * @param laws        of the unstable simulations, how many broke which law; null without any, and where an earlier version looked for
+ *                    nothing but finite numbers
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 @JsonPropertyOrder({"generation", "best", "mean", "median", "worst", "population", "evaluations", "unstable", "failed",
-    "unchanged"})
+    "unchanged", "laws"})
 public record GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
-        int evaluations, int unstable, int failed, Integer unchanged) {
+        int evaluations, int unstable, int failed, Integer unchanged, SortedMap<String, Integer> laws) {
 
     /** A summary without a count of what was unchanged. */
     public GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
             int evaluations, int unstable, int failed) {
-        this(generation, best, mean, median, worst, population, evaluations, unstable, failed, null);
+        this(generation, best, mean, median, worst, population, evaluations, unstable, failed, null, null);
     }
 
     /** Summarises a population, at least one. */
@@ -60,12 +66,28 @@ public record GenerationSummary(int generation, double best, double mean, double
     }
 
     private GenerationSummary withPopulation(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed, unchanged);
+        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed, unchanged, laws);
     }
 
     /** The same with a count of the chromosomes that were not newly simulated. */
     GenerationSummary withUnchanged(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, count);
+        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, count, laws);
+    }
+
+    /** The same with the laws that its simulations broke. */
+    GenerationSummary withLaws(SortedMap<String, Integer> broken) {
+        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, unchanged,
+                broken.isEmpty() ? null : broken);
+    }
+
+    /** How many of its simulations broke which law; those that are not told of by law were not finite. */
+    public SortedMap<String, Integer> brokenLaws() {
+        SortedMap<String, Integer> all = new TreeMap<>(laws == null ? Map.of() : laws);
+        int untold = unstable - all.values().stream().mapToInt(Integer::intValue).sum();
+        if (untold > 0) {
+            all.merge(SimulationResult.Instability.FINITE, untold, Integer::sum);
+        }
+        return all;
     }
 
     /** Chromosomes that were not newly simulated, or as far as that is known. */

@@ -34,9 +34,9 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
         return estimate == null ? result.score() : estimate.score();
     }
 
-    /** The score that selection works with: never negative. */
+    /** The score that selection works with: never negative, and 0 for what was not measured. */
     public double fitness() {
-        return Math.max(score(), 0.0);
+        return isMeasured() ? Math.max(score(), 0.0) : 0.0;
     }
 
     /** What it is worth by each of the run's objectives; null where it has none. */
@@ -54,9 +54,14 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
         return estimate == null ? 1 : estimate.runs().size();
     }
 
-    /** Whether any run came to a distance. */
+    /** Whether it can be selected: any run came to a distance, and none was unstable. */
     boolean isMeasured() {
-        return result.status() == SimulationResult.Status.OK;
+        return result.status() == SimulationResult.Status.OK && isStable();
+    }
+
+    /** Whether none of its runs broke a law of mechanics. */
+    boolean isStable() {
+        return result.status() != SimulationResult.Status.UNSTABLE && (estimate == null || estimate.isStable());
     }
 
     Individual withAge(int newAge) {

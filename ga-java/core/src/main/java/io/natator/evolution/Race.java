@@ -1,11 +1,15 @@
 package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
+import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.Comparator;
 import java.util.LinkedHashMap;
+import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 /**
  * Runs the best gaits so far again from new starts, in each generation. Half of the runs go to the best, so that no gait
@@ -17,8 +21,10 @@ final class Race {
     private final EvolutionSettings settings;
     private final Repeater repeater;
     private final int places;
-    /** All that may be among the best, by their genes, in the order in which they came. */
+    /** All by their genes, in the order in which they came; those that were measured may be among the best. */
     private final Map<List<Double>, Individual> field = new LinkedHashMap<>();
+
+    private final Set<List<Double>> refused = new LinkedHashSet<>();
 
     /** Runs gaits again. */
     @FunctionalInterface
@@ -39,19 +45,26 @@ final class Race {
      *
      * @param population its individuals
      * @param champions  of the generation before
+     * @param refused    genes of those that were unstable in some of their runs
      */
-    Race(EvolutionSettings settings, Repeater repeater, List<Individual> population, List<Individual> champions) {
+    Race(EvolutionSettings settings, Repeater repeater, List<Individual> population, List<Individual> champions,
+            Collection<List<Double>> refused) {
         this.settings = settings;
         this.repeater = repeater;
         this.places = Math.max(settings.elites(), 1);
+        this.refused.addAll(refused);
         population.forEach(this::enter);
         champions.forEach(this::enter);
     }
 
-    private void enter(Individual one) {
-        if (one.isMeasured()) {
-            field.merge(one.genes(), one, (known, other) -> other.runs() >= known.runs() ? other : known);
+    /** Who was unstable stays known, but is no more ranked: the runs before must not win for it. */
+    private void enter(Individual entering) {
+        Individual one = refused.contains(entering.genes()) ? entering.withEstimate(entering.estimate().refused()) : entering;
+        if (!one.isStable() && one.result().status() == SimulationResult.Status.OK) {
+            refused.add(one.genes());
         }
+        field.merge(one.genes(), one, (known, other) -> !known.isStable() ? known
+                : !other.isStable() || other.runs() >= known.runs() ? other : known);
     }
 
     /**
@@ -86,6 +99,11 @@ final class Race {
                 : champions.get(Surest.of(champions.stream().map(Individual::estimate).toList()));
     }
 
+    /** Genes of those that were unstable in some of their runs, up to now; null without any. */
+    List<List<Double>> refused() {
+        return refused.isEmpty() ? null : List.copyOf(refused);
+    }
+
     /** An individual as it is known now. */
     Individual known(Individual one) {
         Individual known = field.get(one.genes());
@@ -98,6 +116,7 @@ final class Race {
 
     private List<Individual> ranked() {
         List<Individual> ranked = new ArrayList<>(field.values());
+        ranked.removeIf(one -> !one.isMeasured());
         ranked.sort(Comparator.comparingDouble(Individual::score).reversed());
         return ranked;
     }

@@ -8,7 +8,7 @@ import java.util.function.Consumer;
 
 /**
  * Measures, beside each distance swum forwards, what the same gait drifts in vacuum in the same time. What swims
- * backwards is not measured there: it has no distance to take a drift off.
+ * backwards is not measured there: it has no distance to take a drift off. What is unstable in vacuum is unstable.
  */
 public final class NetEvaluator implements Evaluator {
 
@@ -41,8 +41,11 @@ public final class NetEvaluator implements Evaluator {
         if (vacuum.status() == SimulationResult.Status.OK) {
             return water.withVacuumDrift(vacuum.distance());
         }
-        return SimulationResult.failed(water.id(), "in vacuum: "
-                + (vacuum.error() != null ? vacuum.error() : "unstable at " + vacuum.simulated() + " s"));
+        if (vacuum.status() == SimulationResult.Status.UNSTABLE) {
+            // No drift is known to take off, so the distance is worth nothing.
+            return vacuum.withId(water.id()).withError("in vacuum: " + vacuum.whyUnstable());
+        }
+        return SimulationResult.failed(water.id(), "in vacuum: " + vacuum.error());
     }
 
     @Override

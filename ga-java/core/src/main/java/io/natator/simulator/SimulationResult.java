@@ -3,6 +3,7 @@ package io.natator.simulator;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
+import io.natator.config.Numbers;
 import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
 import java.util.Objects;
@@ -21,8 +22,9 @@ import java.util.Objects;
  * @param scheme    the scheme used, or null if it failed
  * @param precision the floating-point type used, or null if it failed
  * @param hash      hash of the final state, 16 hexadecimal digits, or null
- * @param unstable  with {@code unstable}: where; else null
- * @param error     with {@code error}, {@code failed} and {@code refused}: why, in one line; else null
+ * @param unstable  with {@code unstable}: where, and which law was broken; else null
+ * @param error     with {@code error}, {@code failed} and {@code refused}: why, in one line; with {@code unstable} that it was in
+ *                  vacuum; else null
  * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
  * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
  * @param course    where it went by its own heading, or null: not of every program
@@ -75,7 +77,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         /** Simulated to the end or to an early stop. */
         @JsonProperty("ok")
         OK,
-        /** A particle's state became infinite or undefined. */
+        /** It broke a law of mechanics: what it came to is impossible, so it has no distance. */
         @JsonProperty("unstable")
         UNSTABLE,
         /** The simulator refused the request. */
@@ -90,14 +92,24 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     }
 
     /**
-     * The first bad value of an unstable simulation.
+     * Where a simulation became unstable.
      *
-     * @param particle index of the particle
-     * @param stage    stage of the step
+     * @param particle index of the particle that broke the law, or had the largest share in it
+     * @param stage    stage of the step; {@code frame} or {@code settling} of a law that is looked at after those
      * @param time     simulated time in seconds
+     * @param law      that it broke; null from programs that looked for nothing but finite numbers
      */
     @JsonIgnoreProperties(ignoreUnknown = true)
-    public record Instability(int particle, String stage, double time) {
+    @JsonInclude(JsonInclude.Include.NON_NULL)
+    public record Instability(int particle, String stage, double time, String law) {
+
+        /** The law that all programs know. */
+        public static final String FINITE = "finite";
+
+        /** The law that was broken: one that is not told is {@link #FINITE}. */
+        public String lawOrFinite() {
+            return law == null ? FINITE : law;
+        }
     }
 
     /** The record of an evaluation that got no valid answer. */
@@ -108,6 +120,18 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** The record of a body that was not simulated. */
     public static SimulationResult refused(long id, String reason) {
         return new SimulationResult(id, Status.REFUSED, null, null, null, null, null, null, null, null, reason);
+    }
+
+    /** The law that an unstable simulation broke; null of any other. */
+    public String brokenLaw() {
+        return status != Status.UNSTABLE ? null : unstable == null ? Instability.FINITE : unstable.lawOrFinite();
+    }
+
+    /** What became of an unstable simulation, in words: when it ended and which law it broke. */
+    public String whyUnstable() {
+        Double time = unstable != null ? Double.valueOf(unstable.time()) : simulated;
+        return "unstable" + (time == null ? "" : " at " + Numbers.fixed(time, 2) + " s")
+                + (unstable == null || unstable.law() == null ? "" : " (broke law " + unstable.law() + ")");
     }
 
     /** This result with what it is worth. */
@@ -128,9 +152,9 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return worth != null ? worth : goals != null ? goalScore() : netDistance();
     }
 
-    /** The weighted sum of the scores of the scene's goals; 0 without any. */
+    /** The weighted sum of the scores of the scene's goals; 0 without any, and where the evaluation was unstable or failed. */
     public double goalScore() {
-        return goals == null ? 0 : goals.stream().mapToDouble(goal -> goal.weight() * goal.score()).sum();
+        return goals == null || status != Status.OK ? 0 : goals.stream().mapToDouble(goal -> goal.weight() * goal.score()).sum();
     }
 
     /**

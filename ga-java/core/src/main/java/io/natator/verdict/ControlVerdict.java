@@ -66,9 +66,23 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (!HalfStep.agrees(1, left(controls.halfStep(), controls))) {
             doubts.add("at half the time step it has " + percent(left(controls.halfStep(), controls)) + " of its way");
         }
+        unstable(doubts, "", controls.water());
+        unstable(doubts, " at rest", controls.resting());
+        unstable(doubts, " in vacuum", controls.vacuum());
+        unstable(doubts, " without the acceleration clamp", clampOff);
+        unstable(doubts, " at half the time step", controls.halfStep());
+        unstable(doubts, " mirrored", controls.mirrored());
+        unstable(doubts, " on " + controls.backend(), controls.otherBackend());
         doubt(doubts, "mirrored", controls.mirrored(), controls);
         doubt(doubts, "on " + controls.backend(), controls.otherBackend(), controls);
         return doubts;
+    }
+
+    /** What breaks laws of mechanics under any condition is not judged by its other runs. */
+    private static void unstable(List<String> doubts, String where, SwimSample sample) {
+        if (sample != null && sample.unstable() > 0) {
+            doubts.add(Verdict.instability(sample) + where);
+        }
     }
 
     private static void doubt(List<String> doubts, String where, SwimSample sample, Controls controls) {

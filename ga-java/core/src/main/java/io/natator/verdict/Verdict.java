@@ -8,6 +8,7 @@ import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
+import java.util.List;
 import java.util.Locale;
 
 /**
@@ -135,14 +136,24 @@ public record Verdict(Kind kind, String text, String advice) {
     /** Why fresh runs do not show that it swims; null if they do. */
     private static String doubt(FreshRuns fresh, Length length) {
         SwimSample base = fresh.base();
+        for (SwimSample sample : fresh.halfStep() == null ? List.of(base) : List.of(base, fresh.halfStep())) {
+            if (sample.unstable() > 0) {
+                return instability(sample) + (sample == base ? "" : " at half the time step");
+            }
+        }
         if (!getsFar(base.distance().mean(), base.distance().standardError(base.runs()), length.unit())) {
             return "the runs differ too much to tell";
         }
-        int unmeasured = base.stopped().getOrDefault("unstable", 0) + base.stopped().getOrDefault("failed", 0);
-        if (2 * unmeasured > base.runs()) {
-            return unmeasured + " of " + base.runs() + " runs were unstable or failed";
+        int failed = base.stopped().getOrDefault("failed", 0);
+        if (2 * failed > base.runs()) {
+            return failed + " of " + base.runs() + " runs failed";
         }
         return fresh.halfStep() == null ? null : HalfStep.doubt(base.distance().mean(), fresh.halfStep().distance().mean());
+    }
+
+    /** How many of the runs were unstable, which one is enough to doubt. */
+    static String instability(SwimSample sample) {
+        return sample.unstable() + " of " + Numbers.count(sample.runs(), "run") + (sample.unstable() == 1 ? " was" : " were") + " unstable";
     }
 
     /**
@@ -177,7 +188,7 @@ public record Verdict(Kind kind, String text, String advice) {
 
     private static String why(SimulationResult result) {
         return result.error() != null ? result.error() : result.status() == SimulationResult.Status.UNSTABLE
-                ? "unstable at " + seconds(result.simulated()) : result.status().name().toLowerCase(Locale.ROOT);
+                ? result.whyUnstable() : result.status().name().toLowerCase(Locale.ROOT);
     }
 
     private static String seconds(double simulated) {

@@ -65,7 +65,7 @@ class ProcessSimulatorTest {
         assertThat(result.status()).isEqualTo(Status.UNSTABLE);
         assertThat(result.distance()).isNull();
         assertThat(result.fitness()).isZero();
-        assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "predict", 0.5));
+        assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "frame", 0.5, "tank"));
     }
 
     @ParameterizedTest

@@ -3,12 +3,14 @@ package io.natator.verdict;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Judge;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
+import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -81,6 +83,56 @@ class VerdictTest {
         assertThat(FreshText.of(best).get("selected")).isEqualTo("9.0000 by one run, 1.0000 again: selection loss 88.9 %");
     }
 
+    /** One run that broke a law of mechanics is enough: the others do not swim for it. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {"1|0|; 1 of 4 runs was unstable", "2|0|; 2 of 4 runs were unstable",
+        "0|1|; 1 of 4 runs was unstable at half the time step", "0|0|''"})
+    void noVerdictByTheOtherRunsOfAGaitThatWasUnstable(int base, int half, String doubt) {
+        FreshRuns fresh = FreshRuns.of(4.0, runs(base), runs(half), Judge.MEAN, 9, 1, List.of(1.0));
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 9, 9, result(9, "completed", 4, "conserving"),
+                LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
+
+        assertThat(Verdict.of(best).text()).endsWith("in vacuum" + doubt);
+        assertThat(Verdict.of(best).kind()).isEqualTo(doubt.isEmpty() ? Verdict.Kind.SWIMS : Verdict.Kind.UNPROVEN);
+    }
+
+    /** Nor by any condition of the controls. */
+    @ParameterizedTest
+    @CsvSource({"0, ''", "1, ' at rest'", "2, ' in vacuum'", "3, ' at half the time step'", "4, ' mirrored'", "5, ' on cuda'", "-1,"})
+    void noVerdictOfControlsBesideAnUnstableOne(int which, String where) {
+        SwimSample[] samples = new SwimSample[6];
+        for (int i = 0; i < samples.length; i++) {
+            boolean still = i == 1 || i == 2;
+            samples[i] = still ? SwimSample.of(List.of(result(0, "completed", 4, "conserving"), i == which ? unstable("shape")
+                    : result(0, "completed", 4, "conserving")), 4, GAIT, 4.0, LENGTH) : runs(i == which ? 1 : 0);
+        }
+        ControlVerdict verdict = ControlVerdict.of(new Controls(GAIT, null, "conserving", 4.0, LENGTH, samples[0], samples[1], samples[2], null,
+                samples[3], samples[4], samples[5], "cuda", null));
+
+        if (where == null) {
+            assertThat(verdict.kind()).as(verdict.text()).isEqualTo(Verdict.Kind.SWIMS);
+        } else {
+            assertThat(verdict.kind()).isEqualTo(Verdict.Kind.UNPROVEN);
+            assertThat(verdict.text()).contains(which == 1 || which == 2 ? "1 of 2 runs was unstable" + where : "1 of 4 runs was unstable" + where);
+        }
+    }
+
+    private static final Gait GAIT = new Gait(1, List.of(0.1), List.of(0.0));
+
+    /** Four runs that go far, so many of them unstable. */
+    private static SwimSample runs(int unstable) {
+        List<SimulationResult> all = new ArrayList<>();
+        for (int i = 0; i < 4; i++) {
+            all.add(i < unstable ? unstable("tank") : result(2.5, "completed", 4, "conserving"));
+        }
+        return SwimSample.of(all, 4, GAIT, 4.0, LENGTH);
+    }
+
+    private static SimulationResult unstable(String law) {
+        return new SimulationResult(0L, Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float", null,
+                new SimulationResult.Instability(1, "frame", 0.5, law), null);
+    }
+
     @Test
     void aCheatIsToldWhatToTry() {
         assertThat(Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
@@ -126,9 +178,8 @@ class VerdictTest {
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; not run in vacuum yet");
         assertThat(Verdict.of(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; no result in vacuum, no answer");
-        SimulationResult unstable = new SimulationResult(0L, Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float",
-                null, new SimulationResult.Instability(1, "predict", 0.5), null);
-        assertThat(Verdict.of(unstable, null, LENGTH)).extracting(Verdict::kind, Verdict::text)
+        assertThat(Verdict.of(unstable("tank"), null, LENGTH).text()).isEqualTo("not judged: unstable at 0.50 s (broke law tank)");
+        assertThat(Verdict.of(unstable(null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
                 .containsExactly(Verdict.Kind.UNPROVEN, "not judged: unstable at 0.50 s");
     }
 }

@@ -26,6 +26,7 @@ import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Measure;
 import io.natator.verdict.Reproduction;
+import io.natator.verdict.Refusals;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
 import java.io.IOException;
@@ -124,6 +125,10 @@ public final class GaitReport {
         if (facts.containsKey("cost")) {
             String cost = facts.get("cost");
             sentences.add(cost.substring(0, 1).toUpperCase(Locale.ROOT) + cost.substring(1) + ".");
+        }
+        String refused = Refusals.of(run.state());
+        if (refused != null) {
+            sentences.add("The run " + refused + ".");
         }
         sentences.add(difference != null ? difference + "." : verdict.advice() != null ? "To go on: " + verdict.advice() + "." : "");
         return sentences;

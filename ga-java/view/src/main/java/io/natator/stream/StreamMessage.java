@@ -48,7 +48,7 @@ public sealed interface StreamMessage {
      * {@code STOP}: the simulation has stopped by itself.
      *
      * @param reason {@code until} or {@code unstable}
-     * @param detail the whole message, with particle, stage and time of what became unstable
+     * @param detail the whole message, with particle, stage, time and law of what became unstable
      * @param json   the same as the simulator wrote it, one line
      */
     record Stop(String reason, JsonNode detail, String json) implements StreamMessage {

@@ -65,6 +65,16 @@ class ModulesTest extends BrowserTest {
         assertThat(said).isEqualTo("like none; e 0.12");
     }
 
+    @Test
+    void anUnstableSwimTellsTheLawThatItBroke() {
+        Object told = with("protocol.js", """
+                ({stopText}) => [{reason: 'unstable', time: 1.5, particle: 7, stage: 'frame', law: 'tank'},
+                    {reason: 'unstable', time: 0.25, particle: 3, stage: 'springs'}, {reason: 'until'}].map(stopText).join(' ')""");
+
+        assertThat(told).isEqualTo("Became unstable at 1.50 s (broke law tank, particle 7, frame). Reset to go on. "
+                + "Became unstable at 0.25 s (particle 3, springs). Reset to go on. Came to its end.");
+    }
+
     /** What steers a gait is a part of it: in files, where gaits are told apart, and of one that is still. */
     @Test
     void aGaitHasAnOffset() {

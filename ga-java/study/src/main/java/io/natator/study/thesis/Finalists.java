@@ -11,6 +11,7 @@ import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
+import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
@@ -46,6 +47,11 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
             return new Finalist(judged.swimmer().gait(), judged.score(), judged.runs());
         }
 
+        /** Whether it was unstable in any of these runs. */
+        private boolean isUnstable(List<EvaluationRecord> since) {
+            return since.stream().anyMatch(one -> gait.equals(one.gait()) && one.result().status() == SimulationResult.Status.UNSTABLE);
+        }
+
         /** The same gait by these runs, too, of those that are its own. */
         private Finalist with(List<EvaluationRecord> since) {
             List<EvaluationRecord> own = since.stream().filter(one -> gait.equals(one.gait())).toList();
@@ -75,7 +81,8 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
         List<EvaluationRecord> since = isWhole || before.generation == null ? recorded.rows()
                 : recorded.rows().stream().filter(one -> one.generation() > before.generation).toList();
         List<Finalist> gaits = JudgedGaits.ranked(StoredRun.settings(run), since).stream().map(Finalist::of).toList();
-        gaits = isWhole ? gaits : joined(before.gaits.stream().map(one -> one.with(since)).toList(), gaits);
+        gaits = isWhole ? gaits : joined(before.gaits.stream().filter(one -> !one.isUnstable(since))
+                .map(one -> one.with(since)).toList(), gaits);
         if (gaits.isEmpty()) {
             throw new InvalidInputException(run + " has no evaluations any more and no " + FILE + "; delete it to evolve it again");
         }

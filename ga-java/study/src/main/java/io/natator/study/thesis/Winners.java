@@ -10,7 +10,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 
-/** The winners of the evolutions: of each the finalist that goes furthest by all its runs, less a standard error. */
+/** The winners of the evolutions: of each the finalist that goes furthest by all its runs, less a standard error, and is unstable in none. */
 final class Winners {
 
     private final Path directory;
@@ -64,6 +64,9 @@ final class Winners {
 
     private double sureWay(Experiment experiment) {
         List<SimulationResult> results = measurements.results(experiment);
+        if (results.stream().anyMatch(one -> one.status() == SimulationResult.Status.UNSTABLE)) {
+            return Double.NEGATIVE_INFINITY;
+        }
         Sample ways = Sample.of(results.stream().map(SimulationResult::distanceOrZero).toList());
         return ways.mean() - ways.standardError();
     }

@@ -61,3 +61,11 @@ export function decodeFrame(buffer, scene) {
     density: fields.density,
   };
 }
+
+/** Why a simulation stopped by itself, in words. Older programs do not tell the law of mechanics that was broken. */
+export function stopText(stop) {
+  const law = stop.law ? `broke law ${stop.law}, ` : '';
+  return stop.reason === 'unstable'
+      ? `Became unstable at ${stop.time.toFixed(2)} s (${law}particle ${stop.particle}, ${stop.stage}). Reset to go on.`
+      : stop.reason === 'until' ? 'Came to its end.' : stop.reason;
+}

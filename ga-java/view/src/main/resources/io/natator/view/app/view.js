@@ -5,7 +5,7 @@ import {History} from './history.js';
 import {Live} from './live.js';
 import {Meter} from './meter.js';
 import {isSameGait, waveGait} from './gait.js';
-import {decodeFrame, sceneNumber} from './protocol.js';
+import {decodeFrame, sceneNumber, stopText} from './protocol.js';
 import {Stage} from './stage.js';
 
 const VACUUM = '-vacuum';
@@ -260,10 +260,7 @@ export class View {
 
   #stopped(stop) {
     this.#setting.paused = true;
-    const text = stop.reason === 'unstable'
-        ? `Became unstable at ${stop.time.toFixed(2)} s (particle ${stop.particle}, ${stop.stage}). Reset to go on.`
-        : stop.reason === 'until' ? 'Came to its end.' : stop.reason;
-    this.#handlers.notice(text, stop.reason !== 'until');
+    this.#handlers.notice(stopText(stop), stop.reason !== 'until');
     this.#handlers.scene();
   }
 
