@@ -203,8 +203,8 @@ bench::StabilityResult made_worse(const std::string& axis, double value, double 
 /// What starts too close is parted, not flung away.
 TEST(Water, StartsThatOverlapAreBorne) {
     for (const double factor : {0.8, 0.25, 0.01})
-        EXPECT_EQ(made_worse("overlap", factor).verdict, bench::Verdict::ok) << "spacing times " << factor;
-    EXPECT_EQ(made_worse("body-clearance", 0).verdict, bench::Verdict::ok);
+        EXPECT_FALSE(made_worse("overlap", factor).instability) << "spacing times " << factor;
+    EXPECT_FALSE(made_worse("body-clearance", 0).instability);
 }
 
 /// A block squeezed to half its volume, in weightlessness: it is parted, and hardly flies apart.
@@ -224,8 +224,8 @@ TEST(Water, OverlapsArePartedWithoutSpeed) {
 }
 
 TEST(Water, LightBodiesAreBorne) {
-    EXPECT_EQ(made_worse("mass-ratio", 1e-4).verdict, bench::Verdict::ok);
-    EXPECT_EQ(made_worse("mass-ratio", 0.003, 0.2).verdict, bench::Verdict::ok) << "in viscous water";
+    EXPECT_FALSE(made_worse("mass-ratio", 1e-4).instability);
+    EXPECT_FALSE(made_worse("mass-ratio", 0.003, 0.2).instability) << "in viscous water";
 }
 
 /// Only what is too light is made heavier, and only frames that are too long get more substeps.
@@ -247,7 +247,7 @@ TEST(Water, ScenesAreFittedToTheWater) {
 }
 
 TEST(Water, LongTimeStepsAreBorne) {
-    EXPECT_EQ(made_worse("dt", 32).verdict, bench::Verdict::ok);
+    EXPECT_FALSE(made_worse("dt", 32).instability);
 }
 
 /// Images of the water behind walls take part in its forces: what walls do is along their normals.

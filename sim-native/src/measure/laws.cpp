@@ -113,9 +113,12 @@ struct LawWatch::Parts {
         const Sources own = sources(model);
         for (const double inverse_mass : model.inverse_mass) mass += inverse_mass > 0 ? 1 / inverse_mass : 0;
         highest = begin.particle_energy;
-        fallen = speed_margin * speed_margin * (own.start + own.unequal * own.crowding * own.fall + own.noise) + own.forces;
-        gain = mass * (energy_margin * (own.start + own.fall) + (own.crowding - 1) * own.fall + own.forces + own.noise);
-        if (length > 0) most = std::max(square(most_body_lengths * length) / 2, 4 * own.crowding * own.fall);
+        fallen = speed_margin * speed_margin * (own.start + own.unequal * std::max(1.0, own.crowding) * own.fall + own.noise) + own.forces;
+        gain = mass * (energy_margin * (own.start + own.fall) + std::max(0.0, own.crowding - 1) * own.fall + own.forces + own.noise);
+        const double swum = square(most_body_lengths * length) / 2;
+        if (length > 0) most = std::max(swum, 4 * std::max(1.0, own.crowding) * own.fall);
+        // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its motion.
+        if (model.scheme == Scheme::flex && own.crowding == 0) fallen += swum;
         if (model.scheme != Scheme::conserving) gain = std::numeric_limits<double>::infinity();
         first = begin.energy;
         limits.depth = depth_margin * model.parameters.radius;
@@ -127,7 +130,7 @@ struct LawWatch::Parts {
     struct Sources {
         double start = 0;     ///< how fast something begins
         double fall = 0;      ///< over the height of the start, above which crowded water rises
-        double crowding = 1;  ///< how many particles are where one would have room
+        double crowding = 0;  ///< how many particles are where one would have room; 0 without fluid
         double unequal = 1;   ///< the heaviest mass over the lightest, which it can hit
         double forces = 0;    ///< of explicit forces of the water over their range
         double noise = 0;     ///< what corrections of a start leave in velocities, see physics::velocity_limit
