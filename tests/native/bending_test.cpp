@@ -58,9 +58,13 @@ double bending(const Model& model) {
 TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
     const double exact = bending(creature_2_in_vacuum(32, 32, 1));
     EXPECT_GT(exact, 1);  // rad; with rigid muscles and clusters of 0.9 the others are 3 % off
-    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.04);
-    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 16, 1)) / exact, 1, 0.015);
-    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 1)) / exact, 1, 0.015);
+    const auto error = [&](int substeps, int iterations) { return bending(creature_2_in_vacuum(substeps, iterations, 1)) / exact - 1; };
+    // 0.0360 with rotations fitted to the end, however many steps that takes; 0.0276 was told by a fit that ended early.
+    const double coarse = error(8, 8);
+    EXPECT_NEAR(coarse, 0, 0.037);
+    // Twice as many of either leave a quarter, as errors of second order do, and a fifth of that for higher orders.
+    EXPECT_NEAR(error(8, 16), 0, 0.3 * coarse);
+    EXPECT_NEAR(error(16, 8), 0, 0.3 * coarse);
 }
 
 /// Without water nothing but the solids is iterated: 4 iterations of 8 each are 32.
@@ -72,7 +76,9 @@ TEST(Bending, IterationsOfSolidsAreIterations) {
 }
 
 TEST(Bending, IsNearlyTheSameAtHalfTheSpacing) {
-    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 2)) / bending(creature_2_in_vacuum(16, 8, 1)), 1, 0.12);
+    const double part = bending(creature_2_in_vacuum(16, 8, 2)) / bending(creature_2_in_vacuum(16, 8, 1));
+    EXPECT_GT(part, 0.9);  // target of results/water: within 10 %
+    EXPECT_LT(part, 1);    // the coarse lattice of particles is that of a thicker solid
 }
 
 }  // namespace

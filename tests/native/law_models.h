@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
@@ -40,10 +42,27 @@ inline Model lattice_of_water(const Eigen::Vector3i& count, double scale = 1) {
     return model;
 }
 
-/// The same, disordered as scenes are.
-inline Model box_of_water(const Eigen::Vector3i& count, double scale = 1) {
+/// The same, disordered as scenes are; each start otherwise, and start 0 as scenes are.
+inline Model box_of_water(const Eigen::Vector3i& count, double scale = 1, int start = 0) {
     Model model = lattice_of_water(count, scale);
-    disorder_fluid(water_spacing * scale, model);
+    constexpr int seed_of_scenes = 20;
+    disorder_fluid(water_spacing * scale, model, seed_of_scenes + start);
+    return model;
+}
+
+/// A block of water in the corner of a tank without lid, x and z long.
+inline Model block_in_tank(const Eigen::Vector3i& count, double x, double z) {
+    Model model = box_of_water(count);
+    model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, x}, {{0, 0, 1}, 0}, {{0, 0, -1}, z}};
+    return model;
+}
+
+/// One particle of water, without friction and damping.
+inline Model drop_at(const Eigen::Vector3d& place, const Eigen::Vector3d& gravity, const std::vector<Plane>& planes) {
+    Model model = lattice_of_water({1, 1, 1});
+    model.position = {place};
+    model.parameters.gravity = gravity;
+    model.planes = planes;
     return model;
 }
 
@@ -67,10 +86,10 @@ inline Model drop_of_unequal_masses() {
 }
 
 /// A cube of 0.3 of solid particles on the water's lattice, held together by one stiff cluster, in the middle of a box
-/// of water; `density` in units of the water's. The solids come last.
-inline Model cube_in_water(double density, double scale) {
+/// of water; `density` in units of the water's. The solids come last. `start`: as of box_of_water.
+inline Model cube_in_water(double density, double scale, int start = 0) {
     const int width = static_cast<int>(10 / scale), half = static_cast<int>(1.5 / scale), middle = width / 2;
-    Model model = box_of_water({width, width, width}, scale);
+    Model model = box_of_water({width, width, width}, scale, start);
     const double h = water_spacing * scale, low = (middle - half) * h, high = low + 0.3;
     std::vector<Eigen::Vector3d> water;
     for (const Eigen::Vector3d& x : model.position)

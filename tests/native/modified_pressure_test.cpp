@@ -54,19 +54,25 @@ TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
 
 /// 48 deep, in one step of two iterations a frame: without it the water falls into itself.
 TEST(ModifiedPressure, DeepWaterRestsWithTwoIterations) {
-    EXPECT_LE(figures_of("still-water", 48, 1, 2, true).at(0).value, 0.03);
-    EXPECT_GE(figures_of("still-water", 48, 1, 2, false).at(0).value, 0.3);
+    EXPECT_LE(figures_of("still-water", 48, 1, 2, true).at(0).value, 0.02);  // target of results/water: 0.02
+    // Three starts have 0.217 with a deviation of 0.05: three of those are left. It is to miss the target by far.
+    EXPECT_GE(figures_of("still-water", 48, 1, 2, false).at(0).value, 0.07);
 }
 
 TEST(ModifiedPressure, PressureAndDepthOfAColumnAreHydrostatic) {
-    const auto column = figures_of("column", 20, 1, 4, true);
-    EXPECT_NEAR(column.at(0).value, 1, 0.02);
-    EXPECT_NEAR(column.at(1).value, 2, 0.06);
+    const auto column = figures_of("column", 20, 2, 2, true);
+    EXPECT_NEAR(column.at(0).value, 1, 0.02);  // target of results/water: 5 %
+    EXPECT_NEAR(column.at(1).value, 2, 0.04);  // target: 2 %
+    // Four passes in one substep miss that of the depth. What they reach, 1.9496 with a deviation of 0.0001, is told on that page.
+    const auto fast = figures_of("column", 20, 1, 4, true);
+    EXPECT_NEAR(fast.at(0).value, 1, 0.02);
+    EXPECT_GE(fast.at(1).value, 1.949);
+    EXPECT_LE(fast.at(1).value, 2.04);
 }
 
 /// A body as heavy as its water weighs nothing: the force on it, what is carried included, is its weight.
 TEST(ModifiedPressure, BodiesAreAsBuoyantAsEver) {
-    EXPECT_NEAR(figures_of("neutral-sphere", 12, 1, 4, true).at(0).value, 0, 0.02);
+    EXPECT_NEAR(figures_of("neutral-sphere", 12, 1, 4, true).at(0).value, 0, 0.01);  // target: 0.01
 }
 
 /// Its forces are what changes a body's momentum, its lift by the carried pressure among them.

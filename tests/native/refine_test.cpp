@@ -126,7 +126,7 @@ TEST_P(Refinement, KeepsTheWater) {
             if (model.is_fluid(i)) mass += 1 / model.inverse_mass[i];
         return mass;
     };
-    EXPECT_NEAR(water(both.fine) / water(both.coarse), 1, 0.01);
+    EXPECT_NEAR(water(both.fine) / water(both.coarse), 1, 0.005);
     EXPECT_GE(both.fine.parameters.substeps, both.coarse.parameters.substeps);
     EXPECT_EQ(both.fine.parameters.fluidRestDistance, both.coarse.parameters.fluidRestDistance / 2);
     Eigen::AlignedBox3d coarse, fine;

@@ -87,7 +87,9 @@ TEST_P(FluidParameters, SurfaceTensionMakesADropRounder) {
     };
     const double without = oblong(float{});
     model.parameters.surfaceTension = 20;
-    in_both_precisions([&]<class Real>(Real real) { EXPECT_LT(oblong(real), 0.75 * without); });
+    EXPECT_GT(without, 4);
+    // Exact: 1. So many particles fill a ball of radius 0.469, which is round to half a particle: (0.519 / 0.419)^2.
+    in_both_precisions([&]<class Real>(Real real) { EXPECT_LT(oblong(real), 1.53); });
 }
 
 /// Enstrophy of the vortex about z: sum of squared vorticity, estimated over neighbours with a kernel of its own.
@@ -155,7 +157,7 @@ TEST_P(FluidParameters, FreeSurfaceDragActsOnWhatHasFewNeighbours) {
         EXPECT_GT(lacking, 0.2);
         EXPECT_NEAR(alone, 1 / (1 + lacking), 1e-5);
         const double inside = -run<Real>(block, 1).velocity[middle].y();
-        EXPECT_GT(inside, 0.95);
+        EXPECT_GT(inside, 0.99);  // exact: 1, it lacks nothing
         EXPECT_GT(inside, alone + 0.1);
     });
 }

@@ -54,9 +54,10 @@ TEST(Water, ADropKeepsItsMomentum) {
     EXPECT_LE((after.angular - before.angular).norm(), 0.02 * before.angular.norm());
 }
 
-std::vector<bench::WaterFigure> figures_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {
+// Targets are those of results/water.
+std::vector<bench::WaterFigure> figures_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2, int start = 1) {
     return water_figures(water_case, {.scheme = scheme, .precision = Precision::single_precision, .substeps = substeps, .iterations = 4},
-                      resolution);
+                      resolution, start);
 }
 
 bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {
@@ -65,12 +66,14 @@ bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int r
 
 /// p = rho g (H - y), rho = mass per volume of the lattice, in the lower part of the water.
 TEST(Water, PressureIsHydrostatic) {
-    EXPECT_NEAR(figure_of("column", Scheme::conserving, 12).value, 1, 0.05);
+    const auto figures = figures_of("column", Scheme::conserving, 12);
+    EXPECT_NEAR(figures.at(0).value, 1, 0.05);  // target: 5 %
+    EXPECT_NEAR(figures.at(1).value, 2, 0.04);  // the depth; target: 2 %
 }
 
 /// It bounced at 0.08 length/s when it expanded as fast as shallow water.
 TEST(Water, DeepWaterComesToRest) {
-    EXPECT_LE(figure_of("still-water", Scheme::conserving, 48, 8).value, 0.02);
+    EXPECT_LE(figure_of("still-water", Scheme::conserving, 48, 8).value, 0.02);  // target: 0.02
 }
 
 /// A lattice of so many layers, 0.1 apart, under a gravity of 10: E of docs/theory.md 4.4, and a frame of 1/60 s in steps of
@@ -92,12 +95,20 @@ TEST(Water, DeepWaterExpandsSlowly) {
 
 TEST(Water, ViscosityIsWhatItIsSetTo) {
     const bench::WaterFigure viscosity = figure_of("viscous-vortex", Scheme::conserving, 12);
-    EXPECT_NEAR(viscosity.value / viscosity.reference, 1, 0.1);
+    // Target: within 5 %. Relief adds to it, 8 % at resolution 20 and 5.4 % here, with a deviation of 1.1 % over eight starts: three of
+    // those are left.
+    EXPECT_GE(viscosity.value, 0.95 * viscosity.reference);
+    EXPECT_LE(viscosity.value, 1.086 * viscosity.reference);
 }
 
 /// An ideal vortex has all of its amplitude left after a turn, a packing of grains none.
 TEST(Water, AVortexOutlivesATurn) {
-    EXPECT_GE(figure_of("vortex", Scheme::conserving, 12).value, 0.9);
+    const auto figures = figures_of("vortex", Scheme::conserving, 12);
+    // Targets: 0.95 and Re 600 at resolution 20, where they are reached. Eight starts have 0.9435 and Re 332 here, with deviations of
+    // 0.0037 and 16: three of those are left. A gain of energy: at its target at any resolution.
+    EXPECT_GE(figures.at(0).value, 0.932);
+    EXPECT_GE(figures.at(1).value, 283);
+    EXPECT_LE(figures.at(3).value, 0.001);
     EXPECT_LE(figure_of("vortex", Scheme::flex, 12).value, 0.2);
 }
 
@@ -115,7 +126,9 @@ TEST(Water, ANeutralBodyHovers) {
     advance_frames(solver, model, state, 30);  // until the water has closed around it
     const double before = height();
     advance_frames(solver, model, state, 60);
-    EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
+    // Exact: 0; in this time a stone falls by 5. Six starts rise by 0.024 with a deviation of 0.004: three of those are left. It is
+    // what 1 % of its weight does, the target of results/water for a neutral body.
+    EXPECT_NEAR(height(), before, 0.037);
 }
 
 /// A body's particles together get what changes its momentum, its lower half is pushed up and its upper half down; where
@@ -172,22 +185,35 @@ TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
 
 /// A sphere that spins in very viscous water is held back by the third power of the radius at which the water goes with it.
 TEST(Water, WaterGoesWithABodyAtItsSurface) {
-    EXPECT_NEAR(figure_of("spinning-sphere", Scheme::conserving, 12).value, 1, 0.2);
+    // Target: within 10 %, reached at resolution 20. A sphere of 4.8 particles across has 0.854 with a deviation of 0.0042 over eight
+    // starts: three of those are left below, the target above.
+    const double torque = figure_of("spinning-sphere", Scheme::conserving, 12).value;
+    EXPECT_GE(torque, 0.841);
+    EXPECT_LE(torque, 1.1);
 }
 
 /// A packing of grains under pressure would hold a sphere of five particles across that is 1 % too heavy: without
 /// physics::relief it sinks at 0.35 times the speed of one in water.
 TEST(Water, SlowBodiesMoveUnderPressure) {
-    const bench::WaterFigure speed = figure_of("heavier-sphere", Scheme::conserving, 12);
-    EXPECT_GT(speed.value, 0.6 * speed.reference);
+    constexpr int starts = 3;
+    double part = 0;
+    for (int start = 1; start <= starts; ++start) {
+        const bench::WaterFigure speed = figures_of("heavier-sphere", Scheme::conserving, 12, 2, start).at(0);
+        part += speed.value / speed.reference / starts;
+    }
+    // Target: within 20 %. A packing of so few particles lets it sink at 0.70, with a deviation of 0.111 over eight starts (one of them
+    // at 0.565), the mean of three so with 0.064: three of those are left below, the target above.
+    EXPECT_GT(part, 0.51);
+    EXPECT_LT(part, 1.2);
 }
 
-/// Only 6 particles apart, walls still shear the water between them by about the set viscosity, and it goes with them nearly
-/// at their surfaces.
+/// Walls 10 particles apart shear the water between them by the set viscosity, and it goes with them nearly at their surfaces.
 TEST(Water, WallsThatMoveTakeTheWaterAlong) {
-    const auto figures = figures_of("couette", Scheme::conserving, 12);
-    EXPECT_NEAR(figures.at(0).value / figures.at(0).reference, 1, 0.35);
-    EXPECT_NEAR(figures.at(2).value, 0, 0.45);
+    const auto figures = figures_of("couette", Scheme::conserving, 20);  // at 12, 6 apart, walls slip by twice as much
+    EXPECT_NEAR(figures.at(0).value / figures.at(0).reference, 1, 0.05);  // target: 5 %; 1.013 with a deviation of 0.012 over five starts
+    EXPECT_NEAR(figures.at(1).value, 1, 0.05);  // the drag; target: 5 %
+    EXPECT_GE(figures.at(2).value, 0);          // in particle distances; exact: 0
+    EXPECT_LE(figures.at(2).value, 0.19);       // the most that the page on water tells of
 }
 
 /// A short swimmer in a small tank, with one thing made worse.
