@@ -298,7 +298,9 @@ TEST(StabilityTest, QuickSweepGivesFiniteRows) {
         } else if (row[9] != "finite") {
             EXPECT_GT(std::stod(row.back()), 1) << text;
         }
-        if (row[4] == "dt" && row[5] == "1") EXPECT_EQ(row[8], "ok") << text;
+        if (row[4] == "dt" && row[5] == "1") {
+            EXPECT_EQ(row[8], "ok") << text;
+        }
         laws.insert(row[9]);
     }
     EXPECT_TRUE(laws.contains("tank")) << "scheme flex loses its water at 32 times the time step";

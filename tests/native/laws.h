@@ -285,7 +285,9 @@ TYPED_TEST_P(Laws, PathsInVacuumConvergeWithTheTimeStep) {
             // Beside the finest path, errors of first order are C / n - C / 256 with one C. It may fall while terms of higher order
             // count; in errors of order 0.8 it would grow by 2^0.2 from line to line.
             const double factor = error / (1.0 / substeps - 1.0 / finest);
-            if (last > 0) EXPECT_LE(factor, 1.149 * last) << "creature " << creature << ", " << substeps << " substeps";
+            if (last > 0) {
+                EXPECT_LE(factor, 1.149 * last) << "creature " << creature << ", " << substeps << " substeps";
+            }
             last = factor;
         }
     }

@@ -27,6 +27,7 @@ constexpr double energy_margin = 0.1;   ///< of the energy of a fall of all that
 // gives no measure for it, 0.25 surfaceTension at s = 0.1.
 constexpr double cohesion_energy = 1.0 / 32, tension_energy = 5;
 constexpr double corrected_start = 0.01;  ///< of the radius, by constraints in a substep: starts may be shifted by as much
+constexpr double disordered = 1.1;      ///< room in the box around water that is disordered, over what it needs
 constexpr double depth_margin = 1;      ///< of the interaction radius
 constexpr double reach_margin = 3;      ///< of a body's length
 
@@ -158,7 +159,7 @@ struct LawWatch::Parts {
         own.fall = std::max(1.0, std::abs(p.buoyancy)) * (high - low) + pull * p.radius;
         if (count == 0) return own;
         const double room = (fluid.sizes().array() + spacing).prod();
-        own.crowding = std::max(1.0, count * spacing * spacing * spacing / room);
+        own.crowding = std::max(1.0, disordered * model.particles() * spacing * spacing * spacing / room);  // solids take room, too
         own.forces = cohesion_energy * p.cohesion * square(p.radius / physics::thesis_substep);
         if (!(pull > 0)) own.forces += tension_energy * p.surfaceTension * spacing;
         own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
@@ -167,7 +168,7 @@ struct LawWatch::Parts {
         const double rate = std::min(expansion, slow);
         own.noise += square(spacing * rate) / 2;
         // What comes apart everywhere at this rate: r^2 / 6 is the mean square of the way from the middle, half of it energy.
-        if (own.crowding > 1 + physics::most_excess) own.noise += square(rate * fluid.diagonal().norm()) / 6;
+        if (own.crowding > disordered) own.noise += square(rate * fluid.diagonal().norm()) / 6;
         return own;
     }
 
