@@ -22,8 +22,8 @@ sys.path.insert(0, str(ROOT / "sim-native/python"))
 
 import natator  # noqa: E402
 
-LONGEST_SPEED = 100   # body lengths/s, or 60 units/s without a body
-ENERGY_NOISE = 0.1    # of the energy of a fall over the height of the water
+LONGEST_SPEED = 100   # body lengths/s; without a body 60 units/s, or 4 times the speed of a fall where that is more
+ENERGY_NOISE = 0.1    # of the energy of a fall over the height of the water; as much again for its disorder
 # What is drawn for a key of `solver`: (lowest, highest) on a logarithmic scale, both inside sim-native/protocol/scenes.md.
 SOLVER = {
     "substeps": (1, 16), "numIterations": (1, 128), "solidIterations": (1, 16), "dynamicFriction": (1e-2, 100),
@@ -105,7 +105,7 @@ def energy_noise(scene, begin, gravity):
     parting = min(0.05 * substeps, 0.25 * math.sqrt(pull / 0.1) if pull else math.inf)
     radius = solver.get("radius", 0.15)
     forces = solver.get("cohesion", 0) * (240 * radius) ** 2 / 32 + (0 if pull else solver.get("surfaceTension", 0) / 2)
-    return (ENERGY_NOISE + crowding - 1) * fall + forces + (0.1 * parting) ** 2 / 2 + 1e-4
+    return (ENERGY_NOISE + 1.2 * crowding - 1.1) * fall + forces + (0.1 * parting) ** 2 / 2 + 1e-4
 
 
 def fault_of(scene, stream, begin, work):
@@ -114,7 +114,8 @@ def fault_of(scene, stream, begin, work):
     gravity = np.array(solver.get("gravity", [0, -10, 0]), float)
     free = np.array([m is not None for m in stream.scene["mass"]])
     speed = np.sqrt(np.sum(frame.velocity.astype(float) ** 2, axis=1)).max()
-    longest = LONGEST_SPEED * stream.scene["bodyLength"] if "creature" in scene else 60
+    fall = np.ptp(begin.position.astype(float) @ gravity) + 0.15 * np.linalg.norm(gravity)
+    longest = LONGEST_SPEED * stream.scene["bodyLength"] if "creature" in scene else max(60, 4 * math.sqrt(2 * fall))
     if not np.isfinite(speed) or speed > longest:
         return f"a particle has speed {speed:.4g}, more than {longest:.4g}"
     for plane in scene["planes"]:

@@ -168,7 +168,7 @@ struct LawWatch::Parts {
         const double rate = std::min(expansion, slow);
         own.noise += square(spacing * rate) / 2;
         // What comes apart everywhere at this rate: r^2 / 6 is the mean square of the way from the middle, half of it energy.
-        if (own.crowding > disordered) own.noise += square(rate * fluid.diagonal().norm()) / 6;
+        if (own.crowding > 1.02 * disordered) own.noise += square(rate * fluid.diagonal().norm()) / 6;
         return own;
     }
 
