@@ -7,6 +7,7 @@ function(expect_equal what found expected)
     endif()
 endfunction()
 
+unset(ENV{CXXFLAGS})  # of whoever runs the test
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/added -B ${WORK}/build -G Ninja -D CMAKE_BUILD_TYPE=Release
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_EXPORT_COMPILE_COMMANDS=ON -D SOURCE=${SOURCE} -D SUBDIRECTORY=${SUBDIRECTORY})

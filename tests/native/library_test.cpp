@@ -129,7 +129,13 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.fluid = FluidBlock{.count = {2000000000, 2000000000, 2000000000}}; }, "must be at most 16000000"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.spacing = 0}; }, "fluid.spacing = 0: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a number in (0, 1000] (length)"},
-        {[](Scene& scene) { scene.creature->refinement = 65536; }, "30399297484750848 particles"},
+        {[](Scene& scene) { scene.creature->refinement = 65536; }, "creature.spacing = 0.075: must be at least 0.01 at 65536 times"},
+        {[](Scene& scene) {
+             scene.scheme = Scheme::conserving;
+             scene.planes.clear();
+             scene.creature->refinement = 65536;
+         },
+         "30399297484750848 particles"},
         {[](Scene& scene) { scene.creature->slices[0] = {.height = 65536, .width = 65536}; }, "4294967395 particles"},
         {[](Scene& scene) { scene.duration = NAN; }, "duration = NaN: must be a finite number of at least 0"},
         {[](Scene& scene) { scene.obstacles.emplace_back().radius = NAN; }, "obstacles[0].radius = NaN: must be a finite number above 0"},
