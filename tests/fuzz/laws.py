@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "sim-native/python"))
 
 import natator  # noqa: E402
 
-LONGEST_SPEED = 100   # body lengths/s; without a body 60 units/s, or 4 times the speed of a fall where that is more
+LONGEST_SPEED = 100   # body lengths/s; without a body 60 units/s, or where that is more 6 times the speed of a fall from crowded water
 ENERGY_NOISE = 0.1    # of the energy of a fall over the height of the water; as much again for its disorder
 # What is drawn for a key of `solver`: (lowest, highest) on a logarithmic scale, both inside sim-native/protocol/scenes.md.
 SOLVER = {
@@ -95,17 +95,23 @@ def random_scene(chance, scheme):
     return scene, gait
 
 
+def crowding_of(scene):
+    """How many particles of water are where one has room."""
+    return max(1, (0.1 / scene["fluid"]["spacing"]) ** 3) if "fluid" in scene else 1
+
+
 def energy_noise(scene, begin, gravity):
     """What may be gained for each mass, (length/s)^2: noise of the pressure, the rise of crowded water to its rest density, the
     work of cohesion, without gravity of surface tension, and where there is no gravity what parting at 5 % a substep leaves in velocities."""
     solver, substeps = scene["solver"], scene["solver"].get("substeps", 4) / scene.get("timeStep", 1 / 60)
     pull = np.linalg.norm(gravity) * max(1, solver.get("buoyancy", 1))
     fall = (np.ptp(begin.position.astype(float) @ gravity) + 0.15 * np.linalg.norm(gravity)) * max(1, solver.get("buoyancy", 1))
-    crowding = max(1, (0.1 / scene["fluid"]["spacing"]) ** 3) if "fluid" in scene else 1
+    crowding = crowding_of(scene)
     parting = min(0.05 * substeps, 0.25 * math.sqrt(pull / 0.1) if pull else math.inf)
     radius = solver.get("radius", 0.15)
     forces = solver.get("cohesion", 0) * (240 * radius) ** 2 / 32 + (0 if pull else solver.get("surfaceTension", 0) / 2)
-    return (ENERGY_NOISE + 1.2 * crowding - 1.1) * fall + forces + (0.1 * parting) ** 2 / 2 + 1e-4
+    size = 0.1 if crowding == 1 else np.linalg.norm(np.ptp(begin.position, axis=0))  # all of what is crowded comes apart at once
+    return (ENERGY_NOISE + 1.2 * crowding - 1.1) * fall + forces + (size * parting) ** 2 / 2 + 1e-4
 
 
 def fault_of(scene, stream, begin, work):
@@ -114,8 +120,8 @@ def fault_of(scene, stream, begin, work):
     gravity = np.array(solver.get("gravity", [0, -10, 0]), float)
     free = np.array([m is not None for m in stream.scene["mass"]])
     speed = np.sqrt(np.sum(frame.velocity.astype(float) ** 2, axis=1)).max()
-    fall = np.ptp(begin.position.astype(float) @ gravity) + 0.15 * np.linalg.norm(gravity)
-    longest = LONGEST_SPEED * stream.scene["bodyLength"] if "creature" in scene else max(60, 4 * math.sqrt(2 * fall))
+    fall = (np.ptp(begin.position.astype(float) @ gravity) + 0.15 * np.linalg.norm(gravity)) * crowding_of(scene)
+    longest = LONGEST_SPEED * stream.scene["bodyLength"] if "creature" in scene else max(60, 6 * math.sqrt(2 * fall))
     if not np.isfinite(speed) or speed > longest:
         return f"a particle has speed {speed:.4g}, more than {longest:.4g}"
     for plane in scene["planes"]:
