@@ -25,8 +25,8 @@ void check_explicit_forces(const Scene& scene, const Place& place) {
         if (value > most) refuse(place.key("solver").key(key), value, "at most " + computed_text(most) + " (" + why + ", settling included)");
     };
     check("kinematicViscosity", p.kinematicViscosity, physics::most_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
-    check("cohesion", p.cohesion, 0.2 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
-          "0.2 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
+    check("cohesion", p.cohesion, 0.4 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
+          "0.4 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
     check("surfaceTension", p.surfaceTension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");
     check("vorticityConfinement", p.vorticityConfinement, 0.5 * spacing / h, "0.5 fluidRestDistance / longest substep");
     check("relaxationFactor", p.relaxationFactor, 2, "beyond it corrections grow from one iteration to the next");

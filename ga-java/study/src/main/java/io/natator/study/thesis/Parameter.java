@@ -22,7 +22,7 @@ enum Parameter {
     BODY_MASS("body mass", range(1, 0.05, 0.1, 0.25, 0.5, 1, 2, 4, 10), range(0.421875, 0.2109375, 0.31640625, 0.421875, 0.5625, 0.84375),
             (scene, value) -> scene.putObject("creature").put("particleMass", value)),
     /** Cohesion. */
-    COHESION("cohesion", range(0, 0, 0.005, 0.01, 0.02, 0.05, 0.1), range(0, 0, 0.02, 0.05),
+    COHESION("cohesion", range(0, 0, 0.005, 0.01, 0.02, 0.05, 0.1), range(0, 0, 0.02, 0.1),
             (scene, value) -> solver(scene).put("cohesion", value)),
     /** Surface tension. */
     SURFACE_TENSION("surface tension", range(0, 0, 0.1, 0.5, 1, 5, 20), range(0, 0, 1, 5),
