@@ -184,6 +184,7 @@ private:
         const std::vector<const Gait*> gaits(gait ? 1 : 0, gait);
         const auto end = runner_.run({state.time, time_step, substeps, gaits, false}, nullptr, trace).front();
         state = runner_.download(0, state);
+        if (gait) state.spring_rest_length = runner_.muscles(0).spring_rest_length;  // which the next frame's work begins with
         cuda::Progress progress;
         if (!end.finite) {
             progress.stopped = static_cast<int>(StopReason::unstable);

@@ -5,7 +5,7 @@
 
 namespace natator::cuda {
 
-/// What one particle comes to by the laws of physics/laws.h. `head`: the body's first particle; `reaches`: it is one of the body.
+/// What one particle comes to by the laws of physics/laws.h.
 template <class Real>
 __device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int number, const Quad<Real>& x, const Vec3<Real>& v) {
     physics::LawMeasures measures;
@@ -20,7 +20,7 @@ __device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int nu
     return measures;
 }
 
-/// The same of how far a particle of the body is from its first one.
+/// How far a particle of the body is from its first one.
 template <class Real, class Team>
 __device__ physics::LawMeasures reach_of(const ModelView<Real>& model, const Team& team, int b) {
     const auto place = [&](int k) { return xyz(team.position()[team.slot_of_solid()[model.body_particle[k]]]); };
