@@ -177,7 +177,7 @@ describe() {
         exit 2
         ;;
     esac
-    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4,\"bodyLength\":1.2,\"bodyParticles\":142$goals}"
+    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.016666666666666666,\"substeps\":4,\"iterations\":4,\"bodyLength\":1.2,\"bodyParticles\":142$goals}"
 }
 
 mode=$1

@@ -58,7 +58,7 @@ class SceneInfoTest {
     @Test
     void tellsTheNumberOfActuators() throws InterruptedException {
         assertThat(SceneInfo.of("thesis/creature-2", null, FakeSimulator.in(folder)))
-                .isEqualTo(new SceneInfo("thesis/creature-2", 8, 5950, 4.0, 0.0166, 4, 4, 1.2, 142, null));
+                .isEqualTo(new SceneInfo("thesis/creature-2", 8, 5950, 4.0, 1.0 / 60, 4, 4, 1.2, 142, null));
     }
 
     @Test
