@@ -225,6 +225,19 @@ TEST(LiveTest, AnUnstableSimulationStandsStillUntilItStartsAnew) {
     EXPECT_EQ(hash_after(simulation, 2), evaluated(in_water, 2).hash);
 }
 
+/// One iteration of a hundredth of what it should push, against a strong pull.
+TEST(LiveTest, WaterThatIsCompressedEndsAStreamAsItEndsAnEvaluation) {
+    const json crushed{
+        {"settling", {{"updates", 0}}},
+        {"solver", {{"numIterations", 1}, {"substeps", 16}, {"relaxationFactor", 0.01}, {"gravity", {0, -100, 0}}}}};
+    const Evaluation evaluation = evaluated(in_water, 32, crushed);
+    ASSERT_TRUE(evaluation.instability);
+    EXPECT_EQ(evaluation.instability->law, "compression");
+    LiveSimulation<float> simulation = swimmer(in_water, crushed);
+    while (simulation.frame()) ASSERT_LT(simulation.frames(), 32);
+    EXPECT_EQ(simulation.instability()->law, "compression");
+}
+
 /// The densities of a state are the same whether or not an update has just led to it, but for pairs that come to less
 /// than the radius within a substep: they weigh (1 - r/R)^2, next to nothing.
 TEST(LiveTest, DensitiesOfAStateNeedNoUpdate) {

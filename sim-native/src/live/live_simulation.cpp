@@ -1,3 +1,4 @@
+#include "evaluate/conservation_errors.h"
 #include "evaluate/perturb.h"
 #include "evaluate/settled_start.h"
 #include "io/strict_json.h"
@@ -17,6 +18,8 @@
 
 namespace natator {
 namespace {
+
+constexpr int frames_between_densities = 16;  ///< an evaluation looks at them at its end, which a stream has not
 
 /// Densities of a state that no update has led to: those of an update that moves nothing.
 template <class Real>
@@ -191,6 +194,9 @@ bool LiveSimulation<Real>::frame() {
     updated_ = true;
     if (!instability_)
         instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
+    if (!instability_ && (frames_ + 1) % frames_between_densities == 0)
+        instability_ = run_->laws.look_at_compression(
+            conservation_errors(model(), state_, run_->solver.densities()).density_error_mean, state_.time);
     if (instability_) return false;
     applied_ = steering_;
     ++frames_;
