@@ -9,6 +9,6 @@ namespace natator {
 /// As it is in results: "finite", "particle-energy", "energy", "tank", "shape", "compression"; "" of none.
 const char* name(physics::Law law);
 /// Whose name that is; none if it is no law's.
-physics::Law law_named(const std::string& name);
+physics::Law law_named(const std::string& text);
 
 }  // namespace natator

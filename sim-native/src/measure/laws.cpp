@@ -268,19 +268,19 @@ void LawWatch::begin_anew() { parts_->begun = false; }
 const LawLimits& LawWatch::limits() const { return parts_->limits; }
 const LawMargins& LawWatch::margins() const { return parts_->margins; }
 
-std::string sentence_of(const Instability& where) {
-    const std::string particle = "particle " + std::to_string(where.particle);
+std::string sentence_of(const Instability& instability) {
+    const std::string particle = "particle " + std::to_string(instability.particle);
     std::ostringstream at;
-    at << " at " << where.time << " s";
-    if (where.stage == "settling") at << ", after settling";
-    if (where.law == "tank") return particle + " is behind a plane" + at.str() + " (law tank)";
-    if (where.law == "particle-energy")
+    at << " at " << instability.time << " s";
+    if (instability.stage == "settling") at << ", after settling";
+    if (instability.law == "tank") return particle + " is behind a plane" + at.str() + " (law tank)";
+    if (instability.law == "particle-energy")
         return particle + " has more energy than gravity and muscles can give it" + at.str() + " (law particle-energy)";
-    if (where.law == "energy")
+    if (instability.law == "energy")
         return "energy has grown by more than the muscles' work" + at.str() + ", most of it has " + particle + " (law energy)";
-    if (where.law == "shape") return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
-    if (where.law == "compression") return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
-    return particle + " is not finite after stage " + where.stage + at.str();
+    if (instability.law == "shape") return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
+    if (instability.law == "compression") return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
+    return particle + " is not finite after stage " + instability.stage + at.str();
 }
 
 const char* name(Law law) {
