@@ -278,7 +278,8 @@ std::string sentence_of(const Instability& instability) {
         return particle + " has more energy than gravity and muscles can give it" + at.str() + " (law particle-energy)";
     if (instability.law == "energy")
         return "energy has grown by more than the muscles' work" + at.str() + ", most of it has " + particle + " (law energy)";
-    if (instability.law == "shape") return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
+    if (instability.law == "shape")
+        return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
     if (instability.law == "compression") return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
     return particle + " is not finite after stage " + instability.stage + at.str();
 }
