@@ -14,7 +14,7 @@ import {Presentation} from './present.js';
 import {Recording} from './recording.js';
 import {fixed} from './scaling.js';
 import {contents} from './scene.js';
-import {DEFAULT_LOOK, Stage, lookOfAddress} from './stage.js';
+import {Stage, firstLook} from './stage.js';
 import {Theme} from './theme.js';
 
 const SLOW_MS = 100;
@@ -45,7 +45,7 @@ class Player {
   frame = null;
 
   constructor() {
-    this.#look = new LookControls({...DEFAULT_LOOK, ...lookOfAddress()}, look => this.#stage.setLook(look));
+    this.#look = new LookControls(firstLook(), look => this.#stage.setLook(look));
     this.#stage.onRange = range => this.#look.showRange(range);
     this.#charts = [
       new TimeChart(byId('chart-distance'), ['distance'], 0.01),

@@ -3,8 +3,6 @@ package io.natator.view;
 import com.microsoft.playwright.Browser;
 import com.microsoft.playwright.BrowserType.LaunchOptions;
 import com.microsoft.playwright.Playwright;
-import java.lang.annotation.Retention;
-import java.lang.annotation.RetentionPolicy;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -26,31 +24,22 @@ final class Chromium implements BeforeAllCallback {
     private static final List<String> NAMES =
             List.of("chromium", "chromium-browser", "google-chrome", "google-chrome-stable");
     private static final List<String> ARGUMENTS = List.of("--no-sandbox", "--enable-unsafe-swiftshader",
-            "--disable-background-networking", "--disable-component-update", "--disable-sync");
-    private static final List<String> NO_GPU = List.of("--disable-gpu");
-    private static final List<String> WEBGPU = List.of("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader",
-            "--enable-features=Vulkan", "--use-vulkan=swiftshader", "--use-angle=swiftshader");
+            "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync");
 
     /** Of its start, which only failures take so long for. */
     private static final double PATIENCE_MILLISECONDS = 600_000;
 
     private Browser browser;
 
-    /** For test classes whose browser is to have WebGPU, which the processor then computes. */
-    @Retention(RetentionPolicy.RUNTIME)
-    @interface WithWebGpu {
-    }
-
     /** The running browser and what drives it. */
     private record Running(Playwright playwright, Browser browser) implements AutoCloseable {
 
-        static Running start(List<String> more) {
+        static Running start() {
             // Chromium is the operating system's: this one brings none.
             Playwright playwright = Playwright.create(
                     new Playwright.CreateOptions().setEnv(Map.of("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1")));
             return new Running(playwright, playwright.chromium().launch(
-                    new LaunchOptions().setExecutablePath(installed()).setTimeout(PATIENCE_MILLISECONDS)
-                            .setArgs(Stream.concat(ARGUMENTS.stream(), more.stream()).toList())));
+                    new LaunchOptions().setExecutablePath(installed()).setTimeout(PATIENCE_MILLISECONDS).setArgs(ARGUMENTS)));
         }
 
         @Override
@@ -74,9 +63,8 @@ final class Chromium implements BeforeAllCallback {
 
     @Override
     public void beforeAll(ExtensionContext context) {
-        boolean isGpu = context.getRequiredTestClass().isAnnotationPresent(WithWebGpu.class);
         browser = context.getStore(Namespace.create(Chromium.class))
-                .computeIfAbsent(Running.class, key -> Running.start(isGpu ? WEBGPU : NO_GPU), Running.class).browser();
+                .computeIfAbsent(Running.class, key -> Running.start(), Running.class).browser();
     }
 
     /** To be used from the first test on. */

@@ -19,6 +19,14 @@ class ViewPictureTest extends ViewBrowserTest {
     /** An empty picture has its background's few colours. */
     private static final int LEAST_COLOURS = 500;
 
+    /** A browser that says it has a graphics card. */
+    private static final String CARD = """
+            const parameter = WebGL2RenderingContext.prototype.getParameter;
+            WebGL2RenderingContext.prototype.getParameter = function(name) {
+              const value = parameter.call(this, name);
+              return /swiftshader/i.test(value) ? 'A card' : value;
+            };""";
+
     @Test
     void aSwimmerInWaterIsSeen() {
         open(water);
@@ -53,6 +61,19 @@ class ViewPictureTest extends ViewBrowserTest {
             assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(LEAST_COLOURS);
             assertThat(difference(without, with)).as("share of %s", shown).isGreaterThan(0.2);
         }
+    }
+
+    /** What the address remembers of a way of drawing that is no longer there counts for nothing. */
+    @ParameterizedTest
+    @CsvSource(quoteCharacter = '|', value = {"||, WebGL", "?drawing=plain, processor", "?drawing=webgpu, WebGL",
+            "|#{\"look\":{\"drawing\":\"webgpu\"}}|, WebGL", "|?drawing=plain#{\"look\":{\"drawing\":\"webgl\"}}|, processor"})
+    void aCardIsUsedUnlessTheAddressForcesAWayToDraw(String address, String name) {
+        page.addInitScript(CARD);
+        useSmallWindow();
+        open(vacuum, address);
+
+        assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
+        assertThat(get("drawing")).hasValue(name.equals("processor") ? "plain" : "auto");
     }
 
     /** What is seen of a picture that nothing changes any more, from its first sample on: those to come only smooth it. */

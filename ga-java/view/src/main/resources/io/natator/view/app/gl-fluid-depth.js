@@ -14,7 +14,7 @@ const VERTEX = `
   flat out vec3 second;
   flat out vec3 third;
   void main() {
-    mat3 turn = rotation(viewMatrix);
+    mat3 turn = mat3(viewMatrix);
     mat3 shape = mat3(squares.x, products.x, products.y, products.x, squares.y, products.z, products.y, products.z, squares.z);
     shape = turn * shape * transpose(turn);
     middle = (viewMatrix * vec4(centre.xyz, 1.0)).xyz;
@@ -52,14 +52,14 @@ const FRAGMENT = `
     float enter = (b - root) / a;
     float leave = (b + root) / a;
     // The walls of the tank: water ends there, flat.
-    vec3 along = transpose(rotation(viewMatrix)) * ray;
+    vec3 along = transpose(mat3(viewMatrix)) * ray;
     vec3 one = (low - cameraPosition) / along;
     vec3 other = (high - cameraPosition) / along;
     vec3 before = min(one, other);
     vec3 after = max(one, other);
     float inside = max(max(before.x, before.y), max(before.z, nearest / -ray.z));
     float outside = min(after.x, min(after.y, after.z));
-    float isCut = select(0.0, 1.0, enter < inside);
+    float isCut = enter < inside ? 1.0 : 0.0;
     enter = max(enter, inside);
     if (enter > min(leave, outside)) { discard; }
     float depth = enter * -ray.z;
@@ -81,7 +81,7 @@ const FOAM_VERTEX = `
     depth = -eye.z;
     foam = squares.w;
     side = position.xy;
-    gl_Position = select(vec4(2.0, 2.0, 2.0, 1.0), projectionMatrix * (eye + vec4(radius * position.xy, 0.0, 0.0)), foam > 0.0);
+    gl_Position = foam > 0.0 ? projectionMatrix * (eye + vec4(radius * position.xy, 0.0, 0.0)) : vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
 const FOAM_FRAGMENT = `

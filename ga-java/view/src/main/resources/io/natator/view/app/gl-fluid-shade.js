@@ -49,12 +49,12 @@ const FRAGMENT = `
   float slope(vec2 along, vec2 here) {
     vec2 after = texture(front, place + along).rg;
     vec2 before = texture(front, place - along).rg;
-    float up = select(1e3, after.r - here.r, after.r > 0.0 && after.g == here.g);
-    float down = select(1e3, here.r - before.r, before.r > 0.0 && before.g == here.g);
-    float best = select(down, up, abs(up) < abs(down));
+    float up = after.r > 0.0 && after.g == here.g ? after.r - here.r : 1e3;
+    float down = before.r > 0.0 && before.g == here.g ? here.r - before.r : 1e3;
+    float best = abs(up) < abs(down) ? up : down;
     // Even where it is smooth, one-sided where an edge is near, and softly from one to the other.
     float rough = abs(up - down) / (0.25 * spacing * here.r * here.r);
-    return select(mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0)), 0.0, abs(best) > 1e2);
+    return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
   }
   float random(vec3 at) { return fract(sin(dot(at, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
   float noise(vec3 at) {
@@ -67,7 +67,7 @@ const FRAGMENT = `
     return mix(mix(both.x, both.y, share.x), mix(both.z, both.w, share.x), share.y);
   }
   vec2 seenAt(vec3 at) { return (at.xy / -at.z / tangent - shift) * 0.5 + 0.5; }
-  float isBefore(float depth, float here) { return select(0.0, 1.0, depth * here < 1.003); }
+  float isBefore(float depth, float here) { return depth * here < 1.003 ? 1.0 : 0.0; }
   void main() {
     vec3 plain = texture(behind, place).rgb;
     vec2 water = texture(front, place).rg;
@@ -92,11 +92,11 @@ const FRAGMENT = `
     float thickness = splat.r;
     // Refraction: along the bent ray to what it hits, or to where it leaves the tank; spray ends with its own thickness.
     vec3 bent = refract(view, normal, 1.0 / 1.333);
-    vec3 begin_ = (toWorld * vec4(eye, 1.0)).xyz;
-    vec3 along = rotation(toWorld) * bent;
-    vec3 exits = max((low - begin_) / along, (high - begin_) / along);
+    vec3 begin = (toWorld * vec4(eye, 1.0)).xyz;
+    vec3 along = mat3(toWorld) * bent;
+    vec3 exits = max((low - begin) / along, (high - begin) / along);
     float leave = max(0.0, min(exits.x, min(exits.y, exits.z)));
-    float reach = select(thickness, mix(thickness, leave, smoothstep(1.0, 3.0, thickness / spacing)), leave < 1e3);
+    float reach = leave < 1e3 ? mix(thickness, leave, smoothstep(1.0, 3.0, thickness / spacing)) : thickness;
     vec2 there = place;
     float path = reach;
     float stride = reach / float(STEPS);
@@ -106,7 +106,7 @@ const FRAGMENT = `
       float far = stride * float(i);
       vec3 at = eye + bent * far;
       vec2 next = seenAt(at);
-      if (at.z > -0.02 || differ(next, clamp(next, vec2(0.0), vec2(1.0)))) { break; }
+      if (at.z > -0.02 || next != clamp(next, vec2(0.0), vec2(1.0))) { break; }
       bool isBefore_ = -at.z <= depthOf(next);
       if (!isBefore_ && wasBefore) {
         // It went through something, or behind it: the first only if it comes close.
@@ -129,17 +129,17 @@ const FRAGMENT = `
     }
     // Else it sees the tank alone: what a body hides from here it may not hide from the bent ray.
     vec2 last = clamp(seenAt(eye + bent * reach), step_, 1.0 - step_);
-    vec3 through = linear(select(texture(bare, last).rgb, texture(behind, there).rgb, isHit));
+    vec3 through = linear(isHit ? texture(behind, there).rgb : texture(bare, last).rgb);
     // Absorption by Beer and Lambert: red first; and what the water itself sends back.
-    float tint = select(0.0, splat.g / splat.a, splat.a > 1e-4);
+    float tint = splat.a > 1e-4 ? splat.g / splat.a : 0.0;
     vec3 body = mix(linear(deep), linear(texture(scale, vec2(tint * 0.996 + 0.002, 0.5)).rgb), tinted);
     vec3 clear = exp(-density * path * mix(vec3(1.7, 0.6, 0.42), vec3(1.4), tinted * 0.75));
-    vec3 world = normalize(rotation(toWorld) * normal);
+    vec3 world = normalize(mat3(toWorld) * normal);
     float lit = 0.62 + 0.38 * max(0.0, dot(world, lamp));
     vec3 colour = through * clear + body * lit * (1.0 - exp(-density * path * mix(0.9, 1.5, tinted)));
     // Fresnel by Schlick, and a mirrored sky.
     vec3 mirrored = reflect(view, normal);
-    vec3 away = normalize(rotation(toWorld) * mirrored);
+    vec3 away = normalize(mat3(toWorld) * mirrored);
     float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(-dot(view, normal), 0.0, 1.0), 5.0);
     vec3 sky = linear(skyOf(away));
     colour = mix(colour, sky, fresnel);

@@ -24,7 +24,7 @@ const FRAGMENT = `
     float high = here + width;
     float sum = 0.375 * here;
     float weights = 0.375;
-    float open_ = 1.0;
+    float open = 1.0;
     for (int i = 1; i <= 2; i++) {
       vec2 offset = float(i) * along;
       vec2 first = texture(source, place + offset).rg;
@@ -32,10 +32,10 @@ const FRAGMENT = `
       float one = first.r;
       float other = second.r;
       float farther = min(one, other);
-      open_ *= 1.0 - max(first.g, second.g);
+      open *= 1.0 - max(first.g, second.g);
       // Not all at once: a sharp end would be seen as a line.
-      open_ *= smoothstep(-1.0, 0.0, (farther - low) / width);
-      float weight = open_ * select(0.0625, 0.25, i == 1);
+      open *= smoothstep(-1.0, 0.0, (farther - low) / width);
+      float weight = open * (i == 1 ? 0.25 : 0.0625);
       one = min(one, high);
       other = min(other, high);
       sum += weight * (one + other);

@@ -35,7 +35,7 @@ const FRAGMENT = `
     vec2 place = gl_FragCoord.xy / size;
     float share = (1.0 - square) * (1.0 - square);
     float nearest = texture(front, place).r;
-    float weight = select(0.0, share * exp(-max(0.0, distance_ * nearest - 1.0) / (nearest * radius)), nearest > 0.0);
+    float weight = nearest > 0.0 ? share * exp(-max(0.0, distance_ * nearest - 1.0) / (nearest * radius)) : 0.0;
     float tint = clamp((shade - range.x) / (range.y - range.x), 0.0, 1.0);
     added = vec4(peak * share, weight * tint, 0.0, weight);
   }`;

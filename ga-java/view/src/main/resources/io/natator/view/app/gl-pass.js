@@ -16,7 +16,7 @@ const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2));
 quad.frustumCulled = false;
 world.add(quad);
 
-/** One fragment shader (see gl-shader.js) with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
+/** One fragment shader with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
 export class Pass {
   #material;
 

@@ -1,6 +1,7 @@
-/** Draws with the graphics card: a scene of three.js, and water over it. */
+/** Draws with WebGL 2: a scene of three.js, and water over it. */
 
 import * as THREE from 'three';
+import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
 import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
@@ -27,8 +28,8 @@ const LAMP = new THREE.Vector3(-0.3, 0.85, 0.5).normalize();
 
 /** One canvas. The same methods as `PlainPicture`. */
 export class GlPicture {
-  #drawing;
   #renderer;
+  #fence;
   #world = new THREE.Scene();
   #water;
   #body = new GlBody();
@@ -50,21 +51,21 @@ export class GlPicture {
   #solids = [];
   #map;
 
-  /** `drawing` is what draws: a `WebGlDrawing` or a `WebGpuDrawing`. */
-  constructor(drawing, trace, field) {
-    this.#drawing = drawing;
-    this.#renderer = drawing.renderer;
+  /** What draws, for people. */
+  name = 'WebGL';
+
+  /** @throws if the canvas has no context for WebGL */
+  constructor(canvas, trace, field) {
+    this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
+    this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.#renderer.autoClear = false;
+    this.#fence = new Fence(this.#renderer.getContext());
     this.#water = new GlWater(field);
     this.#map = new GlLightMap(LAMP);
     this.#tank.light = this.#map.texture;
     this.#body.lamp = LAMP;
     this.#trace = new GlTrace(trace);
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
-  }
-
-  /** What draws, for people. */
-  get name() {
-    return this.#drawing.name;
   }
 
   setScene(scene) {
@@ -118,7 +119,7 @@ export class GlPicture {
 
   /** Whether the card still draws. */
   get isBusy() {
-    return this.#drawing.isBusy;
+    return this.#fence.isBusy;
   }
 
   /** Draws a frame; water nearer than `from` is left out. */
@@ -142,7 +143,7 @@ export class GlPicture {
   /** Makes the canvas hold what was drawn last, until the browser shows it. */
   show() {
     this.#last();
-    this.#drawing.finish();
+    this.#fence.set();
   }
 
   #render(frame, camera, from, to) {
@@ -180,6 +181,7 @@ export class GlPicture {
     this.#water.dispose();
     this.#body.dispose();
     this.#map.dispose();
-    this.#drawing.dispose();
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
   }
 }

@@ -46,7 +46,7 @@ export class LookControls {
       ...LEVELS.map(level => [level, `${Math.round(100 * level)} % of the pixels' width`])]);
     this.#quality.addEventListener('change', () => this.set({quality: this.#quality.value}));
     this.#drawing = make('select', {id: 'drawing', 'data-testid': 'drawing'});
-    fillSelect(this.#drawing, [['auto', 'automatic'], ['webgpu', 'WebGPU'], ['webgl', 'WebGL'], ['plain', 'the processor']]);
+    fillSelect(this.#drawing, [['auto', 'automatic'], ['webgl', 'WebGL'], ['plain', 'the processor']]);
     this.#drawing.addEventListener('change', () => this.set({drawing: this.#drawing.value}));
     const switches = SWITCHES.map(([name, text, key]) => {
       const input = make('input', {type: 'checkbox', 'data-testid': name});

@@ -17,7 +17,7 @@ import {fileName} from './save.js';
 import {contents} from './scene.js';
 import {SharedRange} from './shared-range.js';
 import {listenToShortcuts} from './shortcuts.js';
-import {DEFAULT_LOOK, lookOfAddress} from './stage.js';
+import {firstLook} from './stage.js';
 import {SwimControls} from './swim-controls.js';
 import {Theme} from './theme.js';
 import {Transport} from './transport.js';
@@ -51,7 +51,7 @@ class Page {
     const presentation = new Presentation(isOn => this.#views.forEach(view => {
       view.stage.rig.isOrbiting = isOn;
     }));
-    this.#look = new LookControls({...DEFAULT_LOOK, ...memory.look, ...lookOfAddress()}, () => this.#lookChanged());
+    this.#look = new LookControls(firstLook(memory.look), () => this.#lookChanged());
     this.#charts = new LiveCharts(setup.modes);
     this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
     this.#controls = new SwimControls(this, setup);

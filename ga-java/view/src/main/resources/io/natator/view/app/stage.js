@@ -1,33 +1,34 @@
-/** A picture of one scene: which frame, from where, how fine; drawn with WebGPU, with WebGL or without. */
+/** A picture of one scene: which frame, from where, how fine; drawn with WebGL or without. */
 
 import * as THREE from 'three';
 import {CameraRig} from './cameras.js';
 import {FieldValues} from './fields.js';
 import {GlPicture} from './gl-picture.js';
-import {gpuDevice, onGpuChange} from './gpu-device.js';
+import {hasGraphicsCard} from './graphics-card.js';
 import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
 import {boundsAround, centreOf, hasOpenAxes, tankBounds} from './scene.js';
 import {SpineTrace} from './trace.js';
-import {WebGlDrawing, hasGraphicsCard} from './webgl-drawing.js';
-import {WebGpuDrawing} from './webgpu-drawing.js';
 
 /**
  * What can be chosen: water spheres, surface or none; body skin or particles; colour speed, density, mass or none; drawing
- * auto, webgpu, webgl or plain.
+ * auto, webgl or plain.
  */
-export const DEFAULT_LOOK = {
+const DEFAULT_LOOK = {
   water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
   drawing: 'auto',
 };
 
 /** Ways of drawing, each tried if the one before fails. */
-const DRAWINGS = ['webgpu', 'webgl', 'plain'];
+const DRAWINGS = ['webgl', 'plain'];
 
-/** The part of a look that the address asks for: `?drawing=webgl`. */
-export function lookOfAddress() {
-  const drawing = new URLSearchParams(location.search).get('drawing');
-  return DRAWINGS.includes(drawing) ? {drawing} : {};
+/**
+ * What a page begins with: what it remembers, and the drawing that its address asks for, as in `?drawing=webgl`. A drawing
+ * that is not known is chosen automatically.
+ */
+export function firstLook(remembered = {}) {
+  const asked = [new URLSearchParams(location.search).get('drawing'), remembered.drawing];
+  return {...DEFAULT_LOOK, ...remembered, drawing: asked.find(one => DRAWINGS.includes(one)) ?? 'auto'};
 }
 
 /** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
@@ -53,8 +54,6 @@ export class Stage {
   #centre = [0, 0, 0];
   #last = 0;
   #isNew = true;
-  #isChoosing = false;
-  #forgetGpu;
   #listening = new AbortController();
   #rested = 0;
   #samples = 0;
@@ -68,10 +67,6 @@ export class Stage {
     this.#host = host;
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
-    this.#forgetGpu = onGpuChange(() => {
-      this.#isChoosing = true;
-      this.#isNew = true;
-    });
     new ResizeObserver(() => {
       this.#isNew = true;
     }).observe(host);
@@ -97,7 +92,7 @@ export class Stage {
     return this.#isNew || this.rig.hasMoved ? 0 : this.#samples;
   }
 
-  /** What draws: WebGPU, WebGL or processor. */
+  /** What draws: WebGL or processor. */
   get drawing() {
     return this.#picture?.name ?? '';
   }
@@ -156,9 +151,6 @@ export class Stage {
     if (this.#frame === null || this.#host.clientWidth === 0 || this.#host.clientHeight === 0) {
       return false;
     }
-    if (this.#isChoosing) {
-      this.#choosePicture();
-    }
     const {body} = this.#scene;
     this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
     this.rig.update(seconds, this.#host.clientWidth / this.#host.clientHeight);
@@ -213,22 +205,17 @@ export class Stage {
   #wantedDrawing() {
     const {drawing} = this.#look;
     const isCard = drawing === 'auto' && hasGraphicsCard() && !this.#isTooSlow;
-    if ((isCard || drawing === 'webgpu') && gpuDevice(drawing === 'webgpu') !== null) {
-      return 'webgpu';
-    }
-    return isCard || drawing === 'webgl' || drawing === 'webgpu' ? 'webgl' : 'plain';
+    return isCard || drawing === 'webgl' ? 'webgl' : 'plain';
   }
 
   /** Frees what it drew with. It is drawn no more. */
   close() {
-    this.#forgetGpu();
     this.#listening.abort();
     this.#picture?.dispose();
     this.#picture = null;
   }
 
   #choosePicture() {
-    this.#isChoosing = false;
     const wanted = this.#wantedDrawing();
     if (this.#picture !== null && wanted === this.#drawing) {
       return;
@@ -259,11 +246,8 @@ export class Stage {
   #newPicture(way) {
     const canvas = document.createElement('canvas');
     this.#host.replaceChildren(canvas);
-    if (way === 'plain') {
-      return new PlainPicture(canvas, this.#trace, this.#field);
-    }
-    const drawing = way === 'webgpu' ? new WebGpuDrawing(canvas, gpuDevice(true)) : new WebGlDrawing(canvas);
-    return new GlPicture(drawing, this.#trace, this.#field);
+    const Picture = way === 'plain' ? PlainPicture : GlPicture;
+    return new Picture(canvas, this.#trace, this.#field);
   }
 
   /** Gives the canvas the size and detail that hold now. */
