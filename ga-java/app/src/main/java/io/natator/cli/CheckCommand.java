@@ -1,7 +1,6 @@
 package io.natator.cli;
 
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -54,7 +53,7 @@ final class CheckCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Limits.checkSeveralStarts("--starts", starts);
-        StoredRun run = Archipelago.stored(folder);
+        StoredRun run = StoredRun.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -59,9 +58,8 @@ final class CompareCommand implements Callable<Integer> {
         if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
-        List<StoredRun> runs = folders.stream().map(Archipelago::stored).toList();
-        // By whatever path, and an island beside the archipelago whose winner it is.
-        EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
+        List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
+        EachOnce.checkFolders("RUN", folders);
         if (starts > 0) {
             Path simulator = executionOptions.execution(Backend.CPU).simulator();
             for (StoredRun run : runs) {
@@ -87,7 +85,7 @@ final class CompareCommand implements Callable<Integer> {
                 : Backend.CPU;
         ExecutionSettings execution =
                 EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
-        RunComparison comparison = new RunComparison(folders.stream().map(Archipelago::run).toList(), starts);
+        RunComparison comparison = new RunComparison(folders, starts);
         PrintWriter err = spec.commandLine().getErr();
         err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");
         err.flush();

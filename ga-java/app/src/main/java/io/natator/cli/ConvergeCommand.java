@@ -3,7 +3,6 @@ package io.natator.cli;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -67,7 +66,7 @@ final class ConvergeCommand implements Callable<Integer> {
         Limits.checkSeveralStarts("--starts", starts);
         EachOnce.check("--levels", levels, one -> one);
         List<FinerLevel> finer = levels.stream().map(FinerLevel::of).toList();
-        StoredRun run = Archipelago.stored(folder);
+        StoredRun run = StoredRun.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -70,9 +69,6 @@ final class EvolveCommand implements Callable<Integer> {
     @Mixin
     private BodyOptions bodyOptions;
 
-    @Mixin
-    private IslandOptions islandOptions;
-
     @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
@@ -100,19 +96,14 @@ final class EvolveCommand implements Callable<Integer> {
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
-        Archipelago.Plan islands = islandOptions.plan(settings);
-        RunPreview preview = new RunPreview(settings, islands, execution);
+        RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
             Path folder = outputDir != null ? outputDir : freeFolder(settings.scene());
             WholeOutput.print(spec.commandLine(), out -> preview.print(folder, out));
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
-        if (islands != null) {
-            beginIslands(Archipelago.create(directory, islands), preview, execution);
-        } else {
-            beginRun(RunFolder.create(directory, settings), preview, execution);
-        }
+        beginRun(RunFolder.create(directory, settings), preview, execution);
         return ExitCode.OK;
     }
 
@@ -123,17 +114,6 @@ final class EvolveCommand implements Callable<Integer> {
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         } catch (InvalidInputException | RequestRejectedException e) {
             RunFolder.deleteUnlessBegun(folder.directory());
-            throw e;
-        }
-    }
-
-    /** The same of islands. */
-    private void beginIslands(Archipelago archipelago, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
-        try {
-            preview.printAnyway(archipelago.directory(), spec.commandLine().getOut());
-            new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
-        } catch (InvalidInputException | RequestRejectedException e) {
-            archipelago.deleteUnlessBegun();
             throw e;
         }
     }

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -42,7 +41,7 @@ final class ReportCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        StoredRun run = Archipelago.stored(directory);
+        StoredRun run = StoredRun.in(directory);
         Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         GaitReport report = new GaitReport(run, folder);
         OneLineErrors.warn(spec.commandLine(), run.damage());

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
@@ -8,11 +7,9 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
-import io.natator.run.IslandsRun;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -67,12 +64,7 @@ final class ResumeCommand implements Callable<Integer> {
     static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter, Integer generations,
             CommandSpec spec) throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
-        if (Archipelago.exists(directory)) {
-            resume(Archipelago.in(directory), options, cache, stopAfter, generations, spec);
-            return;
-        }
         EvolutionSettings settings = StoredRun.settings(directory);
-        EvolutionRun.checkAlone(directory, settings);
         Backend before = settings.backend();
         // Asks the simulator, so that where there is none nothing is changed.
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
@@ -99,36 +91,6 @@ final class ResumeCommand implements Callable<Integer> {
         if (generations != folder.settings().generations()) {
             folder.changeGenerations(generations);
         }
-    }
-
-    private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter, Integer generations,
-            CommandSpec spec) throws InterruptedException {
-        EvolutionSettings settings = stored.plan().settings();
-        Backend before = settings.backend();
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
-        String scene = SceneDigest.of(settings, execution.simulator());
-        stored.folders().forEach(folder -> {
-            SceneDigest.check(folder, settings, scene);
-            if (StoredRun.isFinished(folder)) {  // others are opened
-                RunFolder.checkUnedited(folder);
-            }
-        });
-        Archipelago extended = generations == null ? stored : extended(stored, generations);
-        boolean isFinished = extended.plan().islands() == IslandsRun.finished(extended);
-        Archipelago archipelago = isChanged(before, isFinished, options) ? extended.withBackend(options.backend()) : extended;
-        if (!archipelago.equals(stored)) {
-            IslandsRun.change(archipelago);
-        }
-        tell(before, isFinished, options, spec);
-        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
-    }
-
-    private static Archipelago extended(Archipelago stored, int generations) {
-        int before = stored.plan().settings().generations();
-        if (generations < before) {
-            throw new InvalidInputException("--generations is " + generations + "; expected at least the " + before + " of all islands");
-        }
-        return stored.withGenerations(generations);
     }
 
     /** Whether the run goes on on another backend; what is finished keeps the one that it was computed on. */

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
@@ -19,17 +18,10 @@ import java.util.Locale;
 final class RunPreview {
 
     private final EvolutionSettings settings;
-    private final Archipelago.Plan islands;
     private final ExecutionSettings execution;
 
-    /**
-     * Of a run, or of the islands that it is the first of.
-     *
-     * @param islands null for a run by itself
-     */
-    RunPreview(EvolutionSettings settings, Archipelago.Plan islands, ExecutionSettings execution) {
+    RunPreview(EvolutionSettings settings, ExecutionSettings execution) {
         this.settings = settings;
-        this.islands = islands;
         this.execution = execution;
     }
 
@@ -47,17 +39,14 @@ final class RunPreview {
         out.printf(Locale.ROOT, "  scene       %s, %s, %.2f s%n", Numbers.count(scene.particles(), "particle"),
                 Numbers.count(scene.actuators(), "actuator"), duration);
         out.printf("  genes       %s%n", String.join(", ", settings.genome().genes().stream().map(GeneRange::name).toList()));
-        if (islands != null) {
-            out.printf("  islands     %s%n", IslandsReport.exchange(islands));
-        }
-        out.printf("  evaluations %s%s%n", islands == null ? "" : islands.islands() + " times ", estimate.total());
+        out.printf("  evaluations %s%n", estimate.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
                         ? "a generation at once" : execution.mode() == SimulatorMode.SPARK ? "as many at once as the cluster can"
                         : execution.workers() + " at once",
                 ProgressEstimate.readable(limited.timeout().toSeconds()));
         out.printf("  run folder  %s%n", folder);
-        printTime(limited, scene, duration, (islands == null ? 1 : islands.islands()) * estimate.expected(), out);
+        printTime(limited, scene, duration, estimate.expected(), out);
         out.flush();
     }
 

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
@@ -50,14 +49,8 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private void print(PrintWriter out) {
-        if (Archipelago.exists(folder)) {
-            IslandsReport.print(Archipelago.in(folder), out);
-            Archipelago.in(folder).damages().forEach(one -> OneLineErrors.warn(spec.commandLine(), one));
-        }
-        StoredRun run = Archipelago.stored(folder);
-        if (!Archipelago.exists(folder)) {
-            OneLineErrors.warn(spec.commandLine(), run.damage());
-        }
+        StoredRun run = StoredRun.in(folder);
+        OneLineErrors.warn(spec.commandLine(), run.damage());
         Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         Convergence convergence = run.best() == null ? null : Convergence.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
@@ -95,8 +88,6 @@ final class ShowCommand implements Callable<Integer> {
         text.append(settings.evolve() == null ? "" : settings.evolve().what() == Evolved.BODY ? ", bodies with one gait"
                 : ", gaits and bodies");
         text.append(", seed ").append(settings.seed());
-        text.append(settings.migration() == null ? "" : ", island " + settings.migration().island() + " of "
-                + settings.migration().islands());
         text.append(", ").append(EnumNames.of(settings.encoding())).append(" genes");
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
@@ -113,9 +104,7 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private String progress(StoredRun run) {
-        boolean isOneOfSeveral = run.settings().migration() != null && !Archipelago.exists(folder);
-        String how = "; continue by: " + ProgramName.asCalled() + " resume "
-                + ShellWord.of(isOneOfSeveral ? folder.toAbsolutePath().normalize().getParent() : folder);
+        String how = "; continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder);
         if (run.state() == null) {
             return begun(run.recorded()) + how;
         }

@@ -5,7 +5,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.SceneDigest;
@@ -54,7 +53,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         if (generation != null && given != null) {
             throw new InvalidInputException("--generation and --gait: expected one of them");
         }
-        Path folder = Archipelago.run(Path.of(source));
+        Path folder = Path.of(source);
         if (StoredRun.exists(folder)) {
             StoredRun run = StoredRun.in(folder);
             Swimmer swimmer = given != null ? given : best(run, generation);

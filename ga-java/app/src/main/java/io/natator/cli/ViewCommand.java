@@ -2,7 +2,6 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -85,7 +84,6 @@ final class ViewCommand implements Callable<Integer> {
             throw new InvalidInputException("--port is " + port + "; expected a whole number from 0 to 65535");
         }
         Path program = simulator.path();
-        runs = Archipelago.runs(runs);
         if (!runs.isEmpty()) {
             EachOnce.checkFolders("--run", runs);
         }

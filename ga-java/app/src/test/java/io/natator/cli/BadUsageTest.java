@@ -123,7 +123,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
         "--duration -1|duration is -1.0",
         "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
-        "--islands 3 --seed 9223372036854775806|seed is 9223372036854775806; expected at most 9223372036854775805, as 3 islands",
+        "--islands 2|--islands is no option of this command; see natator evolve --help",
         "--gaussian-deviation 0|gaussian-deviation is 0.0",
         "--operators magic|expected corrected or stock",
         "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
@@ -171,7 +171,7 @@ class BadUsageTest extends FakeSimulatorTest {
 
     /** Goals are the fitness, from which a drift cannot be taken off. */
     @ParameterizedTest
-    @ValueSource(strings = {"", "--dry-run", "--islands 2 --migrate-every 1"})
+    @ValueSource(strings = {"", "--dry-run"})
     void netFitnessIsNotForGoals(String options) {
         List<String> all = new ArrayList<>(List.of("--scene", "goals/turn", "--fitness", "net"));
         all.addAll(Stream.of(options.split(" ")).filter(one -> !one.isEmpty()).toList());
@@ -183,9 +183,9 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(folder.resolve("run")).doesNotExist();
     }
 
-    /** Neither the run's folder nor those of islands are in the way of the corrected command. */
+    /** It would be in the way of the corrected command. */
     @ParameterizedTest
-    @ValueSource(strings = {"", "--dry-run", "--islands 2 --migrate-every 1"})
+    @ValueSource(strings = {"", "--dry-run"})
     void whatTheSimulatorRefusesLeavesNoFolder(String options) {
         List<String> all = new ArrayList<>(List.of("--scene", "fault/rejected"));
         all.addAll(Stream.of(options.split(" ")).filter(one -> !one.isEmpty()).toList());

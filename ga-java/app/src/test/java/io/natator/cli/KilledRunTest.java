@@ -13,8 +13,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.IntStream;
-import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -35,8 +33,6 @@ class KilledRunTest {
     private static final List<String> HOW =
             List.of("--simulator", "resident", "--workers", "2", "--no-cache", "--timeout", "3600");
     private static final List<String> SETTINGS = List.of("--population", "30", "--evaluations", "400");
-    private static final List<String> ISLANDS = List.of("--population", "4", "--generations", "8", "--starts", "1", "--islands", "3",
-            "--migrate-every", "1", "--migrants", "2");
     /** Answers that a simulator gives at most until it waits to be killed: no run gets to its end between two kills. */
     private static final String ANSWERS = "4";
     private static final int TIMES = Integer.getInteger("natator.kills", 1);
@@ -65,17 +61,13 @@ class KilledRunTest {
 
     /** A run without any trouble, in this process. */
     private Path whole(String... more) throws IOException {
-        return whole(SETTINGS, more);
-    }
-
-    private Path whole(List<String> settings, String... more) throws IOException {
         Path run = folder.resolve("whole");
         Path slow = folder.resolve("slow");
         Files.delete(slow);
         List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path",
                 folder.resolve("fake-simulator.sh").toString(), "--output-dir", run.toString()));
         arguments.addAll(HOW);
-        arguments.addAll(settings);
+        arguments.addAll(SETTINGS);
         arguments.addAll(List.of(more));
         PrintWriter nowhere = new PrintWriter(Writer.nullWriter());
         assertThat(Main.commandLine().setOut(nowhere).setErr(nowhere).execute(arguments.toArray(String[]::new)))
@@ -85,41 +77,11 @@ class KilledRunTest {
     }
 
     private List<String> evolve(Path run, String... more) {
-        return evolve(SETTINGS, run, more);
-    }
-
-    private List<String> evolve(List<String> settings, Path run, String... more) {
         List<String> command = command("evolve", "--output-dir", run.toString());
         command.addAll(HOW);
-        command.addAll(settings);
+        command.addAll(SETTINGS);
         command.addAll(List.of(more));
         return command;
-    }
-
-    /** All islands run in one process and die together, each where it is: until gaits have gone from one to another. */
-    @Test
-    void killsOfIslandsChangeNothing() throws IOException, InterruptedException {
-        Path whole = whole(ISLANDS);
-        Path run = folder.resolve("killed");
-        Files.writeString(folder.resolve("most"), ANSWERS);
-        Random random = new Random(7);
-        assertThat(ended(start(evolve(ISLANDS, run)), run, random, true)).isTrue();
-        Path arrived = run.resolve("island-1/migrants.jsonl");
-        for (int i = 1; i < 4 * TIMES || !Files.exists(arrived); i++) {
-            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout", "3600",
-                    run.toString()));
-            assertThat(ended(next, run, random, i % 8 != 4)).as("end %d came before that of the run", i).isTrue();
-        }
-        Files.delete(folder.resolve("slow"));
-        Files.delete(folder.resolve("most"));
-
-        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
-
-        for (int i = 1; i <= 3; i++) {
-            assertSame(run.resolve("island-" + i), whole.resolve("island-" + i));
-            assertThat(run.resolve("island-" + i + "/migrants.jsonl")).hasSameBinaryContentAs(
-                    whole.resolve("island-" + i + "/migrants.jsonl"));
-        }
     }
 
     private static void assertSame(Path run, Path whole) {
@@ -181,10 +143,9 @@ class KilledRunTest {
         return alive;
     }
 
-    /** Bytes of evaluations that a run, or all islands of one, has written. */
+    /** Bytes of evaluations that a run has written. */
     private static long evaluated(Path run) {
-        return Stream.concat(Stream.of(run), IntStream.rangeClosed(1, 3).mapToObj(i -> run.resolve("island-" + i)))
-                .mapToLong(folder -> folder.resolve("evaluations.jsonl").toFile().length()).sum();
+        return run.resolve("evaluations.jsonl").toFile().length();
     }
 
     /** A limit on the size of files ends a write as a full disk does. */

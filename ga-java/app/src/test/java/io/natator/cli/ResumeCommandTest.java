@@ -9,7 +9,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
-import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
 import java.io.IOException;
@@ -202,23 +201,6 @@ class ResumeCommandTest extends FakeSimulatorTest {
     }
 
     @Test
-    void islandsCanHaveMoreGenerations() throws IOException {
-        assertThat(evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
-        try (RunFolder used = RunFolder.open(folder.resolve("run/island-2"))) {
-            assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "7")).isEqualTo(2);
-            assertThat(err.toString()).endsWith("is in use by another run\n");
-            assertThat(used.settings().generations()).isEqualTo(3);
-        }
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "6")).as(err.toString()).isZero();
-        assertThat(err.toString()).doesNotContain("2 of 2 runs, 0 of");
-        assertThat(evolveTo(6, "whole", "--islands", "2", "--migrate-every", "2")).isZero();
-        for (String name : List.of("islands.json", "island-1/checkpoint.json", "island-2/checkpoint.json", "island-2/config.json",
-                "island-2/evaluations.jsonl", "island-1/migrants.jsonl")) {
-            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
-        }
-    }
-
-    @Test
     void resumingAFinishedRunChangesNothing() throws IOException {
         assertThat(evolve("run")).isZero();
         String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
@@ -297,11 +279,9 @@ class ResumeCommandTest extends FakeSimulatorTest {
     }
 
     /** A file's scene may be edited: its name says nothing of that. */
-    @ParameterizedTest
-    @ValueSource(strings = {"alone", "islands"})
-    void aSceneThatWasChangedIsRefused(String how) throws IOException {
-        boolean isAlone = how.equals("alone");
-        assertThat(isAlone ? evolve("run") : evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
+    @Test
+    void aSceneThatWasChangedIsRefused() throws IOException {
+        assertThat(evolve("run")).as(err.toString()).isZero();
         String run = folder.resolve("run").toString();
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
         Map<String, String> before = files();
@@ -309,7 +289,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
         assertThat(natator("resume", run, "--generations", "4")).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator resume: scene pool/creature-1 was changed after " + run + (isAlone ? "" : "/island-1")
+        assertThat(err.toString()).isEqualTo("natator resume: scene pool/creature-1 was changed after " + run
                 + " was begun; expected the scene that it was begun with, or a new run\n");
         assertThat(files()).isEqualTo(before);
         Files.delete(folder.resolve("scene"));
@@ -378,24 +358,6 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
         assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("settings"))
                 .isEqualTo(Json.parse(file("run", "config.json"), JsonNode.class));
-    }
-
-    @Test
-    void editedSettingsOfIslandsAreRefused() throws IOException {
-        assertThat(evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
-        String run = folder.resolve("run").toString();
-        err.getBuffer().setLength(0);
-        edit("run/islands.json", plan -> ((ObjectNode) plan.get("settings")).put("duration", 3));
-        assertThat(natator("resume", run, "--generations", "6")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run/island-1") + " was begun with other settings: duration was 2.0, "
-                + "is now 3.0; choose another --output-dir, or the options that it was begun with\n");
-        err.getBuffer().setLength(0);
-        for (int i = 1; i <= 2; i++) {
-            edit("run/island-" + i + "/config.json", settings -> settings.put("duration", 3));
-        }
-        assertThat(natator("resume", run, "--generations", "6")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run/island-1/config.json") + " was edited after the run was begun: "
-                + "duration was 2.0, is now 3.0; expected the settings that it was begun with, or a new run\n");
     }
 
     private void edit(String name, Consumer<ObjectNode> change) throws IOException {

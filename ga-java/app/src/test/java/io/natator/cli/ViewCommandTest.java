@@ -19,12 +19,10 @@ import java.net.http.WebSocket;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.Stream;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -179,21 +177,6 @@ class ViewCommandTest {
         JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
         assertThat(start.get("gait")).isEqualTo(best.get("gait"));
         assertThat(start.get("overrides").toString()).isEqualTo("{\"scheme\":\"conserving\"}");
-    }
-
-    @Test
-    void ofIslandsTheWinnersBestSwimsAndAllAreOffered() throws IOException, InterruptedException {
-        Path islands = folder.resolve("islands");
-        Commands.natator("evolve", "--simulator-path", FakeSimulator.in(folder).toString(), "--no-cache", "--population", "6",
-                "--generations", "2", "--islands", "3", "--migrate-every", "1", "--starts", "1", "--scene", "thesis/creature-1", "--output-dir",
-                islands.toString());
-        JsonNode winner = Stream.of(1, 2, 3).map(i -> Json.read(islands.resolve("island-" + i + "/best.json"), JsonNode.class, "best"))
-                .max(Comparator.comparing(best -> best.get("distance").doubleValue())).orElseThrow();
-
-        URI server = start("--run", islands.toString());
-
-        assertThat(start(server).get("gait")).isEqualTo(winner.get("gait"));
-        assertThat(setup(server).get("runs")).hasSize(3);
     }
 
     /** Also where its scene is named; beside another scene it is only there to be looked at. */

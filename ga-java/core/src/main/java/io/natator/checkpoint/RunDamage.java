@@ -2,7 +2,6 @@ package io.natator.checkpoint;
 
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Migration;
 import io.natator.config.Numbers;
 import io.natator.config.SettingsChange;
 import io.natator.evolution.EvolutionState;
@@ -60,15 +59,5 @@ final class RunDamage {
         } catch (IllegalArgumentException e) {
             return directory + " is damaged: genes of " + RunFolder.CHECKPOINT + ": " + e.getMessage();
         }
-    }
-
-    /**
-     * What its island lacks that gaits should have left, in one line; null if nothing, or it is none. After each exchange up to
-     * the checkpoint somebody left, if only nobody: the next island has gone on by that.
-     */
-    static String lostMigrants(Path directory, Migration migration, EvolutionState checkpoint, int left) {
-        int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
-        return left >= expected ? null : directory + " is damaged: " + RunFolder.MIGRANTS + " has " + Numbers.count(left, "whole line") + "; expected at least "
-                + expected + ", one for each exchange before generation " + checkpoint.generation();
     }
 }

@@ -111,25 +111,10 @@ final class RunDigests implements AutoCloseable {
 
     /** Writes a file, once it is noted what it is about to become. */
     void write(String name, String content) {
-        change(name, content, () -> AtomicFile.write(directory.resolve(name), content));
-    }
-
-    /** The same of a line that something appends. */
-    void append(String name, String line, Runnable append) {
-        try {
-            Path file = directory.resolve(name);
-            String before = Files.exists(file) ? Files.readString(file) : "";
-            change(name, before.substring(0, before.lastIndexOf('\n') + 1) + line + "\n", append);
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot read " + AtomicFile.reason(directory.resolve(name), e), e);
-        }
-    }
-
-    private void change(String name, String content, Runnable change) {
         Path file = directory.resolve(name);
         boolean isNew = !Files.exists(file);
         note(name, isNew ? ABSENT : digest(file), Sha256.of(content));
-        change.run();
+        AtomicFile.write(file, content);
         if (isNew) {
             note(name, Sha256.of(content));
         }
@@ -195,7 +180,7 @@ final class RunDigests implements AutoCloseable {
         change.run();
         if (isKnown) {
             Map<String, List<String>> left = new TreeMap<>();
-            Stream.of(RunFolder.CHECKPOINT, CompactRun.WHOLE, RunFolder.BEST, RunFolder.SAVINGS, RunFolder.VACUUM, RunFolder.MIGRANTS)
+            Stream.of(RunFolder.CHECKPOINT, CompactRun.WHOLE, RunFolder.BEST, RunFolder.SAVINGS, RunFolder.VACUUM)
                     .filter(name -> Files.exists(directory.resolve(name)))
                     .forEach(name -> left.put(name, List.of(digest(directory.resolve(name)))));
             AtomicFile.write(directory.resolve(WHOLE), Json.document(left));

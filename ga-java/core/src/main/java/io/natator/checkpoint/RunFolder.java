@@ -7,7 +7,6 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
-import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
@@ -43,13 +42,12 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String CONVERGENCE_RUNS = "converge.jsonl";
     static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
-    static final String MIGRANTS = "migrants.jsonl";
     private static final String GENERATIONS = "generations.csv";
     private static final String TIMINGS = "timings.csv";
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
+            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
             RunDigests.LINES, RunDigests.WHOLE, CONFIG, ".");
 
     private final Path directory;
@@ -59,7 +57,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private final JsonLines<EvaluationRecord> log;
     /** How many evaluations are not in the log any more. */
     private final long dropped;
-    private final JsonLines<Departure> departures;
     private final RunDigests digests;
     private final GenerationTimes timings;
 
@@ -72,7 +69,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             CompactRun.Last last = CompactRun.last(directory, log.rows());
             this.checkpoint = last.state();
             this.dropped = last.dropped();
-            this.departures = JsonLines.of(directory.resolve(MIGRANTS), Departure.class);
             this.digests = new RunDigests(directory);
         } catch (InvalidInputException e) {
             log.close();
@@ -87,18 +83,12 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if there is something in it already, or it cannot be made
      */
     public static RunFolder create(Path directory, EvolutionSettings settings) {
-        make(directory, CONFIG, settings);
-        return new RunFolder(directory, settings);
-    }
-
-    /** Makes a new folder with a first file, a JSON document; also where a kill ended that before the file was whole. */
-    static void make(Path directory, String name, Object content) {
         try {
             OutputFolder.make(directory);
-            AtomicFile.deleteUnfinished(directory.resolve(name));
+            AtomicFile.deleteUnfinished(directory.resolve(CONFIG));  // of a kill before the file was whole
             boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
-            if (isRun && !Files.exists(directory.resolve(name))) {
-                throw new InvalidInputException(directory + " is damaged: it has no " + name);
+            if (isRun && !Files.exists(directory.resolve(CONFIG))) {
+                throw new InvalidInputException(directory + " is damaged: it has no " + CONFIG);
             }
             if (isOccupied(directory)) {
                 throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
@@ -108,21 +98,17 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             throw OutputFolder.cannotBeMade(directory, e);
         }
         try {
-            AtomicFile.write(directory.resolve(name), Json.document(content));
+            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
         } catch (UncheckedIOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
         }
+        return new RunFolder(directory, settings);
     }
 
     /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
     public static void delete(Path directory) {
-        delete(directory, FILES);
-    }
-
-    /** Removes these files, and of these folders those that have nothing else in them. */
-    static void delete(Path directory, List<String> names) {
         try {
-            for (String name : names) {
+            for (String name : FILES) {
                 Path file = directory.resolve(name).normalize();
                 if (!Files.isDirectory(file) || !isOccupied(file)) {
                     Files.deleteIfExists(file);
@@ -173,7 +159,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                 : RunDamage.lostEvaluations(directory, folder.checkpoint, folder.recorded().end()));
         folder.refuse(RunDamage.misplacedEvaluation(directory, folder.recorded()));
         folder.refuse(RunDamage.genes(directory, folder.genome, folder.checkpoint));
-        folder.refuse(RunDamage.lostMigrants(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
         folder.refuse(RunDigests.damage(directory));
         try {
             folder.digests.check(folder.log.size());
@@ -182,18 +167,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
         folder.dropFailures();
         return folder;
-    }
-
-    /**
-     * Refuses a run, also a finished one, whose files but for its evaluations are not as it wrote them.
-     *
-     * @throws InvalidInputException that says which was edited or is gone
-     */
-    public static void checkUnedited(Path directory) {
-        String damage = RunDigests.damage(directory);
-        if (damage != null) {
-            throw new InvalidInputException(damage);
-        }
     }
 
     /**
@@ -247,23 +220,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /**
-     * Refuses a run that cannot have more generations.
-     *
-     * @throws InvalidInputException after the folder is closed
-     */
-    public void checkMoreGenerations() {
-        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
-            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
-        }
-    }
-
-    /**
      * From here on the run has so many generations, at least those that are done.
      *
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
     public void changeGenerations(int generations) {
-        checkMoreGenerations();
+        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
+            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
+        }
         settings = settings.withGenerations(generations);
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
     }
@@ -276,19 +240,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Simulations that were recorded when the folder was opened. */
     public Recorded recorded() {
         return new Recorded(dropped, log.rows());
-    }
-
-    /** The gaits that had left the run, as one of several islands, when the folder was opened. */
-    public List<Departure> departures() {
-        return departures.rows();
-    }
-
-    /** Writes, to the disk itself, which gaits leave the run: the next island goes on by them. */
-    public void append(Departure departure) {
-        digests.append(MIGRANTS, Json.line(departure), () -> {
-            departures.append(departure);
-            departures.force();
-        });
     }
 
     /** Writes where and how the run is carried out. */
@@ -371,7 +322,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     @Override
     public void close() {
         digests.close();
-        departures.close();
         log.close();
     }
 }

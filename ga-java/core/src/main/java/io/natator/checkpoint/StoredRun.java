@@ -8,7 +8,6 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
-import io.natator.evolution.Departure;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
@@ -16,7 +15,6 @@ import io.natator.evolution.Individual;
 import io.natator.evolution.ParetoRanking;
 import io.natator.evolution.Recorded;
 import io.natator.file.JsonLines;
-import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -45,6 +43,8 @@ import org.slf4j.LoggerFactory;
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
         Recorded recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
+    /** What a run on islands, of an earlier version, has in place of settings: it is a folder of several runs. */
+    private static final String ISLANDS = "islands.json";
     private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
     /** What has been said of damaged files: a page, for one, reads them again and again. */
     private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
@@ -85,8 +85,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
         return Stream.of(RunDamage.editedSettings(directory, settings),
                 compact ? null : RunDamage.lostEvaluations(directory, state, recorded.end()),
-                RunDamage.misplacedEvaluation(directory, recorded),
-                RunDamage.lostMigrants(directory, settings.migration(), state, departures(directory).size()))
+                RunDamage.misplacedEvaluation(directory, recorded))
                 .filter(Objects::nonNull).findFirst().orElse(null);
     }
 
@@ -131,7 +130,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /**
      * The settings of the run in a folder.
      *
-     * @throws InvalidInputException if it is not that of a run, the settings are damaged, or any file of it is no regular one
+     * @throws InvalidInputException if it is not that of a run, or of one on islands; if the settings are damaged, or any file of it is no
+     *                               regular one
      */
     public static EvolutionSettings settings(Path directory) {
         RunFolder.checkRegular(directory);
@@ -140,6 +140,10 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         }
         if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
+        }
+        if (isOnIslands(directory)) {
+            throw new InvalidInputException(directory + " was evolved on islands by an earlier version, which this one cannot read; "
+                    + "expected the folder of a run by itself");
         }
         return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
     }
@@ -176,9 +180,20 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         }
     }
 
-    /** Whether there is a run in this folder. */
+    /** Whether there is a run in this folder, if only one on islands. */
     public static boolean exists(Path directory) {
-        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG));
+        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG)) || Files.isRegularFile(directory.resolve(ISLANDS));
+    }
+
+    /**
+     * Whether the run in this folder exchanged gaits with others, or the folder is that of all of them. Only earlier versions made such runs,
+     * and only those can read them.
+     *
+     * @throws InvalidInputException if the settings are damaged
+     */
+    public static boolean isOnIslands(Path directory) {
+        return Files.isRegularFile(directory.resolve(ISLANDS))
+                || exists(directory) && Json.read(directory.resolve(RunFolder.CONFIG), JsonNode.class, "settings").has("migration");
     }
 
     /**
@@ -202,11 +217,6 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     public static Recorded recorded(Path directory) {
         List<EvaluationRecord> rows = JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
         return new Recorded(CompactRun.dropped(directory, rows), rows);
-    }
-
-    /** The gaits that have left the run in a folder for another island. */
-    public static List<Departure> departures(Path directory) {
-        return JsonLines.read(directory.resolve(RunFolder.MIGRANTS), Departure.class);
     }
 
     /** The state after the last finished generation of the run in a folder, or null. */

@@ -39,14 +39,13 @@ import java.util.stream.Collectors;
  * @param objectives        what is to be great instead of the fitness: one, several with weights, or for {@code nsga2}
  *                          several without; null for the fitness
  * @param evolve            bodies to be evolved; null for gaits of the scene's body alone
- * @param migration         which of several islands the run is, and how they exchange gaits; null for a run by itself
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 @RecordBuilder
 public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve, Migration migration)
+        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve)
         implements EvolutionSettingsBuilder.With {
 
     /** Generations of a run that ends by its number of evaluations alone. */
@@ -91,9 +90,6 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
                 "one for the " + actuators + " of the scene's body");
         require(evaluations == null || evaluations >= starts, "evaluations", evaluations,
                 "at least the " + starts + " starts of one gait");
-        if (migration != null) {
-            migration.check(optimizer, population);
-        }
     }
 
     private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Judge judge,
@@ -132,7 +128,7 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
         return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
                 Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
-                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null, null);
+                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null);
     }
 
     /** These settings with another number of generations. */

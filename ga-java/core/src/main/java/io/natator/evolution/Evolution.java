@@ -28,7 +28,6 @@ public final class Evolution {
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
     private final Recorded recorded;
-    private final Exchange exchange;
 
     private int generation;
     private long evaluations;
@@ -47,16 +46,14 @@ public final class Evolution {
      * @param evaluator carries out the simulations; stays open
      * @param listeners told of everything in this order
      * @param recorded  simulations that an interrupted run had finished, but for the first where it has dropped them; none for a new run
-     * @param exchange  with other islands
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            Recorded recorded, Exchange exchange) {
+            Recorded recorded) {
         this.settings = settings;
         this.genome = settings.genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
         this.recorded = recorded;
-        this.exchange = exchange;
     }
 
     /**
@@ -77,22 +74,13 @@ public final class Evolution {
             optimizer.recall(newborns(recorded.between(0, evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
-                List<Individual> parents = state == null ? List.of() : parents(state);
+                List<Individual> parents = state == null ? List.of() : state.population();
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
                 born.clear();
                 state = finish(state, optimizer.next(generation, parents));
             }
             return state;
-        }
-    }
-
-    private List<Individual> parents(EvolutionState state) {
-        try {
-            return exchange.parents(state);
-        } catch (InterruptedException e) {
-            throw new EvolutionStoppedException("stopped after generation " + state.generation() + " and " + Numbers.count(evaluations, "evaluation")
-                    + ", in wait for the gaits of another island");
         }
     }
 
@@ -106,9 +94,8 @@ public final class Evolution {
         List<Individual> champions = null;
         List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
-        List<Individual> natives = bred.stream().filter(exchange::isNative).toList();
         if (settings.starts() > 1) {
-            Race race = new Race(settings, this::repeat, natives, before == null ? List.of() : before.champions(),
+            Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
                     before == null || before.refused() == null ? List.of() : before.refused());
             champions = race.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
@@ -118,7 +105,7 @@ public final class Evolution {
             best = race.winner();
             refused = race.refused();
         } else {
-            for (Individual individual : natives) {
+            for (Individual individual : bred) {
                 if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
                     best = individual;
                 }

@@ -15,7 +15,6 @@ import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
-import io.natator.evolution.Exchange;
 import io.natator.evolution.Individual;
 import io.natator.simulator.BodyCheckEvaluator;
 import io.natator.simulator.EffortEvaluator;
@@ -25,7 +24,6 @@ import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
@@ -106,29 +104,9 @@ public final class EvolutionRun {
      * @throws io.natator.evolution.EvolutionStoppedException if the evaluator is closed, or the calling thread
      *                                                        interrupted; the run can be continued
      * @throws io.natator.evolution.EvolutionFailedException  if most simulations of a generation fail
-     * @throws InvalidInputException                          if the scene was changed since the run was begun, or the run does
-     *                                                        not go on by itself
+     * @throws InvalidInputException                          if the scene was changed since the run was begun
      */
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
-            throws InterruptedException {
-        checkAlone(folder.directory(), settings);
-        return run(execution, evaluator, Exchange.NONE, listeners);
-    }
-
-    /**
-     * Refuses a run that does not go on by itself.
-     *
-     * @throws InvalidInputException if it is an island that exchanges gaits with others
-     */
-    public static void checkAlone(Path directory, EvolutionSettings settings) {
-        if (settings.migration() != null) {
-            throw new InvalidInputException(directory + " is one of " + settings.migration().islands()
-                    + " islands, which go on together; expected the folder that they are in");
-        }
-    }
-
-    /** The same of an island. */
-    Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, EvolutionListener... listeners)
             throws InterruptedException {
         String scene = SceneDigest.of(settings, execution.simulator());
         SceneDigest.check(folder.directory(), settings, scene);
@@ -137,13 +115,13 @@ public final class EvolutionRun {
         }
         if (evaluator instanceof CachedEvaluator shared) {
             CachedEvaluator own = shared.counting();
-            return run(execution, own, exchange, own::found, List.of(listeners));
+            return run(execution, own, own::found, List.of(listeners));
         }
-        return run(execution, evaluator, exchange, () -> 0, List.of(listeners));
+        return run(execution, evaluator, () -> 0, List.of(listeners));
     }
 
-    private Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, LongSupplier found,
-            List<EvolutionListener> listeners) throws InterruptedException {
+    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found, List<EvolutionListener> listeners)
+            throws InterruptedException {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         checkFitness(settings, scene);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
@@ -155,8 +133,8 @@ public final class EvolutionRun {
         all.addAll(listeners);
         Evaluator checked = settings.evolve() == null ? evaluator
                 : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded(),
-                exchange).run(folder.checkpoint());
+        EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded())
+                .run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         BestGait known = StoredRun.best(folder.directory());
         if (known != null && state.best() != null && known.isExamined(state.best())) {

@@ -26,17 +26,10 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
             return RunFolder.create(directory, settings);
         }
         RunFolder folder = RunFolder.open(directory);
-        check(folder, settings);
+        folder.refuse(refusal(folder.settings(), settings));
         if (isShorter(folder.settings())) {
             folder.changeGenerations(settings.generations());
         }
-        return folder;
-    }
-
-    /** Opens its folder, which is there, if the run can go on by the settings, and leaves it as it is; its backend may be another one. */
-    RunFolder openAsItIs() {
-        RunFolder folder = RunFolder.open(directory);
-        check(folder, settings.withBackend(folder.settings().backend()));
         return folder;
     }
 
@@ -71,14 +64,6 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
         EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored;
         return extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
                 + "; choose another --output-dir, or the options that it was begun with";
-    }
-
-    private void check(RunFolder folder, EvolutionSettings wanted) {
-        EvolutionSettings stored = folder.settings();
-        folder.refuse(refusal(stored, wanted));
-        if (isShorter(stored)) {
-            folder.checkMoreGenerations();
-        }
     }
 
     /** Whether it has come to its end; one of fewer generations than this has not. */

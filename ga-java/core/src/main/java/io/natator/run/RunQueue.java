@@ -4,12 +4,10 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
-import io.natator.evolution.Exchange;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
-import java.util.function.Function;
 import java.util.stream.Collectors;
 
 /** Carries out many runs, several at the same time with one evaluator, so that their generations share a batch. */
@@ -71,12 +69,6 @@ public final class RunQueue {
 
     private static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher)
             throws InterruptedException {
-        carryOut(run, execution, evaluator, watcher, folder -> Exchange.NONE);
-    }
-
-    /** One run, to its end. */
-    static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher,
-            Function<RunFolder, Exchange> exchange) throws InterruptedException {
         try (RunFolder folder = run.open()) {
             long before = folder.recorded().end();
             EvolutionListener counter = new EvolutionListener() {
@@ -87,8 +79,7 @@ public final class RunQueue {
                     }
                 }
             };
-            watcher.finished(folder,
-                    new EvolutionRun(folder).run(execution, evaluator, exchange.apply(folder), counter, watcher.forRun()));
+            watcher.finished(folder, new EvolutionRun(folder).run(execution, evaluator, counter, watcher.forRun()));
         }
     }
 }

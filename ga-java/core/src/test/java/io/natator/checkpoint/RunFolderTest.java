@@ -15,7 +15,6 @@ import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
-import io.natator.evolution.Exchange;
 import io.natator.evolution.ToySimulator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
@@ -63,7 +62,7 @@ class RunFolderTest {
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
         try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
-            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded(), Exchange.NONE)
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
                     .run(folder.checkpoint());
             folder.writeResults(end);
         }
@@ -280,7 +279,7 @@ class RunFolderTest {
             }
         };
         try (broken; WorkerPool pool = new WorkerPool(failing, 2)) {
-            Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded(), Exchange.NONE);
+            Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded());
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(EvolutionFailedException.class)
                     .hasMessageContaining("simulations failed, the first: no memory");
         }

@@ -32,7 +32,7 @@ class EvolutionTest {
     private static EvolutionState run(EvolutionSettings settings, Simulator simulator, int workers,
             EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), new Recorded(0, List.of()), Exchange.NONE).run(null);
+            return new Evolution(settings, pool, List.of(listeners), new Recorded(0, List.of())).run(null);
         }
     }
 

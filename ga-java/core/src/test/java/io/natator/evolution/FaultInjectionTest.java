@@ -49,7 +49,7 @@ class FaultInjectionTest {
                     evaluations.add(evaluation);
                     then.accept(evaluations.size());
                 }
-            }), new Recorded(0, List.of()), Exchange.NONE).run(null);
+            }), new Recorded(0, List.of())).run(null);
         }
         return evaluations;
     }

@@ -112,7 +112,7 @@ class MapElitesTest {
         };
         try (WorkerPool pool = new WorkerPool(flex, 1)) {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
-                    new Recorded(0, List.of()), Exchange.NONE);
+                    new Recorded(0, List.of()));
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
                     .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
             assertThatThrownBy(() -> EffortEvaluator.of(pool, null)).hasMessageContaining("the body's length is null");

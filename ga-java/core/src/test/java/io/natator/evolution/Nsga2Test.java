@@ -26,7 +26,7 @@ class Nsga2Test {
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
             return new Evolution(settings, new ObjectiveEvaluator(pool, settings.objectives()), List.of(),
-                    new Recorded(0, List.of()), Exchange.NONE).run(null);
+                    new Recorded(0, List.of())).run(null);
         }
     }
 
@@ -83,7 +83,7 @@ class Nsga2Test {
                 .withObjectives(OptimizerKind.CMA_ES, WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
             EvolutionState end = new Evolution(settings, new ObjectiveEvaluator(pool, settings.objectives()), List.of(),
-                    new Recorded(0, List.of()), Exchange.NONE).run(null);
+                    new Recorded(0, List.of())).run(null);
             SimulationResult best = end.best().result();
             Gait gait = ENCODING.decode(end.best().genes());
             double distance = ToySimulator.distance(gait);

@@ -28,7 +28,7 @@ final class ToyEvolution {
     static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
-            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), new Recorded(0, recorded), Exchange.NONE).run(from);
+            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), new Recorded(0, recorded)).run(from);
         }
     }
 

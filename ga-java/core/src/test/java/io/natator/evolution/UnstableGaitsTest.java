@@ -77,7 +77,7 @@ class UnstableGaitsTest {
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         try (WorkerPool pool = new WorkerPool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new Recorded(0, List.of()), Exchange.NONE)
+            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new Recorded(0, List.of()))
                     .run(null);
         }
         return recorder;
@@ -102,7 +102,6 @@ class UnstableGaitsTest {
                     .filter(one -> one.result().status() == Status.UNSTABLE).map(EvaluationRecord::genes).collect(Collectors.toSet());
             assertThat(broken).isNotEmpty();
             List<Individual> chosen = new ArrayList<>(state.champions());
-            chosen.addAll(Settlers.best(state.population(), 5));
             if (state.best() != null) {
                 chosen.add(state.best());
             }

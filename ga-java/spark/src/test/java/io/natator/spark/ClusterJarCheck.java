@@ -157,30 +157,6 @@ class ClusterJarCheck {
         assertSame(run, folder.resolve("alone"));
     }
 
-    /** Islands are evolutions at the same time, which wait for each other's gaits. */
-    @Test
-    void islandsAreTheSameAfterKills() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "16", "--generations", "4", "--seed", "3",
-            "--islands", "2", "--migrate-every", "1", "--migrants", "3"};
-        alone(fake, folder.resolve("alone"), settings);
-        inTurns();
-        Path run = folder.resolve("run");
-        Process driver = evolve(fake, run, List.of(), settings);
-        killAnExecutor(run.resolve("island-1"), 30, 0);
-        awaitEvaluations(run.resolve("island-2"), 60);
-        assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
-        driver.destroyForcibly().waitFor();
-        Files.delete(folder.resolve("turns"));
-
-        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(), run.toString()));
-
-        for (String island : List.of("island-1", "island-2")) {
-            assertSame(run.resolve(island), folder.resolve("alone").resolve(island));
-            assertThat(run.resolve(island).resolve("migrants.jsonl"))
-                    .hasSameBinaryContentAs(folder.resolve("alone").resolve(island).resolve("migrants.jsonl"));
-        }
-    }
-
     /** From here on there are evaluations only while they are waited for: no run gets to its end before it is looked at. */
     private void inTurns() throws IOException {
         Files.writeString(folder.resolve("turns"), "0\n");
