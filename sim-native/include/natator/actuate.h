@@ -24,8 +24,9 @@ std::vector<double> drive(const Model& model, const Gait& gait, double time);
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 
-/// The same for muscles of the body that are driven by `driven`, one value in [-2, 2] for each actuator: o + a u, wherever it
-/// comes from. Throws InputError if there are more or fewer.
+/// Sets the rest length of every muscle for `time` (s) from `driven`, one value o + a u in [-2, 2] for each actuator of
+/// the body, wherever it comes from. The muscles of companions follow their own gaits. Throws InputError if there is
+/// not one value for each actuator, or the state has not the model's number of springs.
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state);
 

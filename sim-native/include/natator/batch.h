@@ -15,7 +15,7 @@ namespace natator {
 struct Device {
     int index = 0;
     std::string name;
-    std::string capability;  ///< of its instruction set, such as "9.0"
+    std::string capability;  ///< version of its instruction set, such as "9.0"
     std::size_t memory = 0;  ///< bytes
     int multiprocessors = 0;
 };
@@ -30,7 +30,7 @@ std::optional<std::string> gpu_refusal(const Scene& scene);
 struct BatchMember {
     Gait gait;
     Perturbation perturbation;
-    std::optional<int> arrangement{};  ///< of the water in scheme `conserving`: FluidBlock::disorder instead of the scene's
+    std::optional<int> arrangement{};  ///< seed in place of FluidBlock::disorder; scheme `conserving`
 };
 
 /// Where the time of a batch goes, and what memory it takes.
@@ -47,23 +47,24 @@ struct BatchOptions {
     Precision precision = Precision::single_precision;
     int device = 0;               ///< number of the GPU, see cuda_devices
     bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
-    /// Of the water's neighbours in scheme `conserving`: they are searched in every sum over them, as where one scene by itself has
-    /// no memory for lists. The same bits in less memory, slower.
+    /// Search the water's neighbours in every pass in place of storing lists; scheme `conserving`. The same bits, less
+    /// memory, slower. A scene whose lists do not fit into the device's memory is computed like that anyway.
     bool without_lists = false;
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
     bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
 };
 
-/// Evaluates gaits in one scene on a GPU: each by a block of threads, or where members are few by several; or, in scheme
-/// `conserving`, with `options.whole_gpu`, for more than 65 535 particles, and for more than 20 000 in double or with effects, side by
-/// side by kernels of the whole GPU. Member k of the result belongs to member k. The result of a member is the same, bit by bit, whatever the others
-/// and their number. A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last substep
-/// again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the GPU's
-/// stages do not do, NoDevice without that GPU or if this library was built without CUDA.
+/// Evaluates gaits in one scene on a GPU. Small scenes of scheme `flex` run one for each block of threads, or for
+/// several blocks where members are few. Everything else runs side by side by kernels of the whole GPU: scheme
+/// `conserving`, `options.whole_gpu`, more than 65 535 particles, and more than 20 000 in double or with effects.
+/// Result k belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number.
+/// A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last
+/// substep again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the
+/// GPU's stages do not do, NoDevice without that GPU or if this library was built without CUDA.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         const BatchOptions& options = {});
 
-/// What has become of a member: its evaluation, or one line that says why there is none.
+/// A member's evaluation, or one line that says why there is none.
 using MemberResult = std::variant<Evaluation, std::string>;
 
 /// Evaluates members that fit the scene together, in one launch: result k belongs to member k.

@@ -14,7 +14,7 @@ struct Cost {
     double candidates = 0;  ///< pairs that the search for neighbours looks at in a substep
     double neighbours = 0;  ///< entries of the neighbour lists, fluid and contacts
     double per_substep = 0;  ///< pair visits in a substep, with all its iterations; other work is counted as if it were
-    double bytes = 0;  ///< of memory on the CPU: what such runs were measured to take at most is not less, and mostly no fifth less
+    double bytes = 0;  ///< memory on the CPU at most; most runs were measured to take four fifths of it or more
 };
 
 /// What memory depends on beside the Model; as it is the most that it may take.
@@ -23,12 +23,13 @@ struct Computing {
     bool several_threads = true;  ///< which put together lists of their own
 };
 
+/// Estimates what a run of the model takes on the CPU.
 Cost cost_of(const Model& model, const Computing& computing = {});
 
 /// What may be spent on one evaluation: those of limits.h, or what the environment says instead.
 struct Budget {
     double work = 0;   ///< pair visits
-    double bytes = 0;  ///< of memory
+    double bytes = 0;  ///< bytes of memory
 
     /// Throws InputError when $NATATOR_MOST_WORK or $NATATOR_MOST_MEMORY is no decimal number above 0.
     static Budget of_user();
@@ -38,10 +39,12 @@ struct Budget {
 /// `more_bytes`, are beyond the user's budget.
 void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where, const Computing& computing = {});
 
-/// The same for an evaluation of a scene, from settling to its duration, and if that is too many time steps.
+/// Throws InputError, one line that names the scene, if an evaluation of it, from settling to its duration, is beyond
+/// the user's budget, or has too many time steps (limits.h).
 void check_evaluation_cost(const Scene& scene, const Model& model, const Computing& computing = {});
 
-/// The same for a stream: settling and the time steps until then, s, of one without an end some.
+/// Throws InputError, one line that names the scene, if settling and the time steps until `until` (s) are beyond the
+/// user's budget, or are too many (limits.h). Without `until`, limits::live_frames time steps count.
 void check_live_cost(const Scene& scene, const Model& model, std::optional<double> until = {}, const Computing& computing = {});
 
 }  // namespace natator

@@ -10,8 +10,8 @@ namespace natator {
 struct Course {
     double forward = 0;  ///< way along its own heading, length: along the bisector of headings at start and end, which is
                          ///< the chord of an arc
-    double yaw = 0;      ///< of the heading in the horizontal plane, from +x towards +z, rad
-    double roll = 0;     ///< of its back about its heading, from the vertical towards its right, rad
+    double yaw = 0;      ///< angle of the heading in the horizontal plane, from +x towards +z, rad
+    double roll = 0;     ///< angle of its back about its heading, from the vertical towards its right, rad
 };
 
 /// The course of one of the model's bodies that has come to `end`, `distance` along x.

@@ -24,12 +24,13 @@ enum class Precision { single_precision, double_precision };
 /// Why an evaluation ended.
 enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
-/// As they are in requests and results: "flex", "conserving"; "float", "double"; "completed", "touched-plane",
-/// "no-progress", "unstable", "reached".
+/// Name in requests and results: "flex", "conserving".
 const char* to_string(Scheme scheme);
+/// Name in requests and results: "float", "double".
 const char* to_string(Precision precision);
+/// Name in results: "completed", "touched-plane", "no-progress", "unstable", "reached".
 const char* to_string(StopReason stopped);
-/// 16 hexadecimal digits.
+/// A hash as in results: 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
 /// Random shift of all starting positions, for ensembles of a chaotic system.
@@ -38,15 +39,15 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
-/// Makes a scene begin from another of its many starts, as `start` of a request does: where the scheme disorders its water,
-/// from another arrangement of that, which becomes part of the scene; else from places that are all shifted by up to 0.001
-/// of fluidRestDistance, which is what is returned. Throws InputError if it is below 0.
+/// Selects initial condition number `start` of a scene, as `start` of a request does. Where the scheme disorders its
+/// water, `start` seeds the arrangement, which is stored in the scene; else the returned perturbation shifts every
+/// coordinate by up to 0.001 of fluidRestDistance. Throws InputError if `start` is below 0.
 Perturbation choose_start(int start, Scene& scene);
 
 /// How far the final state is from the laws of mechanics; all dimensionless.
 struct ConservationErrors {
     double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
-    double angular_momentum = 0;  ///< the same for m r x v about the body's centre of mass
+    double angular_momentum = 0;  ///< |sum of m r x v| / sum of |m r x v| over the body, about its centre of mass
     double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
     double density_error_max = 0;
 };
@@ -64,17 +65,17 @@ struct Evaluation {
     double distance = 0;   ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
     double simulated = 0;  ///< s
     int frames = 0;
-    std::uint64_t hash = 0;  ///< of the final positions and velocities
+    std::uint64_t hash = 0;  ///< hash of the final positions and velocities
     std::optional<Instability> instability;
     ConservationErrors errors;
     std::optional<SwimmingNumbers> swimming;
     /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
-    std::optional<Course> course;  ///< of a body
-    std::vector<GoalResult> goals;          ///< of the scene's goals, in their order
-    std::optional<WaterRenewal> renewal;    ///< of a moving tank
-    std::vector<CompanionResult> companions;  ///< of the scene's companions, in their order
+    std::optional<Course> course;  ///< where the body went; none without a body
+    std::vector<GoalResult> goals;          ///< result of each goal, in the scene's order
+    std::optional<WaterRenewal> renewal;    ///< what a moving tank took from its water; none in another tank
+    std::vector<CompanionResult> companions;  ///< result of each companion, in the scene's order
 
     /// What a gait is worth: the weighted sum of the scores of the scene's goals; without goals, the distance.
     double fitness() const;
@@ -83,7 +84,7 @@ struct Evaluation {
 /// One body position per frame, for callers that want a trajectory.
 using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
 
-/// How an evaluation is run and what is seen of it. Only `precision` and `perturbation` have a say in what comes out.
+/// How an evaluation is run and what is seen of it. Only `precision` and `perturbation` affect the result.
 struct EvaluationOptions {
     Precision precision = Precision::single_precision;
     Perturbation perturbation{};

@@ -29,7 +29,7 @@ struct Goal {
     bool arrives() const { return measure == Measure::turn || measure == Measure::depth || measure == Measure::reach; }
 };
 
-/// As in scenes and results: "distance", "forward", "turn", "depth", "reach", "hold", "economy".
+/// Name in scenes and results: "distance", "forward", "turn", "depth", "reach", "hold", "economy".
 const char* to_string(Goal::Measure measure);
 
 /// What became of a goal.

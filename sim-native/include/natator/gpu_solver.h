@@ -14,9 +14,9 @@ namespace natator {
 /// How a State is computed on a GPU. Up to 20 000 particles, by blocks of its own and by the whole GPU have bits of their own.
 enum class GpuPath {
     by_size,           ///< blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
-    block,             ///< by blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
-    whole_gpu,         ///< by the whole GPU
-    whole_gpu_search,  ///< the same without lists, as where they do not fit: contacts and neighbours of water are searched each time
+    block,             ///< blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
+    whole_gpu,         ///< kernels of the whole GPU
+    whole_gpu_search,  ///< kernels of the whole GPU that store no lists, but search neighbours in every pass
 };
 
 /// Where and how a GpuSolver computes.
@@ -56,15 +56,18 @@ public:
     /// which must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
-    /// As Solver::muscle_work, of all frames so far; 0 in scheme flex.
+    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2
+    /// (Solver::muscle_work); 0 in scheme flex.
     double muscle_work() const;
 
     /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;
-    /// As Solver::pressures gives it; empty before the first update, without water, and in scheme flex.
+    /// Pressure of each fluid particle in the last substep, mass/(length s^2) (Solver::pressures). Empty before the
+    /// first update, without water, and in scheme flex.
     std::vector<Real> pressures() const;
-    /// As Solver::forces gives it; empty without GpuSolverOptions::forces, and before the first update.
+    /// Mean force of the water on each particle over the last update, mass length/s^2 (Solver::forces). Empty without
+    /// GpuSolverOptions::forces, and before the first update.
     std::vector<Vector3<Real>> forces() const;
     /// Number of fluid and contact neighbours of each particle in the last substep; 0 before the first.
     std::vector<int> neighbour_counts() const;

@@ -30,7 +30,7 @@ struct LawMargins {
 /// `conserving`), no body is stretched to several times its length, no fluid compressed to a fraction of its volume.
 class LawWatch {
 public:
-    /// Of a run that begins where the model does, with muscles at rest.
+    /// Watches a run that begins where the model does, with muscles at rest.
     explicit LawWatch(const Model& model);
     ~LawWatch();
     LawWatch(const LawWatch& other);
@@ -53,7 +53,7 @@ public:
     /// The tank has moved: energy counts anew, from the end of the next frame.
     void begin_anew();
 
-    /// As they are now, but for what time adds to them.
+    /// The limits that hold now, without what they grow by with time.
     const physics::LawLimits& limits() const;
     /// The largest parts so far.
     const LawMargins& margins() const;
@@ -63,7 +63,8 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Of a fluid whose mean of max(density - 1, 0) this is, in rest densities; `time`: s.
+/// The broken law of compression, at `time` (s), if `mean_excess`, the mean of max(density - 1, 0) over the fluid in
+/// rest densities, is too large; else none.
 std::optional<Instability> broken_by_compression(double mean_excess, double time);
 
 /// Gravity without its part along periodic axes, length/s^2: what falls along those comes back to where it was.

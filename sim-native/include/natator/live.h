@@ -22,7 +22,7 @@ struct LiveSetup {
     std::string scene;             ///< name or path of the scene, see load_scene
     std::string overrides{};       ///< JSON merge patch (RFC 7386) on it, as text; empty changes nothing
     std::optional<Gait> gait{};    ///< none: muscles at rest
-    std::optional<int> start{};    ///< which of its many starts (choose_start); none: the scene's own
+    std::optional<int> start{};    ///< number of the initial condition (choose_start); none: the scene's own
     std::filesystem::path data{};  ///< where the scene is looked up, as in SceneOptions
     /// s; how long it is to run, for what that may cost (cost.h); it goes on all the same. None: not known
     std::optional<double> until{};
@@ -101,8 +101,8 @@ private:
     int base_frame_ = 0;    ///< since when the time step is what it is
     double base_time_ = 0;  ///< s, of base_frame_
     double start_x_ = 0;
-    double earlier_work_ = 0;  ///< of the muscles, since the start, before run_'s solver
-    Steering steering_;        ///< of the next frame
+    double earlier_work_ = 0;  ///< work of the muscles from the start to run_'s solver, mass length^2/s^2
+    Steering steering_;        ///< what the next frame is steered to
     Steering applied_;         ///< what the last frame ended with
     std::optional<Instability> instability_;
 };

@@ -53,7 +53,7 @@ struct Body {
 struct CompanionBody {
     Body body;
     Gait gait;
-    int first_actuator = 0;  ///< of its muscles; they follow those of the body and of companions before it
+    int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
 };
 
 /// All that stays constant while a scene runs. One Model serves any number of States.
@@ -74,7 +74,7 @@ struct Model {
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;
     std::vector<Muscle> muscles;
-    int actuators = 0;  ///< of the body; a gait has as many
+    int actuators = 0;  ///< number of the body's actuators; a gait has as many
     Body body;
     std::vector<CompanionBody> companions;
 

@@ -15,7 +15,7 @@ struct Momentum {
     double angular_size = 0;  ///< sum of |m (x - c) x v|
 };
 
-/// Of the given particles.
+/// Momentum of the movable ones of the given particles.
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles);
 
@@ -23,7 +23,7 @@ Momentum measure_momentum(const Model& model, const State<Real>& state, const st
 template <class Real>
 Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, const std::vector<int>& particles);
 
-/// Of all particles.
+/// Momentum of all movable particles.
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state);
 

@@ -28,7 +28,8 @@ public:
     void drift(double time) { origin_ += time * tank_.current; }
     /// Is the mean of the body's particles, in the tank's coordinates, a step from where it began?
     bool is_due(const Eigen::Vector3d& centre) const;
-    /// Moves the tank where it is due, and tells the State where it stands.
+    /// Moves the tank if its swimmer has gone one step, and updates State::origin. `centre`: mean of the body's
+    /// particles, length.
     template <class Real>
     void follow(const Eigen::Vector3d& centre, State<Real>& state);
 
@@ -39,11 +40,11 @@ public:
     const WaterRenewal& renewal() const { return renewal_; }
 
 private:
-    /// One that the tank moves along, and the walls across it.
+    /// An axis that the tank moves along, and the walls across it.
     struct Axis {
         int axis = 0;
         double low = 0, high = 0;
-        double home = 0;  ///< of the body's centre
+        double home = 0;  ///< place of the body's centre at the start, length
     };
     template <class Real>
     void move(const Axis& axis, int direction, State<Real>& state);

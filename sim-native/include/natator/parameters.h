@@ -57,11 +57,11 @@ struct SolverParameters {
     double cohesion = 0.0;
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s, in scheme `flex`
-    double kernelSupport = 2.5;         ///< of the water in scheme `conserving`, in rest distances of the fluid, [2, 4]
+    double kernelSupport = 2.5;         ///< kernel radius in `conserving`, rest distances of the fluid, [2, 4]
     /// Scheme `conserving`: the weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so
     /// that it needs no more substeps. For a tank that stays full: its surface must stay above that level.
     bool modifiedPressure = false;
-    double kinematicViscosity = 0.0;    ///< of the water in scheme `conserving`, length^2/s, >= 0
+    double kinematicViscosity = 0.0;    ///< viscosity of the water in scheme `conserving`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
     double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density, in scheme `flex`
     double freeSurfaceDrag = 0.0;       ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0

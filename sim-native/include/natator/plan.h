@@ -43,11 +43,12 @@ struct Plan {
     }
 };
 
+/// The plan for a model: the stages that it needs.
 Plan make_plan(const Model& model);
 
-/// The same with all stages that change no bit where there is nothing for them to do, such as forces of strength 0:
-/// what skipping saves. Fluid stays out where there is none, and so do restitution and the acceleration clamp, which
-/// act at any coefficient.
+/// The plan with, on top of what the model needs, all stages that change no bit where there is nothing for them to do,
+/// such as forces of strength 0: for measuring what skipping them saves. Fluid stays out where there is none, and so do
+/// restitution and the acceleration clamp, which act at any coefficient.
 Plan make_unskipped_plan(const Model& model);
 
 /// One line per stage in the order of a substep, as `natator-sim info` prints it.

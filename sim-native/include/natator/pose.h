@@ -13,9 +13,9 @@ namespace natator {
 struct Pose {
     Eigen::Vector3d centre{0, 0, 0};   ///< mean of its particles, length
     Eigen::Vector3d heading{1, 0, 0};  ///< where its head points; length 1
-    double yaw = 0;                    ///< of the heading in the horizontal plane, from +x towards +z, rad
-    double pitch = 0;                  ///< of the heading above the horizontal plane, rad
-    double roll = 0;                   ///< of its back about its heading, from the vertical towards its right, rad
+    double yaw = 0;                    ///< angle of the heading in the horizontal plane, from +x towards +z, rad
+    double pitch = 0;                  ///< angle of the heading above the horizontal plane, rad
+    double roll = 0;                   ///< angle of its back about its heading, from vertical to its right, rad
 };
 
 /// Mean of some places; 0 of none.

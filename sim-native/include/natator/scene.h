@@ -38,7 +38,7 @@ struct Slice {
     int height = 1;              ///< rows, along y
     int width = 1;               ///< particles along z of the widest row; of `columns` as many as reach as far
     std::vector<int> rows = {};  ///< particles of each row from the lowest up, all odd or all even; empty: `width` each
-    int lift = 0;                ///< of the middle row above the body's axis, half spacings
+    int lift = 0;                ///< height of the middle row above the body's axis, half spacings
     /// z of the particles of each row, ascending, half spacings: where they do not fill the row from one side to the other.
     /// Empty: they do, as many to the left as to the right.
     std::vector<std::vector<int>> columns = {};
@@ -47,8 +47,8 @@ struct Slice {
         const auto i = static_cast<std::size_t>(iy);
         return !columns.empty() ? static_cast<int>(columns[i].size()) : rows.empty() ? width : rows[i];
     }
-    int y(int iy) const { return 2 * iy - (height - 1) + lift; }  ///< of a row, from the axis, half spacings
-    /// From the middle of left and right, half spacings.
+    int y(int iy) const { return 2 * iy - (height - 1) + lift; }  ///< height of a row above the axis, half spacings
+    /// Place of a particle of a row along z, from the middle of left and right, half spacings.
     int z(int iy, int iz) const {
         return columns.empty() ? 2 * iz - (row(iy) - 1) : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
     }
@@ -70,14 +70,14 @@ struct Actuator {
 
 /// How neighbouring clusters hang together.
 enum class Joint {
-    slice,  ///< by all particles of a slice (thesis 2.2)
-    line,   ///< by those of its particles that are nearest the line about which it bends (after thesis 4.4)
+    slice,  ///< they share all particles of a slice (thesis 2.2)
+    line,   ///< they share those particles of a slice that are nearest the line about which it bends (after thesis 4.4)
 };
 
 /// A closed surface that moves with a body.
 struct Skin {
-    std::string file;    ///< as the creature names it
-    std::string digest;  ///< of the file, 16 hexadecimal digits
+    std::string file;    ///< name of the file, as the creature gives it
+    std::string digest;  ///< digest of the file, 16 hexadecimal digits
     double unit = 1;     ///< scene lengths of one unit of the file
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: which way of the file is forward, up, right
     Eigen::Vector3d origin{0, 0, 0};                     ///< place in the file that is the centre of the last slice
@@ -100,10 +100,10 @@ struct Creature {
     /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
     std::vector<std::vector<Bend>> bends;
     double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
-    std::vector<double> cluster_stiffnesses;  ///< of each cluster from the head on; empty = `cluster_stiffness` for all
+    std::vector<double> cluster_stiffnesses;  ///< by cluster from the head on; empty = `cluster_stiffness` for all
     double particle_mass = 1.0;        ///< m_s
     double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
-    std::vector<double> spring_stiffnesses;   ///< of each gap's springs; empty = `spring_stiffness` for all
+    std::vector<double> spring_stiffnesses;   ///< one for the springs of each gap; empty = `spring_stiffness` for all
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (model_builder.h).
@@ -167,10 +167,10 @@ struct Obstacle {
     enum class Shape { sphere, box, mesh };
     Shape shape = Shape::sphere;
     Eigen::Vector3d centre{0, 0, 0};      ///< length; of a mesh: the middle of its box
-    double radius = 0;                    ///< of a sphere, length
+    double radius = 0;                    ///< radius of a sphere, length
     Eigen::Vector3d size{0, 0, 0};        ///< edges of a box, length
-    std::vector<Eigen::Vector3d> points;  ///< of a mesh: places of its particles from the centre, length
-    double spacing = 0.075;               ///< of its particles, length
+    std::vector<Eigen::Vector3d> points;  ///< places of a mesh's particles, from the centre, length
+    double spacing = 0.075;               ///< distance of its particles, length
 
     /// Whether a place is within it; of a mesh, as near to one of its particles as any place between eight of them.
     bool holds(const Eigen::Vector3d& place) const;
@@ -204,7 +204,8 @@ struct Scene {
     std::vector<Obstacle> obstacles;
     std::vector<Goal> goals;  ///< none: the distance along x
 
-    /// Of a way over ground that took so many seconds, what was swum through the water along x, length.
+    /// Distance through the water along x, length, of a swimmer that got `distance` (length) along x over ground in
+    /// `time` (s).
     double through_water(double distance, double time) const {
         return moving_tank ? distance - time * moving_tank->current.x() : distance;
     }

@@ -19,8 +19,9 @@ struct SkinPlace {
 
 /// What a swimmer is asked for beside its own pose.
 struct Sensing {
-    std::vector<SkinPlace> flow{};            ///< 1000 at most
-    double within = 0;                        ///< of a place water counts, length; 0: solidRestDistance + 2 fluidRestDistance
+    std::vector<SkinPlace> flow{};  ///< 1000 at most
+    /// Distance from a place up to which water counts, length; 0: solidRestDistance + 2 fluidRestDistance.
+    double within = 0;
     std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length over ground
 };
 
@@ -32,7 +33,7 @@ struct SkinFlow {
     /// Velocity of the water less that of the place, along the body's own axes, length/s: mean over the fluid particles
     /// within the distance s that is asked for, weighted by (1 - (r/s)^2)^3. 0 without any.
     Eigen::Vector3d velocity{0, 0, 0};
-    int particles = 0;  ///< of fluid that it is a mean over
+    int particles = 0;  ///< number of fluid particles that it is a mean over
 };
 
 /// What a swimmer knows of itself and of the water. "Own axes" are forward, up and right of its body.
@@ -41,12 +42,13 @@ struct Senses {
     /// Own axes as columns: forward, up, right, each of length 1. Those of the rotation of all particles that fits best
     /// (Umeyama 1991), so that bends to both sides do not count.
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d velocity{0, 0, 0};   ///< of the centre of mass, along own axes, length/s; in a moving tank less its current
+    /// Velocity of the centre of mass, along own axes, length/s; in a moving tank less its current.
+    Eigen::Vector3d velocity{0, 0, 0};
     Eigen::Vector3d turn_rate{0, 0, 0};  ///< angular velocity about own axes, rad/s: angular momentum over inertia
     /// How each actuator's muscles are contracted, in units of its drive: what drive would ask for the lengths that they
     /// have, in the mean over them.
     std::vector<double> bend;
-    std::vector<SkinFlow> flow;  ///< as asked for
+    std::vector<SkinFlow> flow;  ///< one for each place of Sensing::flow
     std::optional<Eigen::Vector3d> target;  ///< direction from the centre, along own axes, of length 1; 0 where it is there
     double target_distance = 0;             ///< from the centre, length
 };

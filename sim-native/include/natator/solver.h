@@ -57,8 +57,8 @@ public:
     /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step. The gait must fit the
     /// model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
-    /// The same with muscles that `drive` drives, asked for the frame's start in scheme `flex`, else for the end of each
-    /// substep. Its values are in [-2, 2], one for each actuator, else InputError is thrown.
+    /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring

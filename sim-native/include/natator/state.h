@@ -19,7 +19,7 @@ struct State {
     std::vector<Vector3<Real>> velocity;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation;  ///< kept between iterations, substeps and frames
     std::vector<Vector3<Real>> cluster_centre;              ///< stored centre with its dead band
-    std::vector<Real> spring_rest_length;                   ///< as driven by the muscles
+    std::vector<Real> spring_rest_length;                   ///< length, as the muscles are driven
     /// Where the coordinates of a moving tank begin over ground, length: what is at x is at x + origin there.
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     double time = 0;                                        ///< s since the end of settling

@@ -9,7 +9,7 @@ namespace natator {
 /// What a program outside does to a swimmer's muscles while it swims: each actuator is driven by scale times what the gait
 /// gives it, plus offset. One value for each actuator in both lists.
 struct Steering {
-    std::vector<double> scale;   ///< of the gait's drive, [0, 4]
+    std::vector<double> scale;   ///< factor on the gait's drive, [0, 4]
     std::vector<double> offset;  ///< added to it, [-2, 2]; positive bends the body to its left, or down
 };
 

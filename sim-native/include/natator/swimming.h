@@ -15,7 +15,7 @@ struct SwimmingNumbers {
     double tail_amplitude = 0;              ///< A, length: mean over the last beats, three at most
     std::optional<double> strouhal;         ///< f A / U; none at rest
     std::optional<double> reynolds;         ///< U L / nu; none where nu is 0
-    std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola, Argentina, Mahadevan 2014); likewise
+    std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola and others 2014); none where nu is 0
     std::optional<double> cavities;         ///< at the end, in volumes of the body, see cavities(); none without gravity
 };
 
@@ -36,8 +36,9 @@ std::optional<double> peak_to_peak(const std::vector<double>& path, double time_
 template <class Real>
 std::optional<double> cavities(const Model& model, const State<Real>& state, const std::vector<Real>& densities);
 
-/// Of a run whose tail went along `tail` (tail_z for each frame, the start first). None unless a body with muscles swims
-/// in water that has a kinematicViscosity (scheme `conserving`), or if it did not beat once; see peak_to_peak.
+/// Dimensionless numbers of a run that got `distance` (length) in `simulated` (s), with its tail at `tail` (tail_z for
+/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving`, or if
+/// the tail did not beat once; see peak_to_peak.
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
                                                 const std::vector<double>& tail);
 
