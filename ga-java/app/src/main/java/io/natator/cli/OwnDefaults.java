@@ -7,10 +7,10 @@ import picocli.CommandLine;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 
-/** Says in each command's help what its default is of an option that it shares with commands that have another. */
+/** Shows the command's own default of shared options in its help. */
 final class OwnDefaults {
 
-    /** In a description, where that stands. */
+    /** Placeholder in an option's description: the command's own default stands there. */
     static final String HERE = "{own default}";
 
     private static final String RUN = "the run's, else ";

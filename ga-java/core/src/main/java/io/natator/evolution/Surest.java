@@ -4,8 +4,8 @@ import io.natator.config.Judge;
 import java.util.List;
 
 /**
- * Whom of the best to take: the one that is worth most less a standard error, since the greatest of many means of few runs is
- * mostly luck.
+ * Picks the candidate with the highest mean minus one standard error, to limit selection bias: the greatest of many means of few
+ * runs is mostly luck.
  */
 public final class Surest {
 
@@ -13,9 +13,10 @@ public final class Surest {
     }
 
     /**
-     * Of the best gaits of a run.
+     * The place of the pick in a list of candidates.
      *
-     * @return its place among them; -1 of none
+     * @param best estimates of the candidates
+     * @return from 0; -1 without candidates
      */
     public static int of(List<Estimate> best) {
         double deviation = deviation(best);
@@ -32,7 +33,7 @@ public final class Surest {
         return one.score() - deviation / Math.sqrt(one.runs().size());
     }
 
-    /** How far the runs of a gait scatter, by all runs of all these together. */
+    /** Standard deviation of the runs of one gait, pooled over all these gaits. */
     private static double deviation(List<Estimate> estimates) {
         double squares = 0;
         int freedom = 0;

@@ -9,7 +9,7 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.BlockingQueue;
 import java.util.concurrent.TimeUnit;
 
-/** What a program writes to standard output, line by line. Running it reads to the end of that, for a thread of its own. */
+/** Reads the lines that a program writes to standard output, until it closes that; to be run by a thread of its own. */
 final class AnswerLines implements Runnable {
 
     /** A result is some 400 bytes. */

@@ -10,7 +10,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 import java.util.function.Consumer;
 
-/** The end of what a program writes to standard error. Running it reads to the end of that, for a thread of its own. */
+/** Reads what a program writes to standard error, until it closes that, and keeps the end of it; to be run by a thread of its own. */
 public final class ErrorTail implements Runnable {
 
     /** Stands between lines where all are one. */

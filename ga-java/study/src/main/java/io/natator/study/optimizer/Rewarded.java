@@ -12,11 +12,11 @@ import java.util.Set;
 import java.util.function.Function;
 
 /**
- * What runs are compared by.
+ * A quantity by which runs are compared.
  *
- * @param name    of it
- * @param greater how what has more of it is said to stand to what has less
- * @param value   what a swim has of it
+ * @param name    its name in reports, such as "distance"
+ * @param greater comparative used in reports, such as "further than"
+ * @param value   its value of a swim
  */
 record Rewarded(String name, String greater, Function<SimulationResult, Double> value) {
 

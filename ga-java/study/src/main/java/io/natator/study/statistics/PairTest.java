@@ -58,9 +58,9 @@ public record PairTest(String first, String second, MedianInterval difference, R
     }
 
     /**
-     * The same of samples of anything.
+     * In words, no more than test and interval support, of samples of any quantity.
      *
-     * @param greater how the greater one is said to stand to the other: {@code better than}
+     * @param greater comparative for the greater sample, such as {@code better than}
      */
     public String verdict(String greater) {
         String why = " (p " + chance(p) + ", A = " + Numbers.fixed(test.a(), 2) + ")";
