@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result_table.h"
+#include "water/water_case.h"
+
+namespace natator::bench {
+
+/// Swimmers of imposed motion under several settings.
+struct SwimmerStudy {
+    std::vector<std::string> cases;  ///< as read_swim_case takes them
+    std::vector<int> resolutions;    ///< particles along the body
+    std::vector<Setting> settings;   ///< of scheme conserving, which alone gives the forces on a body
+    std::vector<double> supports, boxes{1};  ///< boxes: size of the box, of the usual one
+    std::vector<int> starts{1};
+    int beats = 8, counted = 3;  ///< counted: at the end
+    std::optional<int> gpu{};    ///< its number; none: on the CPU
+    bool quick = false;          ///< only the first variant of each case
+};
+
+/// Columns case, variant, resolution, box, beats, scheme, precision, backend, substeps, iterations, modified_pressure, support, start
+/// (these are the key); status (ok, unstable, too viscous: for an explicit substep of that length); across (particles across
+/// the body where it is widest, as the file has it); steps (substeps in a beat); swim_quantities(): speed (lengths/beat, mean of the
+/// counted beats, forwards), spread (their standard deviation), lateral (speed to the side), slip (speed over that of the wave),
+/// tail_beat (from side to side, lengths), strouhal, reynolds, swimming_number (pi tail_beat times length over viscosity), amplitude
+/// (the scale), force (forwards) and power (given to the water), in densities of water, lengths and beats, of a slab for a length of
+/// span; then particles; run_time (s); reference, deviation (of it), met, confirmed: of the first target of this variant's alone.
+Row swimmer_columns();
+inline constexpr std::size_t swimmer_key_columns = 13;
+
+/// The key; beat; speed, lateral, force, power.
+Row swimmer_beat_columns();
+
+/// Runs what `table` does not hold yet; `report` gets a line per row. Throws InputError, before anything is run, for a file that is wrong.
+void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTable& beats,
+                       const std::function<void(const std::string&)>& report);
+
+/// All targets of these cases beside what the rows give: the key without backend and start, quantity, over or zero of which, value, reference,
+/// least, greatest, deviation, met, confirmed. A target of several variants waits for two of them.
+ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table);
+
+}  // namespace natator::bench
