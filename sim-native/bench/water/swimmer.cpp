@@ -208,6 +208,7 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
 SwimCase swim_case_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     if (!document.is_object()) fields::refuse(top, document, "an object");
+    if (name.find_first_of(",\n\r") != std::string::npos) fields::refuse(top, "has a comma or a line break in its name; must have none");
     SwimCase result{std::filesystem::path(name).stem().string(), {}, {}, {}};
     json base = document;
     base.erase("variants");

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "natator/error.h"
 #include "natator/evaluate.h"
 #include "water/swim.h"
 
@@ -171,7 +172,11 @@ Row swimmer_beat_columns() {
 void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTable& beats,
                        const std::function<void(const std::string&)>& report) {
     std::vector<SwimCase> cases;
-    for (const std::string& name : study.cases) cases.push_back(read_swim_case(name));
+    for (const std::string& name : study.cases) {
+        cases.push_back(read_swim_case(name));
+        if (std::ranges::count(cases, cases.back().name, &SwimCase::name) > 1)
+            throw InputError(name + ": another case is named \"" + cases.back().name + "\" too; must have a name of its own");
+    }
     for (const SwimCase& one : cases)
         for (const int resolution : study.resolutions)
             for (const double box : study.boxes)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "../backend.h"
@@ -51,6 +52,9 @@ void add_swimmers(CLI::App& app, int& status) {
         for (const Setting& setting : study.settings)
             if (setting.scheme != Scheme::conserving)
                 throw InputError("--scheme = flex: has no forces on a body; must be conserving");
+        for (const std::string& name : study.cases)
+            if (!name.ends_with(".json") && std::ranges::count(swim_case_names(), name) == 0)
+                throw InputError("--case = " + name + ": must be " + joined(swim_case_names(), ", ") + ", or a path that ends in .json");
         refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) study.gpu = options->backend.device;
         study.quick = common.quick;
