@@ -158,6 +158,7 @@ TEST(Swimmer, FilesThatAreWrongAreRefused) {
         {R"({"variants": {"fast": {"viscosity": "low"}}})", "eel (fast): viscosity = \"low\": must be"},
         {R"({"variants": {"a,b": {}}})", "eel: variants = \"a,b\": must be without a comma"},
         {R"({"variants": {"fast": 3}})", "eel (fast)"},
+        {R"({"colour": 3})", "eel: colour: unknown key (= 3); allowed: source, outline, midline, towed, variants, targets"},
         {R"({"targets": 3})", "eel: targets = 3: must be an array"},
         {R"({"targets": [{"quantity": "sped", "confirmed": true, "source": "x", "least": 0}]})", "eel: targets[0].quantity = \"sped\": must be one of speed"},
         {R"({"targets": [{"quantity": 3, "confirmed": true, "source": "x", "least": 0}]})", "eel: targets[0].quantity = 3: must be"},

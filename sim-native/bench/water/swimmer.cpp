@@ -172,7 +172,7 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     Swimmer swimmer;
     fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
-                                 {"source", "outline", "midline", "towed"}, swimmer);
+                                 {"source", "outline", "midline", "towed", "variants", "targets"}, swimmer);
     for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
     std::string source;
     fields::read(document["source"], top.key("source"), {}, source);
