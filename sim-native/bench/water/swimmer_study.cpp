@@ -193,10 +193,13 @@ ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table)
     const Row columns = swimmer_columns();
     const auto column = [&](const std::string& name) { return std::ranges::find(columns, name) - columns.begin(); };
     Row header(columns.begin(), columns.begin() + swimmer_key_columns);
-    ResultTable targets("", joined_rows(header, {"quantity", "over", "zero_of", "value", "least", "greatest", "reference", "deviation", "met", "confirmed"}),
-                        swimmer_key_columns + 3);
-    for (const std::string& name : study.cases) {
-        const SwimCase one = read_swim_case(name);
+    header = joined_rows(header, {"quantity", "over", "zero_of", "value", "least", "greatest", "reference", "deviation", "met", "confirmed"});
+    ResultTable targets("", header, swimmer_key_columns + 3);
+    std::vector<SwimCase> cases;
+    for (const std::string& name : study.cases) cases.push_back(read_swim_case(name));
+    for (const std::string& name : swim_case_names())  // rows of an earlier run
+        if (std::ranges::count(cases, name, &SwimCase::name) == 0) cases.push_back(read_swim_case(name));
+    for (const SwimCase& one : cases) {
         for (const SwimTarget& target : one.targets) {
             const bool of_each = target.over.empty() && target.zero_of.empty();
             std::map<Row, std::vector<Eigen::Vector2d>> groups;
@@ -213,7 +216,8 @@ ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table)
                 if (!of_each && points.size() < 2) continue;
                 const double value = of_each ? points[0].y() : target.over.empty() ? at_zero(points) : exponent(points);
                 const Row limits{measured_text(value), measured_text(target.least), measured_text(target.greatest)};
-                targets.add(joined_rows(joined_rows(joined_rows(key, {target.quantity, target.over, target.zero_of}), limits), judged(value, target)));
+                const Row name = joined_rows(key, {target.quantity, target.over, target.zero_of});
+                targets.add(joined_rows(joined_rows(name, limits), judged(value, target)));
             }
         }
     }

@@ -39,8 +39,8 @@ Row swimmer_beat_columns();
 void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTable& beats,
                        const std::function<void(const std::string&)>& report);
 
-/// All targets of these cases beside what the rows give: the key without backend and start, quantity, over or zero of which, value, reference,
-/// least, greatest, deviation, met, confirmed. A target of several variants waits for two of them.
+/// All targets of these cases, and of those that come with the program, beside what the rows give: the key, variant "all" for a target of
+/// several, which waits for two of them; quantity, over, zero_of; value, least, greatest, reference, deviation, met, confirmed.
 ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table);
 
 }  // namespace natator::bench
