@@ -7,7 +7,8 @@
 namespace natator::bench {
 namespace {
 
-constexpr double nose = 1.5, step = 0.2;  ///< of the body's length: where the nose begins, and how far it goes until the box is moved along
+/// Of the body's length: where the nose begins, in the usual box, and how far it goes until the box is moved along.
+constexpr double nose = 1.5, step = 0.2;
 constexpr double course_per_drift = 0.7;  ///< radians for a length
 constexpr double steering_time = 6;       ///< s
 
@@ -35,7 +36,9 @@ double Helm::rate(double angle, double out) {
 
 template <class Real>
 Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSetting& setting)
-    : spacing_(spacing_of(setting)), swimmer_(swimmer), scene_(scene),
+    : spacing_(spacing_of(setting)),
+      swimmer_(swimmer),
+      scene_(scene),
       count_((scene.length / 2 * scene.box / spacing_).array().round().matrix().cast<int>() * 2),
       start_(scene.box.x() / 2.3 * nose * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
       tank_(count_, setting, [this](Model& model) { immerse(model); }),

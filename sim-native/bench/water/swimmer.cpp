@@ -208,7 +208,8 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
 SwimCase swim_case_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     if (!document.is_object()) fields::refuse(top, document, "an object");
-    if (name.find_first_of(",\n\r") != std::string::npos) fields::refuse(top, "has a comma or a line break in its name; must have none");
+    if (name.find_first_of(",\n\r") != std::string::npos)
+        fields::refuse(top, "has a comma or a line break in its name; must have none");
     SwimCase result{std::filesystem::path(name).stem().string(), {}, {}, {}};
     json base = document;
     base.erase("variants");
@@ -218,7 +219,8 @@ SwimCase swim_case_from_json(const json& document, const std::string& name) {
     result.base = swimmer_from_json(base, name);
     if (variants.empty()) result.variants.emplace_back("", result.base);
     for (const auto& [variant, patch] : variants.items()) {
-        if (variant.find_first_of(",\n\r") != std::string::npos) fields::refuse(top.key("variants"), variant, "without a comma or a line break");
+        if (variant.find_first_of(",\n\r") != std::string::npos)
+            fields::refuse(top.key("variants"), variant, "without a comma or a line break");
         json patched = base;
         patched.merge_patch(patch);
         result.variants.emplace_back(variant, swimmer_from_json(patched, name + " (" + variant + ")"));

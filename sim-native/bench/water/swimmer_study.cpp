@@ -110,7 +110,8 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
         const Beat& beat = swum.beats[k];
         Row row = joined_rows(key, {std::to_string(k + 1)});
         if (beats.has(row)) continue;
-        beats.add(joined_rows(row, {measured_text(beat.speed), measured_text(beat.lateral), measured_text(beat.force), measured_text(beat.power)}));
+        beats.add(joined_rows(row, {measured_text(beat.speed), measured_text(beat.lateral), measured_text(beat.force),
+                                    measured_text(beat.power)}));
     }
     double widest = 0;
     for (const Eigen::Vector2d& point : swimmer.half_width.table) widest = std::max(widest, 2 * point.y());
@@ -184,7 +185,8 @@ void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTabl
                     for (const double support : study.supports)
                         for (const int start : study.starts)
                             for (const auto& variant : one.variants) {
-                                run_one(one, variant, study, box, {setting, resolution, study.gpu, support, start}, table, beats, report);
+                                run_one(one, variant, study, box, {setting, resolution, study.gpu, support, start}, table,
+                                        beats, report);
                                 if (study.quick) break;
                             }
 }
@@ -193,7 +195,8 @@ ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table)
     const Row columns = swimmer_columns();
     const auto column = [&](const std::string& name) { return std::ranges::find(columns, name) - columns.begin(); };
     Row header(columns.begin(), columns.begin() + swimmer_key_columns);
-    header = joined_rows(header, {"quantity", "over", "zero_of", "value", "least", "greatest", "reference", "deviation", "met", "confirmed"});
+    header = joined_rows(header, {"quantity", "over", "zero_of", "value", "least", "greatest", "reference", "deviation",
+                                  "met", "confirmed"});
     ResultTable targets("", header, swimmer_key_columns + 3);
     std::vector<SwimCase> cases;
     for (const std::string& name : study.cases) cases.push_back(read_swim_case(name));

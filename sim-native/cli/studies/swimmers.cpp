@@ -28,7 +28,8 @@ void add_swimmers(CLI::App& app, int& status) {
     add_study_options(command, options->common, {"float"});
     add_backend_options(command, options->backend);
     SwimmerStudy& study = options->study;
-    command->add_option("--case", study.cases, "Files of references/swimmers by name, or paths that end in .json.")->capture_default_str();
+    command->add_option("--case", study.cases, "Files of references/swimmers by name, or paths that end in .json.")
+        ->capture_default_str();
     command->add_option("--resolution", study.resolutions, "Particles along the body.")
         ->check(whole_number_in(8, 400))
         ->capture_default_str();
@@ -38,7 +39,8 @@ void add_swimmers(CLI::App& app, int& status) {
     command->add_option("--beats", study.beats, "Of the tail; the last 3 are counted, with --quick the last.")
         ->check(whole_number_in(1, 1000))
         ->capture_default_str();
-    command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure; a beat has 120 frames.")
+    command->add_option("--setting", options->settings,
+                        "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure; a beat has 120 frames.")
         ->capture_default_str();
     command->add_option("--support", study.supports, "Of the kernel, in particle distances.")
         ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
@@ -54,7 +56,8 @@ void add_swimmers(CLI::App& app, int& status) {
                 throw InputError("--scheme = flex: has no forces on a body; must be conserving");
         for (const std::string& name : study.cases)
             if (!name.ends_with(".json") && std::ranges::count(swim_case_names(), name) == 0)
-                throw InputError("--case = " + name + ": must be " + joined(swim_case_names(), ", ") + ", or a path that ends in .json");
+                throw InputError("--case = " + name + ": must be " +
+                                 joined(swim_case_names(), ", ") + ", or a path that ends in .json");
         refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) study.gpu = options->backend.device;
         study.quick = common.quick;
