@@ -139,11 +139,11 @@ TEST(BenchProtocolTest, SwimmersWriteRowsBeatsAndTargets) {
     const Outcome outcome = run_simulator(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), targets = content(folder.path / "swimmers-targets.csv");
-    EXPECT_NE(table.find("own,a,8,1,1,conserving,float,cpu,2,2,no,2.5,1,ok,0.8,240,0.02,"), std::string::npos) << table;
+    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,ok,0.8,240,0.02,"), std::string::npos) << table;
     EXPECT_NE(table.find(",9,"), std::string::npos) << "the target of b alone: " << table;
-    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,1,conserving,float,cpu,2,2,no,2.5,1,1,"), std::string::npos);
-    EXPECT_NE(targets.find("own,all,8,1,1,conserving,float,cpu,2,2,no,2.5,1,power,amplitude,,"), std::string::npos) << targets;
-    EXPECT_NE(targets.find("own,b,8,1,1,conserving,float,cpu,2,2,no,2.5,1,speed,,,"), std::string::npos) << targets;
+    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,1,"), std::string::npos);
+    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,power,amplitude,,"), std::string::npos) << targets;
+    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,speed,,,"), std::string::npos) << targets;
     EXPECT_NE(targets.find(",no,no\n"), std::string::npos) << targets;
     EXPECT_EQ(run_simulator(arguments).exit_code, 0);
     EXPECT_EQ(content(file), table);
@@ -175,6 +175,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
         {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 400]; see "},
         {{"swimmers", "--box", "0.5"}, "--box = 0.5: must be a number in [0.8, 10]; see "},
+        {{"swimmers", "--pressure", "0"}, "--pressure = 0: must be a number in [0.01, 100]; see "},
         {{"swimmers", "--beats", "0"}, "--beats = 0: must be a whole number in [1, 1000]; see "},
         {{"wtaer"}, "unknown command wtaer; did you mean water?; see "},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},

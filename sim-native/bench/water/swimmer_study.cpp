@@ -12,11 +12,14 @@
 namespace natator::bench {
 namespace {
 
-/// The plane flow's box is so high; gravity gives the middle of any box the same pressure: enough for the water to follow the tail.
-constexpr double slab_height = 0.25;       ///< of the body's length
-constexpr double pressure_at_middle = 2.5; ///< of density (length/beat)^2
+constexpr double slab_height = 0.25;  ///< of the box, of the body's length
 
 using Figures = std::map<std::string, double>;
+
+/// Water in its box.
+struct Pool {
+    double box, pressure;
+};
 
 /// What a beat gave, in lengths and beats.
 struct Beat {
@@ -31,14 +34,12 @@ struct Swum {
 };
 
 template <class Real>
-Swum swim(const Swimmer& swimmer, const SwimmerStudy& study, double box, const WaterSetting& setting) {
+Swum swim(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool, const WaterSetting& setting) {
     SwimScene scene;
+    scene.box *= pool.box;
     if (swimmer.slab) scene.box.y() = slab_height;
-    scene.box.x() *= box;
-    scene.box.z() *= box;
-    if (!swimmer.slab) scene.box.y() *= box;
     const double length = scene.length, beat = scene.beat;
-    scene.gravity = 2 * pressure_at_middle / scene.box.y() * length / (beat * beat);
+    scene.gravity = 2 * pool.pressure / scene.box.y() * length / (beat * beat);
     Swim<Real> body(swimmer, scene, setting);
     Swum swum;
     swum.viscous = !body.set_kinematic_viscosity(swimmer.viscosity * length * length / beat);
@@ -95,17 +96,17 @@ Row judged(double value, const SwimTarget& target) {
             yes_or_no(target.least <= value && value <= target.greatest), yes_or_no(target.confirmed)};
 }
 
-void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study, double box,
+void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study, const Pool& pool,
              const WaterSetting& setting, ResultTable& table, ResultTable& beats,
              const std::function<void(const std::string&)>& report) {
     const Setting& solver = setting.solver;
     const Swimmer& swimmer = variant.second;
-    const Row key{one.name, variant.first, std::to_string(setting.resolution), number_text(box), std::to_string(study.beats),
+    const Row key{one.name, variant.first, std::to_string(setting.resolution), number_text(pool.box), number_text(pool.pressure), std::to_string(study.beats),
                   to_string(solver.scheme), to_string(solver.precision), setting.gpu ? "cuda" : "cpu",
                   std::to_string(solver.substeps), std::to_string(solver.iterations), yes_or_no(solver.modified_pressure),
                   number_text(setting.support), std::to_string(setting.start)};
     if (table.has(key)) return;
-    const Swum swum = in_precision(solver.precision, [&](auto real) { return swim<decltype(real)>(swimmer, study, box, setting); });
+    const Swum swum = in_precision(solver.precision, [&](auto real) { return swim<decltype(real)>(swimmer, study, pool, setting); });
     for (std::size_t k = 0; k < swum.beats.size(); ++k) {
         const Beat& beat = swum.beats[k];
         Row row = joined_rows(key, {std::to_string(k + 1)});
@@ -158,7 +159,7 @@ double at_zero(std::vector<Eigen::Vector2d> points) {
 }  // namespace
 
 Row swimmer_columns() {
-    Row columns{"case", "variant", "resolution", "box", "beats", "scheme", "precision", "backend", "substeps", "iterations",
+    Row columns{"case", "variant", "resolution", "box", "pressure", "beats", "scheme", "precision", "backend", "substeps", "iterations",
                 "modified_pressure", "support", "start", "status", "across", "steps", "viscosity"};
     columns = joined_rows(columns, swim_quantities());
     return joined_rows(columns, {"particles", "run_time", "reference", "deviation", "met", "confirmed"});
@@ -181,14 +182,15 @@ void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTabl
     for (const SwimCase& one : cases)
         for (const int resolution : study.resolutions)
             for (const double box : study.boxes)
-                for (const Setting& setting : study.settings)
-                    for (const double support : study.supports)
-                        for (const int start : study.starts)
-                            for (const auto& variant : one.variants) {
-                                run_one(one, variant, study, box, {setting, resolution, study.gpu, support, start}, table,
-                                        beats, report);
-                                if (study.quick) break;
-                            }
+                for (const double pressure : study.pressures)
+                    for (const Setting& setting : study.settings)
+                        for (const double support : study.supports)
+                            for (const int start : study.starts)
+                                for (const auto& variant : one.variants) {
+                                    const WaterSetting water{setting, resolution, study.gpu, support, start};
+                                    run_one(one, variant, study, {box, pressure}, water, table, beats, report);
+                                    if (study.quick) break;
+                                }
 }
 
 ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table) {

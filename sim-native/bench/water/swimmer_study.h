@@ -15,14 +15,16 @@ struct SwimmerStudy {
     std::vector<std::string> cases;  ///< as read_swim_case takes them
     std::vector<int> resolutions;    ///< particles along the body
     std::vector<Setting> settings;   ///< of scheme conserving, which alone gives the forces on a body
-    std::vector<double> supports, boxes{1};  ///< boxes: size of the box, of the usual one
+    std::vector<double> supports;
+    std::vector<double> boxes{1};        ///< size of the box, of the usual one
+    std::vector<double> pressures{2.5};  ///< at the middle of the box, by gravity: enough for the water to follow the tail; density (length/beat)^2
     std::vector<int> starts{1};
     int beats = 8, counted = 3;  ///< counted: at the end
     std::optional<int> gpu{};    ///< its number; none: on the CPU
     bool quick = false;          ///< only the first variant of each case
 };
 
-/// Columns case, variant, resolution, box, beats, scheme, precision, backend, substeps, iterations, modified_pressure, support, start
+/// Columns case, variant, resolution, box, pressure, beats, scheme, precision, backend, substeps, iterations, modified_pressure, support, start
 /// (these are the key); status (ok, unstable, too viscous: for an explicit substep of that length); across (particles across
 /// the body where it is widest, as the file has it); steps (substeps in a beat); swim_quantities(): speed (lengths/beat, mean of the
 /// counted beats, forwards), spread (their standard deviation), lateral (speed to the side), slip (speed over that of the wave),
@@ -30,7 +32,7 @@ struct SwimmerStudy {
 /// (the scale), force (forwards) and power (given to the water), in densities of water, lengths and beats, of a slab for a length of
 /// span; then particles; run_time (s); reference, deviation (of it), met, confirmed: of the first target of this variant's alone.
 Row swimmer_columns();
-inline constexpr std::size_t swimmer_key_columns = 13;
+inline constexpr std::size_t swimmer_key_columns = 14;
 
 /// The key; beat; speed, lateral, force, power.
 Row swimmer_beat_columns();

@@ -36,6 +36,10 @@ void add_swimmers(CLI::App& app, int& status) {
     command->add_option("--box", study.boxes, "Size of the box of water, of the usual one: 2.3 x 1.2 lengths, 0.8 high.")
         ->check(number_in(0.8, 10))
         ->capture_default_str();
+    command->add_option("--pressure", study.pressures,
+                        "By gravity, at the middle of the box, in densities of water times (length/beat)^2.")
+        ->check(number_in(0.01, 100))
+        ->capture_default_str();
     command->add_option("--beats", study.beats, "Of the tail; the last 3 are counted, with --quick the last.")
         ->check(whole_number_in(1, 1000))
         ->capture_default_str();
