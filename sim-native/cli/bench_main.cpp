@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     add_speed(app, status);
     add_stability(app, status);
     add_stages(app, status);
+    add_swimmers(app, status);
     add_throughput(app, status);
     add_validation(app, status);
     add_water(app, status);

@@ -24,6 +24,7 @@ void add_roofline(CLI::App& app, int& status);
 void add_speed(CLI::App& app, int& status);
 void add_stability(CLI::App& app, int& status);
 void add_stages(CLI::App& app, int& status);
+void add_swimmers(CLI::App& app, int& status);
 void add_throughput(CLI::App& app, int& status);
 void add_validation(CLI::App& app, int& status);
 void add_water(CLI::App& app, int& status);

@@ -126,6 +126,29 @@ TEST(BenchProtocolTest, WaterMeasuresNoCaseThatIsTooViscousForItsSubsteps) {
               std::string::npos) << outcome.out;
 }
 
+/// Of a file of one's own, and taken up again where rows are there; beats and targets stand beside it.
+TEST(BenchProtocolTest, SwimmersWriteRowsBeatsAndTargets) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "swimmers.csv").string(), own = (folder.path / "own.json").string();
+    std::ofstream(own) << R"({"source": "a test", "slab": true, "outline": [[0, 0.05], [1, 0.05]], "viscosity": 0.02,
+        "midline": {"by": "displacement", "amplitude": [0.08], "waves": 1},
+        "variants": {"a": {}, "b": {"midline": {"scale": 0.5}}},
+        "targets": [{"quantity": "power", "over": "amplitude", "reference": 2, "within": 0.3, "confirmed": true, "source": "of small waves"},
+                    {"quantity": "speed", "variant": "b", "reference": 9, "within": 0.1, "confirmed": false, "source": "none"}]})";
+    const std::vector<std::string> arguments{"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--setting", "2x2", "--output", file};
+    const Outcome outcome = run_simulator(arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string table = content(file), targets = content(folder.path / "swimmers-targets.csv");
+    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,ok,0.8,240,0.02,"), std::string::npos) << table;
+    EXPECT_NE(table.find(",9,"), std::string::npos) << "the target of b alone: " << table;
+    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,1,"), std::string::npos);
+    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,power,amplitude,,"), std::string::npos) << targets;
+    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,speed,,,"), std::string::npos) << targets;
+    EXPECT_NE(targets.find(",no,no\n"), std::string::npos) << targets;
+    EXPECT_EQ(run_simulator(arguments).exit_code, 0);
+    EXPECT_EQ(content(file), table);
+}
+
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
         {{"water", "--scheme", "flex", "flex"}, "--scheme: flex is given twice; must be given once"},
@@ -146,6 +169,14 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"stability", "--device", "1"}, "--device = 1: the backend is cpu; must be left out"},
         {{"stability", "--axis", "dr"}, "--axis = \"dr\": must be one of "},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
+        {{"swimmers", "--scheme", "flex"}, "--scheme = flex: has no forces on a body; must be conserving"},
+        {{"swimmers", "--case", "lavra"}, "--case = lavra: must be eel-2d, "},
+        {{"swimmers", "--case", "no/such.json"}, "no/such.json"},
+        {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
+        {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 400]; see "},
+        {{"swimmers", "--box", "0.5"}, "--box = 0.5: must be a number in [0.8, 10]; see "},
+        {{"swimmers", "--pressure", "0"}, "--pressure = 0: must be a number in [0.01, 100]; see "},
+        {{"swimmers", "--beats", "0"}, "--beats = 0: must be a whole number in [1, 1000]; see "},
         {{"wtaer"}, "unknown command wtaer; did you mean water?; see "},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
         {{"validation", "--part", "tank", "--setting", "4x4m"}, "--setting = \"4x4m\": must be without m"},

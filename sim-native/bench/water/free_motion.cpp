@@ -34,12 +34,15 @@ std::vector<Eigen::Vector3d> FreeMotion::set_off(const std::vector<Eigen::Vector
     }
     angle_ += time * (steering_ + (angular_momentum_ - of_bending) / inertia);
     const Eigen::Matrix3d next = turned(angle_);
-    next_.clear();
+    std::vector<Eigen::Vector3d> to;
+    for (const Eigen::Vector3d& x : shape) to.push_back(here + time * velocity_ + next * (x - middle));
+    return lead(to, time);
+}
+
+std::vector<Eigen::Vector3d> FreeMotion::lead(const std::vector<Eigen::Vector3d>& to, double time) {
+    next_ = to;
     std::vector<Eigen::Vector3d> velocities;
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-        next_.push_back(here + time * velocity_ + next * (shape[k] - middle));
-        velocities.push_back((next_[k] - places_[k]) / time);
-    }
+    for (std::size_t k = 0; k < places_.size(); ++k) velocities.push_back((next_[k] - places_[k]) / time);
     return velocities;
 }
 

@@ -17,6 +17,8 @@ public:
     /// then, in any frame. The same frame must serve all calls.
     const std::vector<Eigen::Vector3d>& places() const { return places_; }
     std::vector<Eigen::Vector3d> set_off(const std::vector<Eigen::Vector3d>& shape, double time);
+    /// The same of a body that is led to these places whatever the forces on it.
+    std::vector<Eigen::Vector3d> lead(const std::vector<Eigen::Vector3d>& to, double time);
     /// Goes there; `forces` on the particles, mean over the way, change how it moves next.
     void arrive(const std::vector<Eigen::Vector3d>& forces, double time);
     /// From now on it turns so much faster about y than the forces make it, 1/s.
@@ -29,8 +31,8 @@ public:
     double angle() const { return angle_; }  ///< by which the shapes' frame is turned about y, from x away from z
 
 private:
-    std::vector<Eigen::Vector3d> shape_, places_, next_;  ///< shape_: in the frame of set_off; empty before it
-    double angle_ = 0;                                    ///< of that frame about y
+    std::vector<Eigen::Vector3d> places_, next_;
+    double angle_ = 0;  ///< of that frame about y
     Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), acceleration_ = Eigen::Vector3d::Zero();
     double angular_momentum_ = 0, moment_ = 0;  ///< about the centre, along y
     double steering_ = 0;

@@ -184,8 +184,9 @@ void WaterTank<Real>::shift(double distance) {
     const Real length = static_cast<Real>(length_), by = static_cast<Real>(distance);
     for (int i = 0; i < model_->particles(); ++i) {
         state_.position[i].x() -= by;
-        if (state_.position[i].x() >= 0 || !model_->is_fluid(i)) continue;
-        state_.position[i].x() += length;
+        const Real x = state_.position[i].x();
+        if ((by > 0 ? x >= 0 : x <= length) || !model_->is_fluid(i)) continue;
+        state_.position[i].x() += by > 0 ? length : -length;
         state_.velocity[i].setZero();
     }
 }

@@ -73,7 +73,7 @@ public:
     /// substep, s, and the forces of the water on each particle, and moves them on.
     bool drive(const std::function<void()>& set_off,
                const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
-    /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
+    /// Moves the walls along x by so much, or back: the water that is left behind the rear one is put before the front, at rest.
     /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
     /// Of the model, from now on.
