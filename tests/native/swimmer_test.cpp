@@ -25,9 +25,9 @@ Swimmer swimmer(const std::string& name, const std::string& variant = "") {
 }
 
 /// Of the straight body.
-Places midline() {
+Places midline(int parts = 100) {
     Places places;
-    for (int k = 0; k <= 100; ++k) places.emplace_back(-length * k / 100, 0, 0);
+    for (int k = 0; k <= parts; ++k) places.emplace_back(-length * k / parts, 0, 0);
     return places;
 }
 
@@ -62,19 +62,37 @@ TEST(Swimmer, IsAsItsOutlineSays) {
     EXPECT_TRUE(larva.holds({-1.99, 0, 0.19}, length, 0.2)) << "not thinner than that";
 }
 
+TEST(Swimmer, SquareSectionsHaveCorners) {
+    nlohmann::json document = plain();
+    EXPECT_FALSE(swim_case_from_json(document, "file").base.holds({-1, 0.19, 0.09}, length, thinnest));
+    document["square"] = true;
+    EXPECT_TRUE(swim_case_from_json(document, "file").base.holds({-1, 0.19, 0.09}, length, thinnest));
+    EXPECT_FALSE(swim_case_from_json(document, "file").base.holds({-1, 0.21, 0.09}, length, thinnest));
+}
+
+TEST(Swimmer, PhasesThatRiseEvenlyAreAWave) {
+    nlohmann::json document = plain();
+    document["midline"]["by"] = "curvature";
+    const Swimmer wave = swim_case_from_json(document, "file").base;
+    document["midline"]["phase"] = {{0, 0}, {1, 1}};
+    document["midline"]["waves"] = 5;
+    const Places expected = wave.bent(midline(), length, 2.3), places = swim_case_from_json(document, "file").base.bent(midline(), length, 2.3);
+    for (std::size_t k = 0; k < places.size(); ++k) EXPECT_TRUE(places[k].isApprox(expected[k], 1e-12)) << k;
+}
+
 /// Whatever its wave is of, the midline keeps its length and sections their shape; they stand upright on it.
 TEST(Swimmer, MidlineKeepsItsLengthAndSectionsTurnWithIt) {
     for (const std::string& name : swim_case_names())
         for (const auto& [variant, one] : read_swim_case(name).variants)
             for (const double beats : {0.0, 0.2, 3.1, 4.25, 5.55, 6.8}) {
-                const Places line = one.bent(midline(), length, beats);
+                const Places line = one.bent(midline(400), length, beats);
                 double sum = 0;
                 for (std::size_t k = 1; k < line.size(); ++k) {
                     const double part = (line[k] - line[k - 1]).norm();
-                    EXPECT_NEAR(part, length / 100, 3e-3 * length / 100) << name << variant << beats << " " << k;
+                    EXPECT_NEAR(part, length / 400, 3e-4 * length / 400) << name << variant << beats << " " << k;
                     sum += part;
                 }
-                EXPECT_NEAR(sum, length, 1e-3 * length) << name;
+                EXPECT_NEAR(sum, length, 1e-4 * length) << name;
                 const Places section = one.bent({{-1.48, 0, 0}, {-1.5, 0.1, -0.05}, {-1.5, -0.1, 0.05}, {-1.52, 0, 0}}, length, beats);
                 EXPECT_NEAR((section[2] - section[1]).norm(), std::hypot(0.2, 0.1), 1e-12);
                 EXPECT_NEAR((section[2] - section[1]).normalized().dot((section[3] - section[0]).normalized()), 0, 2e-2) << name << variant;

@@ -121,7 +121,7 @@ double Swimmer::grown(double beats) const {
 }
 
 double Swimmer::bending(double s, double beats) const {
-    return grown(beats) * scale * amplitude.at(s) * std::sin(turn * (beats - waves * s));
+    return grown(beats) * scale * amplitude.at(s) * std::sin(turn * (beats - (phase.given() ? phase.at(s) : waves * s)));
 }
 
 double Swimmer::slope(double s, double ds, double beats) const {
@@ -133,7 +133,9 @@ bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest) co
     if (s < 0 || s > 1) return false;
     const double width = std::max(half_width.at(s) * length, thinnest);
     if (slab) return std::abs(x.z()) <= width;
-    return std::hypot(x.z() / width, x.y() / std::max(half_height.at(s) * length, thinnest)) <= 1;
+    const double height = std::max(half_height.at(s) * length, thinnest);
+    if (square) return std::abs(x.z()) <= width && std::abs(x.y()) <= height;
+    return std::hypot(x.z() / width, x.y() / height) <= 1;
 }
 
 std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const {
@@ -171,7 +173,7 @@ std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& s
 Swimmer swimmer_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     Swimmer swimmer;
-    fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
+    fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
                                  {"source", "outline", "midline", "towed", "variants", "targets"}, swimmer);
     for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
     std::string source;
@@ -182,13 +184,14 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
     const json& midline = fields::required(document, top, "midline");
     const Place place = top.key("midline");
     fields::read_object<Swimmer>(midline, place, {{"scale", &Swimmer::scale, {0, 10}}, {"waves", &Swimmer::waves, {-10, 10}}},
-                                 {"by", "amplitude", "ramp"}, swimmer);
+                                 {"by", "amplitude", "phase", "ramp"}, swimmer);
     using Wave = Swimmer::Wave;
     swimmer.wave = fields::read_choice<Wave>(fields::required(midline, place, "by"), place.key("by"),
                                              {{"curvature", Wave::curvature},
                                               {"displacement", Wave::displacement},
                                               {"axial displacement", Wave::axial_displacement}});
     swimmer.amplitude = read_profile(fields::required(midline, place, "amplitude"), place.key("amplitude"));
+    if (midline.contains("phase")) swimmer.phase = read_profile(midline["phase"], place.key("phase"));
     if (midline.contains("ramp"))
         swimmer.ramp = fields::read_choice<std::string>(midline["ramp"], place.key("ramp"),
                                                         {{"cosine", "cosine"}, {"sine", "sine"}, {"tanh", "tanh"}});

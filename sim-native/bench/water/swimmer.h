@@ -16,6 +16,7 @@ struct Profile {
     std::vector<Eigen::Vector2d> table;
 
     double at(double s) const;
+    bool given() const { return !polynomial.empty() || !table.empty(); }
 };
 
 /// A body whose shape is given as a function of time. Straight it lies along x, the nose at the origin and the tail at -length; it
@@ -23,6 +24,7 @@ struct Profile {
 /// Lengths are in parts of the body's, times in beats.
 struct Swimmer {
     Profile half_width, half_height;  ///< ellipses
+    bool square = false;              ///< rectangles instead
     bool slab = false;                ///< spans the box along y instead: plane flow
     /// What the wave is of: of curvature, or of lateral displacement, as a function of the distance along the midline, or of that along
     /// the axis from which it is measured.
@@ -30,6 +32,7 @@ struct Swimmer {
     Profile amplitude;
     double scale = 1;  ///< of the amplitude
     double waves = 1;  ///< along the body: amplitude * sin 2 pi (t - waves s)
+    Profile phase;     ///< if given, in place of waves s, beats
     std::string ramp = "cosine";  ///< how it grows: "cosine" and "sine" in the first beat, "tanh" as tanh pi t
     double viscosity = 0.001;     ///< length^2/beat
     std::optional<double> towed;  ///< at this speed, length/beat; else it moves freely
