@@ -170,7 +170,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"stability", "--axis", "dr"}, "--axis = \"dr\": must be one of "},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
         {{"swimmers", "--scheme", "flex"}, "--scheme = flex: has no forces on a body; must be conserving"},
-        {{"swimmers", "--case", "lavra"}, "--case = lavra: must be eel-2d, "},
+        {{"swimmers", "--case", "lavra"}, "--case = lavra: must be creature-2, eel-2d, "},
         {{"swimmers", "--case", "no/such.json"}, "no/such.json"},
         {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
         {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 400]; see "},
