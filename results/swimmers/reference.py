@@ -8,7 +8,7 @@ Fabrie, Numer. Math. 81 (1999), 497; for swimmers Kolomenskiy, Schneider, J. Com
 It is as heavy as water: its rigid motion is that by which it keeps the momentum of the water that it holds, and its bending may widen
 it, which the pressure must not resist (Gazzola, Chatelain, van Rees, Koumoutsakos, J. Comput. Phys. 230 (2011), 7093, section 2). The pressure is
 kept from step to step and mended by what is left of the divergence (incremental projection: Guermond, Minev, Shen, CMAME 195 (2006), 6011). A strip
-half a box away from the body takes off its wake. Lengths in L, times in T, the nose towards -x; pictures of the body in the next boxes swim along."""
+half a box away from the body takes off its wake. With --mach the water is a lattice instead, of plane flow. Lengths in L, times in T, the nose towards -x; pictures of the body in the next boxes swim along."""
 import argparse
 import csv
 import json
@@ -21,7 +21,7 @@ import torch
 
 SWIMMERS = pathlib.Path(__file__).resolve().parents[2] / "sim-native/references/swimmers"
 PARTS = 400          # of the midline
-COLUMNS = ["swimmer", "variant", "cells", "cfl", "box", "beats", "speed", "spread", "lateral", "slip", "tail_beat", "strouhal", "reynolds",
+COLUMNS = ["swimmer", "variant", "cells", "cfl", "mach", "box", "beats", "speed", "spread", "lateral", "slip", "tail_beat", "strouhal", "reynolds",
            "swimming_number", "force", "power", "steps", "seconds"]
 
 
@@ -236,15 +236,19 @@ class Swim:
             widening = widening[..., None]
         change = chi * (target - water)
         self.u[where] += change
-        divergence = torch.zeros(self.n, **self.real)
-        divergence[where[1:]] += chi * widening
-        self.widening = self.forward(divergence)
-        self.widening.reshape(-1)[0] = 0
+        self.widen(where[1:], chi * widening)
         away = (torch.arange(self.n[0], **self.real) * self.h - (self.origin[0] + middle[0]) + self.box[0] / 2) % self.box[0]
         away = torch.minimum(away, self.box[0] - away) / (0.06 * self.box[0])
         self.u *= torch.exp(-10 * dt * (1 + torch.cos(math.pi * away.clamp(max=1))) / 2)[(slice(None),) + (None,) * (self.d - 1)]
         force = -change[:2].double().reshape(2, -1).sum(1) * self.h ** self.d / dt  # of the water on the body
         self.log.append([self.time, *(self.origin + middle), *tail, -float(force[0]), self.dissipation])
+
+    def widen(self, where, rate):
+        """Divergence that the next pressure leaves, 1/T, there."""
+        divergence = torch.zeros(self.n, **self.real)
+        divergence[where] += rate
+        self.widening = self.forward(divergence)
+        self.widening.reshape(-1)[0] = 0
 
     def run(self, beats):
         """A row of the table: means over the last two beats, and how much these differ."""
@@ -252,7 +256,7 @@ class Swim:
         while self.time < beats:
             self.step()
             if not math.isfinite(self.fastest):
-                raise SystemExit("the water is unstable; expected a smaller --cfl")
+                raise SystemExit("the water is unstable; expected a smaller --cfl or --mach")
         log = np.array(self.log)
         last = log[log[:, 0] > beats - 2]
         path = lambda rows: (rows[-1, 1:3] - rows[0, 1:3]) / (rows[-1, 0] - rows[0, 0])
@@ -268,29 +272,82 @@ class Swim:
                 "force": mean(5), "power": mean(6), "steps": len(log), "seconds": round(time.time() - begin)}
 
 
+class Lattice(Swim):
+    """Plane water on a D2Q9 lattice by cumulants (Geier, Schönherr, Pasquali, Krafczyk, Comput. Math. Appl. 70 (2015), 507), third ones with
+    Lambda = 1/4. The body takes on its cells as before: populations are made from their moments about the velocity that it puts on them."""
+
+    def __init__(self, data, cells, box, mach, device):
+        super().__init__(data, cells, box, mach, device, edge=0.1)
+        self.dt = mach / math.sqrt(3) / (1.2 * cells)  # 1.2 L/T, about a tail's, is that Mach number
+        viscosity = self.nu * self.dt * cells ** 2
+        self.rate, self.third = 1 / (0.5 + 3 * viscosity), 1 / (0.5 + 0.25 / (3 * viscosity))
+        one = torch.tensor([1 / 6, 2 / 3, 1 / 6], **self.real)
+        self.f = (one[:, None] * one)[:, :, None, None].expand(3, 3, *self.n).clone()
+
+    @staticmethod
+    def moments(f, u, axis):
+        low, rest, high = f.unbind(axis)
+        drift, spread = high - low, high + low
+        return torch.stack([spread + rest, drift - u * (spread + rest), spread - 2 * u * drift + u * u * (spread + rest)], axis)
+
+    @staticmethod
+    def populations(k, u, axis):
+        mass, drift, spread = k.unbind(axis)
+        drift, spread = drift + u * mass, spread + 2 * u * drift + u * u * mass
+        return torch.stack([(spread - drift) / 2, mass - spread, (spread + drift) / 2], axis)
+
+    def widen(self, where, rate):
+        """A lattice's water is compressed a little instead."""
+
+    def step(self):
+        density, scale, f = self.f.sum((0, 1)), self.h / self.dt, self.f
+        u = torch.stack([(f[2] - f[0]).sum(0), (f[:, 2] - f[:, 0]).sum(0)]) / density
+        self.u = u * scale
+        self.time += self.dt
+        self.origin += self.dt * self.velocity
+        self.angle += self.dt * self.spin
+        self.take_on(self.dt)
+        k = self.moments(self.moments(f, u[0], 0), u[1], 1)
+        apart = (1 - self.rate) * (k[2, 0] - k[0, 2])
+        k[2, 0], k[0, 2] = density / 3 + apart / 2, density / 3 - apart / 2
+        k[1, 1] *= 1 - self.rate
+        k[2, 1] *= 1 - self.third
+        k[1, 2] *= 1 - self.third
+        k[2, 2] = (k[2, 0] * k[0, 2] + 2 * k[1, 1] ** 2) / density
+        k[1, 0] = k[0, 1] = 0
+        f = self.populations(self.populations(k, self.u[1] / scale, 1), self.u[0] / scale, 0)
+        self.f = torch.stack([torch.stack([f[a, b].roll((a - 1, b - 1), (0, 1)) for b in range(3)]) for a in range(3)])
+        if len(self.log) % 50 == 0:
+            self.fastest = float(self.u.abs().max())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("swimmer", help="name of a file in sim-native/references/swimmers")
     parser.add_argument("--variant", help="only this one (default: all)")
     parser.add_argument("--cells", type=int, default=64, help="of a length (default: 64)")
     parser.add_argument("--cfl", type=float, default=0.3, help="cells that the fastest water goes in a step (default: 0.3)")
+    parser.add_argument("--mach", type=float, help="water on a lattice, of slabs; about a tail's Mach number, such as 0.15")
     parser.add_argument("--box", type=float, nargs="+", help="lengths (default: 4 2, and 1 high but for slabs)")
-    parser.add_argument("--beats", type=float, default=8, help="(default: 8)")
+    parser.add_argument("--beats", type=float, default=8.0, help="(default: 8)")
     parser.add_argument("--device", default="cpu")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="CSV file; rows that it holds are kept")
     options = parser.parse_args()
     data = json.loads((SWIMMERS / f"{options.swimmer}.json").read_text())
     box = options.box or ([4, 2] if data.get("slab") else [4, 2, 1])
+    if options.mach and not data.get("slab"):
+        parser.error(f"--mach: {options.swimmer} is no slab; expected one")
     if len(box) != (2 if data.get("slab") else 3):
         parser.error("--box: expected two lengths for a slab, three for others")
     held = list(csv.DictReader(options.output.open())) if options.output.exists() else []
     for variant, change in data.get("variants", {"": {}}).items():
-        name = {"swimmer": options.swimmer, "variant": variant, "cells": options.cells, "cfl": options.cfl,
+        name = {"swimmer": options.swimmer, "variant": variant, "cells": options.cells, "cfl": "" if options.mach else options.cfl, "mach": options.mach or "",
                 "box": " ".join(f"{b:g}" for b in box), "beats": options.beats}
         known = any(all(row[key] == str(value) for key, value in name.items()) for row in held)
         if known or (options.variant is not None and options.variant != variant):
             continue
-        row = name | Swim(merged(data, change), options.cells, box, options.cfl, options.device).run(options.beats)
+        water, step = (Lattice, options.mach) if options.mach else (Swim, options.cfl)
+        row = name | water(merged(data, change), options.cells, box, step, options.device).run(options.beats)
         row = {key: f"{value:.4g}" if isinstance(value, float) and key not in name else value for key, value in row.items()}
         print(row, flush=True)
         new = not options.output.exists()
