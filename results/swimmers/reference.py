@@ -281,6 +281,7 @@ class Lattice(Swim):
         self.dt = mach / math.sqrt(3) / (1.2 * cells)  # 1.2 L/T, about a tail's, is that Mach number
         viscosity = self.nu * self.dt * cells ** 2
         self.rate, self.third = 1 / (0.5 + 3 * viscosity), 1 / (0.5 + 0.25 / (3 * viscosity))
+        self.dissipation = math.nan  # not measured
         one = torch.tensor([1 / 6, 2 / 3, 1 / 6], **self.real)
         self.f = (one[:, None] * one)[:, :, None, None].expand(3, 3, *self.n).clone()
 

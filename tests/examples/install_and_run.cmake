@@ -1,5 +1,5 @@
-# Installs the build BUILD into a prefix below WORK, moves the prefix, and does there what README.md says under "Use from
-# C++": configures and builds the examples of SOURCE against it, and runs them. Any step that fails ends it.
+# Installs the build BUILD into a prefix below WORK, moves the prefix, and does there what docs/library.md says:
+# configures and builds the examples of SOURCE against it, and runs them. Any step that fails ends it.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})

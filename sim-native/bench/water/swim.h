@@ -19,9 +19,7 @@ struct SwimScene {
 /// Where a body's centre and its tail's end were.
 struct Track {
     std::vector<Eigen::Vector3d> centre, tail;
-    double time = 0;  ///< from the first to the last, s
 
-    Eigen::Vector3d velocity() const { return (centre.back() - centre.front()) / time; }
     /// Of the tail, from side to side of the centre's way, or along z if it has none.
     double beat(const Eigen::Vector3d& side) const;
 };

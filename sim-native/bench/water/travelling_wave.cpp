@@ -27,18 +27,18 @@ template <class Real>
 bool swim(const Leg& leg, Swim<Real>& body, std::vector<WaterFigure>& figures, std::vector<WaterSample>& curve) {
     if (!body.set_kinematic_viscosity(leg.viscosity)) return false;
     Track track;
-    const double begin = body.time();
+    const long first = (leg.beats - counted) * body.frames_per_beat();
+    double begin = 0;
     for (long k = 1; k <= leg.beats * body.frames_per_beat(); ++k) {
         if (!body.frame()) return false;
-        if (k == (leg.beats - counted) * body.frames_per_beat()) track.time = begin - body.time();
-        if (k >= (leg.beats - counted) * body.frames_per_beat()) {
+        if (k == first) begin = body.time();
+        if (k >= first) {
             track.centre.push_back(body.centre());
             track.tail.push_back(body.tail());
         }
         curve.push_back({body.time(), body.motion().velocity().x() / length});
     }
-    track.time += body.time() - begin;
-    const Eigen::Vector3d velocity = track.velocity();
+    const Eigen::Vector3d velocity = (track.centre.back() - track.centre.front()) / (body.time() - begin);
     const double speed = velocity.norm(), beat = track.beat(Eigen::Vector3d::UnitY().cross(velocity.normalized()));
     const double reynolds = speed * length / leg.viscosity, beating = frequency * beat;
     figures.push_back(figure_within(0.25, beating / speed, strouhal_of_larvae(reynolds)));

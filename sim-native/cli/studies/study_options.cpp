@@ -5,6 +5,7 @@
 
 #include "../options.h"
 #include "../program.h"
+#include "natator/limits.h"
 
 namespace natator::cli {
 
@@ -72,6 +73,23 @@ std::vector<Setting> settings_of(const StudyOptions& common, const std::vector<s
     std::vector<Steps> steps;
     for (const std::string& text : texts) steps.push_back(steps_of(text));
     return settings_at(common, steps);
+}
+
+std::optional<int> WaterOptions::gpu() const {
+    refuse_gpu_options_for_cpu(backend);
+    return on_gpu(backend, {}) ? std::optional(backend.device) : std::nullopt;
+}
+
+void add_water_options(CLI::App* command, WaterOptions& water) {
+    add_backend_options(command, water.backend);
+    command->add_option("--setting", water.settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")
+        ->capture_default_str();
+    command->add_option("--support", water.supports, "Of the kernel of scheme conserving, in particle distances.")
+        ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
+        ->capture_default_str();
+    command->add_option("--start", water.starts, "Of scheme conserving: each begins with its water disordered otherwise.")
+        ->check(whole_number_in(1, 1'000'000))
+        ->capture_default_str();
 }
 
 void report(const std::string& line) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "../backend.h"
+#include "natator/parameters.h"
 #include "path_run.h"
 #include "result_table.h"
 
@@ -35,6 +38,19 @@ void add_grid(CLI::App* command, Grid& grid);
 /// The settings of substeps and iterations, a grid of them or written "8x4", for each scheme and precision asked for.
 std::vector<bench::Setting> settings_of(const StudyOptions& common, const Grid& grid);
 std::vector<bench::Setting> settings_of(const StudyOptions& common, const std::vector<std::string>& texts);
+
+/// How studies of water in a tank compute it.
+struct WaterOptions {
+    std::vector<std::string> settings{"4x4"};
+    std::vector<double> supports{SolverParameters().kernelSupport};
+    std::vector<int> starts{1};
+    BackendChoice backend;
+
+    /// Number of the GPU to compute on, if not on the CPU. Throws InputError where options of a GPU are given for a CPU.
+    std::optional<int> gpu() const;
+};
+/// Adds --setting, --support, --start and those of the backend.
+void add_water_options(CLI::App* command, WaterOptions& water);
 
 /// Says on standard error how far a study is, or what came of it.
 void report(const std::string& line);

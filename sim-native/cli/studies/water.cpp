@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "../backend.h"
 #include "../commands.h"
 #include "../options.h"
 #include "natator/error.h"
-#include "natator/limits.h"
 #include "study_options.h"
 #include "water/water_study.h"
 
@@ -14,8 +12,6 @@ namespace natator::cli {
 using namespace natator::bench;
 
 namespace {
-
-constexpr int most_starts = 1'000'000;
 
 /// Refuses a case of which the study does nothing.
 void refuse_cases_left_out(const WaterStudy& study) {
@@ -30,11 +26,9 @@ void refuse_cases_left_out(const WaterStudy& study) {
 void add_water(CLI::App& app, int& status) {
     struct Options {
         StudyOptions common;
-        std::vector<std::string> cases, settings{"4x4"};
+        WaterOptions water;
+        std::vector<std::string> cases;
         std::vector<int> resolutions{20, 40};
-        std::vector<double> supports{SolverParameters().kernelSupport};
-        std::vector<int> starts{1};
-        BackendChoice backend;
     };
     const auto options = std::make_shared<Options>();
     std::vector<std::string> names;
@@ -43,25 +37,17 @@ void add_water(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "water", "How far a scheme is from being a fluid: cases whose outcome is known, with targets.");
     add_study_options(command, options->common, {"float"});
-    add_backend_options(command, options->backend);
     command->add_option("--case", options->cases, "Cases.")->check(one_of(names))->capture_default_str();
     command->add_option("--resolution", options->resolutions, "Particles along a case's length.")
         ->check(whole_number_in(8, 200))
         ->capture_default_str();
-    command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")->capture_default_str();
-    command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
-        ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
-        ->capture_default_str();
-    command->add_option("--start", options->starts, "Of scheme conserving: each begins with its water disordered otherwise.")
-        ->check(whole_number_in(1, most_starts))
-        ->capture_default_str();
+    add_water_options(command, options->water);
     command->callback([options, command, &status] {
         const StudyOptions& common = options->common;
-        WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
-        study.supports = options->supports;
-        study.starts = options->starts;
-        refuse_gpu_options_for_cpu(options->backend);
-        if (on_gpu(options->backend, {})) study.gpu = options->backend.device;
+        WaterStudy study{options->cases, options->resolutions, settings_of(common, options->water.settings)};
+        study.supports = options->water.supports;
+        study.starts = options->water.starts;
+        study.gpu = options->water.gpu();
         if (common.quick && command->count("--resolution") == 0) study.resolutions = {10};
         study.held = !common.quick;
         if (command->count("--case") > 0) refuse_cases_left_out(study);

@@ -31,6 +31,8 @@ constexpr double disordered = 1.1;      ///< room in the box around water that i
 constexpr double depth_margin = 1;      ///< of the interaction radius
 constexpr double reach_margin = 3;      ///< of a body's length
 
+constexpr const char* law_names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression"};  ///< as Law has them
+
 template <class Real>
 physics::Vec3<Real> vec3(const Vector3<Real>& v) {
     return {v.x(), v.y(), v.z()};
@@ -284,15 +286,11 @@ std::string sentence_of(const Instability& instability) {
     return particle + " is not finite after stage " + instability.stage + at.str();
 }
 
-const char* name(Law law) {
-    static constexpr const char* names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression"};
-    return names[static_cast<int>(law)];
-}
+const char* name(Law law) { return law_names[static_cast<int>(law)]; }
 
 Law law_named(const std::string& text) {
-    for (const Law law : {Law::finite, Law::particle_energy, Law::energy, Law::tank, Law::shape, Law::compression})
-        if (text == name(law)) return law;
-    return Law::none;
+    const auto found = std::ranges::find(law_names, text);
+    return found == std::end(law_names) ? Law::none : static_cast<Law>(found - std::begin(law_names));
 }
 
 template LawMeasures measure_laws(const Model&, const State<float>&);
