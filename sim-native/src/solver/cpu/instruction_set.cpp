@@ -11,6 +11,7 @@
 #include "natator/error.h"
 #include "neighbour_kernels.h"
 #include "plane_kernels.h"
+#include "solver/lattice/kernels.h"
 
 namespace natator {
 
@@ -76,8 +77,8 @@ namespace cpu {
 // compiled for its set as its kernels are, and a processor that lacks the set can't run it.
 #define NATATOR_MADE_BY(set, Kernels, make)                    \
     {                                                          \
-        static const Kernels<Real> kernels = set::make<Real>(); \
-        return kernels;                                        \
+        static const Kernels<Real> chosen = set::make<Real>(); \
+        return chosen;                                         \
     }
 #if defined(NATATOR_X86_KERNELS)
 #define NATATOR_MADE_FOR_X86(set, Kernels, make)                                       \
@@ -106,4 +107,10 @@ NATATOR_CHOICE(WaterKernels, water_kernels)
 NATATOR_CHOICE(WaterKernels, scalar_water_kernels)
 
 }  // namespace cpu
+
+namespace lattice {
+
+NATATOR_CHOICE(Kernels, kernels)
+
+}  // namespace lattice
 }  // namespace natator

@@ -1,0 +1,112 @@
+#include "immersed.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace natator::lattice {
+namespace {
+
+constexpr double neighbourhood = 1.75;  ///< spacings: the next of edges and faces, not those two away
+constexpr double spanned = 0.05;        ///< of the greatest eigenvalue, below which neighbours don't span an axis
+
+/// A gradient where neighbours span less than three axes, completed to a motion that is rigid across.
+Eigen::Matrix3d completed(Eigen::Matrix3d gradient, const Eigen::Matrix3d& missing, double half) {
+    const double lost = missing.trace();
+    if (lost < 0.5) return gradient;
+    if (lost > 2.5) return half * Eigen::Matrix3d::Identity();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(missing);  // ascending: 0 spanned, 1 missing
+    const Eigen::Matrix3d e = axes.eigenvectors();
+    if (lost < 1.5) {
+        const Eigen::Vector3d n = (gradient * e.col(0)).cross(gradient * e.col(1)).normalized();
+        const double sign = e.col(0).cross(e.col(1)).dot(e.col(2)) > 0 ? 1 : -1;
+        return gradient + sign * half * n * e.col(2).transpose();
+    }
+    // A row of particles: turned by the least angle.
+    const Eigen::Vector3d along = (gradient * e.col(0)).normalized();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(e.col(0), along);
+    return gradient + half * turn.toRotationMatrix() * missing;
+}
+
+void store(const Eigen::Matrix3d& from, float* to) {
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) to[3 * r + c] = static_cast<float>(from(r, c));
+}
+
+}  // namespace
+
+Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing)
+    : spacing_(spacing), near_(rest.size()) {
+    std::vector<int> order(rest.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+    std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
+    const double reach = neighbourhood * spacing, half = spacing / 2;
+    for (std::size_t a = 0; a < order.size(); ++a)
+        for (std::size_t b = a + 1; b < order.size() && rest[order[b]].x() - rest[order[a]].x() < reach; ++b) {
+            const int i = order[a], j = order[b];
+            if (body[i] != body[j] || (rest[j] - rest[i]).norm() >= reach) continue;
+            near_[i].push_back({j, (rest[j] - rest[i]) / half});
+            near_[j].push_back({i, (rest[i] - rest[j]) / half});
+        }
+    for (auto& neighbours : near_) {
+        std::ranges::sort(neighbours, {}, &Neighbour::particle);
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), inverse = sum;
+        for (const Neighbour& one : neighbours) sum += one.weight * one.weight.transpose();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sum);
+        Eigen::Matrix3d missing = Eigen::Matrix3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3d e = axes.eigenvectors().col(k);
+            const double value = axes.eigenvalues()[k];
+            if (value > spanned * axes.eigenvalues()[2] && value > 0)
+                inverse += e * e.transpose() / value;
+            else
+                missing += e * e.transpose();
+        }
+        for (Neighbour& one : neighbours) one.weight = inverse * one.weight;
+        missing_.push_back(missing);
+    }
+}
+
+std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& velocities,
+                                  const Box& box, double step) const {
+    std::vector<Cube> cubes(near_.size());
+    const double per_step = step / box.cell;
+    for (std::size_t p = 0; p < near_.size(); ++p) {
+        Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
+        for (const Neighbour& one : near_[p]) {
+            shape += (places[one.particle] - places[p]) * one.weight.transpose();
+            rate += (velocities[one.particle] - velocities[p]) * one.weight.transpose();
+        }
+        shape = completed(shape, missing_[p], spacing_ / 2) / box.cell;
+        const Eigen::Vector3d middle = (places[p] - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
+        Cube& cube = cubes[p];
+        store(shape.inverse(), cube.to_rest);
+        store(rate * per_step, cube.rate);
+        for (int a = 0; a < 3; ++a) {
+            cube.x[a] = static_cast<float>(middle[a]);
+            cube.v[a] = static_cast<float>(velocities[p][a] * per_step);
+            cube.reach[a] = static_cast<float>(shape.row(a).cwiseAbs().sum());
+        }
+    }
+    return cubes;
+}
+
+std::vector<Eigen::Vector3d> Immersed::impulses(const std::vector<Push>& pushes, const Box& box, double step) const {
+    std::vector<Eigen::Vector3d> impulses(near_.size(), Eigen::Vector3d::Zero());
+    const double unit = box.cell_mass() * box.cell / step;
+    for (std::size_t p = 0; p < near_.size(); ++p) {
+        const Push& push = pushes[p];
+        impulses[p] += unit * Eigen::Vector3d(push.j[0], push.j[1], push.j[2]);
+        const Eigen::Matrix3d moment = unit * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(push.moment);
+        for (const Neighbour& one : near_[p]) {
+            const Eigen::Vector3d given = moment * one.weight;
+            impulses[one.particle] += given;
+            impulses[p] -= given;
+        }
+    }
+    return impulses;
+}
+
+}  // namespace natator::lattice

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "box.h"
+
+namespace natator::lattice {
+
+/// A particle as the water sees it: a cube of body that moves, turns and is stretched with its neighbours. Lengths in cells from the
+/// centre of the first one, times in steps. xi: from its middle at rest, half spacings, so that the cube is -1 <= xi <= 1.
+struct Cube {
+    float x[3], v[3];
+    float to_rest[9];  ///< rows: xi of a distance from x, half spacings/cell
+    float rate[9];     ///< rows: velocity by xi, cells/step a half spacing
+    float reach[3];    ///< half of the box around it, cells
+};
+
+/// What the water gave a cube in a step, cells/step times cells' masses, and its moments: rows J, columns xi.
+struct Push {
+    double j[3] = {}, moment[9] = {};
+};
+
+/// Bodies of particles in water. Each particle's cube follows its neighbours at rest by moving least squares, so that a body's affine
+/// motions are exact; what pushes its cells is given to it and them by the transposed weights, which keep momentum.
+class Immersed {
+public:
+    /// `rest`: places at rest, length; of particles of the same `body` those nearer than 1.75 spacings are neighbours.
+    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing);
+
+    int particles() const { return static_cast<int>(near_.size()); }
+    /// At these places, length, with these velocities, length/s, in a step of so long, s.
+    std::vector<Cube> cubes(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& velocities,
+                            const Box& box, double step) const;
+    /// By particle, mass length/s, of what a step of so long, s, gave the cubes.
+    std::vector<Eigen::Vector3d> impulses(const std::vector<Push>& pushes, const Box& box, double step) const;
+
+private:
+    struct Neighbour {
+        int particle;
+        Eigen::Vector3d weight;  ///< of its distance or velocity in the gradient by xi
+    };
+    double spacing_;
+    std::vector<std::vector<Neighbour>> near_;
+    std::vector<Eigen::Matrix3d> missing_;  ///< projector on what a particle's neighbours do not span
+};
+
+}  // namespace natator::lattice

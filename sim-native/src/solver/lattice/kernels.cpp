@@ -1,0 +1,133 @@
+// Compiled once per instruction set, like ../cpu/fluid_kernels.cpp and by the same rules. physics/lattice.h has the formulas.
+#include "kernels.h"
+
+namespace natator::lattice::NATATOR_ISA {
+namespace {
+
+using namespace physics;
+
+constexpr int populations = lattice_populations, moments = lattice_moments;
+
+int at(int cx, int cy, int cz) {
+    return (cx + 1) + 3 * (cy + 1) + 9 * (cz + 1);
+}
+
+bool periodic(const View& view, int axis) {
+    return !view.bounces[axis][0] && !view.mirrors[axis][0];
+}
+/// The first cell of a row.
+long first_of(const View& view, int y, int z) {
+    return (static_cast<long>(z) * view.ny + y) * view.stride + margin;
+}
+
+/// One part's planes of populations after collision, the last three. Across periodic ends z counts on.
+class Planes {
+public:
+    Planes(const View& view, const LatticeRates& rates, float* room) : view_(view), rates_(rates), room_(room) {}
+
+    void collide_plane(int z) const;
+    void gather_plane(int z) const;
+
+private:
+    long size() const { return static_cast<long>(view_.ny) * view_.stride; }
+    float* plane(int z) const { return room_ + margin + (z + 3) % 3 * populations * size(); }
+    const float* source(int i, int y, int z) const;
+
+    const View& view_;
+    const LatticeRates& rates_;
+    float* room_;
+};
+
+void Planes::collide_plane(int z) const {
+    const long size_of_one = size();
+    const int inside = (z + view_.nz) % view_.nz;
+    for (int y = 0; y < view_.ny; ++y) {
+        const long row = first_of(view_, y, inside);
+        float* to = plane(z) + static_cast<long>(y) * view_.stride + margin;
+        const bool changes = view_.row_changes[static_cast<long>(inside) * view_.ny + y] != 0;
+        for (int x = 0; x < view_.nx; x += width) {
+            Floats m[moments];
+            for (int e = 0; e < moments; ++e) m[e] = load_unaligned(view_.now[e] + row + x);
+            const Floats inverse = 1.0f / (m[0] + 1.0f);
+            Floats ux = m[1] * inverse, uy = m[2] * inverse, uz = m[3] * inverse;
+            if (changes) {
+                ux += load_unaligned(view_.change[0] + row + x);
+                uy += load_unaligned(view_.change[1] + row + x);
+                uz += load_unaligned(view_.change[2] + row + x);
+            }
+            collide(m, ux, uy, uz, rates_, [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
+        }
+    }
+}
+
+/// The row that population i of row y comes from: cell x of it is what streams to x. Ends along x are filled in.
+const float* Planes::source(int i, int y, int z) const {
+    const int cx = i % 3 - 1, cy = i / 3 % 3 - 1, cz = i / 9 - 1;
+    int from_y = y - cy, from_z = z - cz, dy = cy, dz = cz;
+    bool bounced = false;
+    const auto meet = [&](int axis, int n, int here, int& from, int& d) {
+        if (from >= 0 && from < n) return;
+        const int end = from < 0 ? 0 : 1;
+        if (view_.bounces[axis][end])
+            bounced = true;
+        else if (view_.mirrors[axis][end])
+            from = here, d = -d;
+        else if (axis == 1)
+            from = (from + n) % n;
+    };
+    meet(1, view_.ny, y, from_y, dy);
+    if (view_.nz == 1 && periodic(view_, 2))
+        from_z = z;  // plane flow
+    else
+        meet(2, view_.nz, z, from_z, dz);
+    float* const opposite = plane(z) + (populations - 1 - i) * size() + static_cast<long>(y) * view_.stride + margin;
+    if (bounced) return opposite;
+    float* const base = plane(from_z) + static_cast<long>(from_y) * view_.stride + margin;
+    float* const from = base + at(cx, dy, dz) * size();
+    if (cx == 0) return from;
+    const int end = cx > 0 ? 0 : 1, inside = end == 0 ? 0 : view_.nx - 1, outside = inside - cx;
+    from[outside] = view_.bounces[0][end]   ? opposite[inside]
+                    : view_.mirrors[0][end] ? base[at(-cx, dy, dz) * size() + inside]
+                                            : from[end == 0 ? view_.nx - 1 : 0];
+    return from - cx;
+}
+
+void Planes::gather_plane(int z) const {
+    for (int y = 0; y < view_.ny; ++y) {
+        const float* from[populations];
+        for (int i = 0; i < populations; ++i) from[i] = source(i, y, z);
+        const long row = first_of(view_, y, z);
+        for (int x = 0; x < view_.nx; x += width) {
+            Floats f[populations], m[moments];
+            for (int i = 0; i < populations; ++i) f[i] = load_unaligned(from[i] + x);
+            moments_of(f, m);
+            for (int e = 0; e < moments; ++e) __builtin_memcpy(view_.next[e] + row + x, &m[e], sizeof m[e]);
+        }
+        for (int e = 0; e < moments; ++e)
+            for (long x = view_.nx; x < view_.stride - 2 * margin; ++x) view_.next[e][row + x] = 0;
+    }
+}
+
+void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
+    Planes planes(view, rates, room);
+    const auto collide_at = [&](int z) {
+        if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane(z);
+    };
+    collide_at(begin - 1);
+    collide_at(begin);
+    for (int z = begin; z < end; ++z) {
+        collide_at(z + 1);
+        planes.gather_plane(z);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Kernels<Real> kernels() {
+    return {&advance};
+}
+template Kernels<float> kernels<float>();
+template Kernels<double> kernels<double>();
+
+}  // namespace natator::lattice::NATATOR_ISA

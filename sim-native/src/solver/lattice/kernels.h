@@ -1,0 +1,29 @@
+#pragma once
+
+#include "../cpu/kernel_table.h"
+#include "physics/lattice.h"
+
+namespace natator::lattice {
+
+constexpr int margin = 16;  ///< cells before and behind a row
+
+/// Arrays of a lattice in memory: rows of cells along x, then along y, then along z.
+struct View {
+    int nx, ny, nz, stride;                ///< stride: of rows, numbers
+    bool bounces[3][2], mirrors[3][2];     ///< at the ends along x, y, z; neither: periodic
+    const float* now[physics::lattice_moments];
+    float* next[physics::lattice_moments];
+    const float* change[3];            ///< of the velocity, cells/step
+    const unsigned char* row_changes;  ///< by row: whether there is any
+};
+
+/// In one instruction set; of float alone.
+template <class Real>
+struct Kernels {
+    /// A step of the planes [begin, end) along z. `room`: 3 x 27 x ny x stride numbers and 16 more.
+    void (*advance)(const View& view, const physics::LatticeRates& rates, int begin, int end, float* room);
+};
+
+NATATOR_DECLARE_KERNELS(Kernels, kernels)
+
+}  // namespace natator::lattice

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "box.h"
+#include "immersed.h"
+
+namespace natator::lattice {
+
+/// A cell's water: density less that at rest, of that at rest; velocity, cells/step.
+struct Cell {
+    double excess = 0;
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+};
+
+/// Moments of a cell (physics/lattice.h) in equilibrium.
+void equilibrium(const Cell& cell, float (&moments)[17]);
+
+/// Water on a D3Q27 lattice, with bodies whose cells are told their velocity (physics/lattice.h).
+///
+/// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's velocity. What it
+/// has gained by the next collision, beyond what it would have moving on with the body, is the push on the body, which keeps its own
+/// mass and momentum. So is what a cell has more than the body when it comes to lie in it; those that it leaves go on as water with its
+/// velocity: there are no fresh cells. No cell can give more than it holds, so a body needs no implicit coupling, whatever its density.
+/// (Direct forcing: Fadlun, Verzicco, Orlandi, Mohd-Yusof 2000; the inertia of the water inside: Uhlmann 2005, eq. 10.)
+///
+/// A body may widen as it bends, which the water in it must not resist: the divergence of its motion is added to the density of
+/// its cells (Gazzola, Chatelain, van Rees, Koumoutsakos 2011, section 2).
+class Water {
+public:
+    /// At rest.
+    static std::unique_ptr<Water> on_cpu(const Box& box, int threads);
+    static std::unique_ptr<Water> on_gpu(const Box& box, int device);
+    virtual ~Water() = default;
+
+    const Box& box() const { return box_; }
+    /// Goes on by `step`, s, with the bodies where `cubes` says; `pushes`: what it gave each. The same bits for any number of threads.
+    virtual void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) = 0;
+    /// What is at cell i comes to i - by; what comes in is at rest.
+    virtual void shift(const Eigen::Vector3i& by) = 0;
+
+    virtual Cell cell(const Eigen::Vector3i& at) const = 0;
+    virtual void set_cell(const Eigen::Vector3i& at, const Cell& cell) = 0;
+
+protected:
+    explicit Water(const Box& box) : box_(box) {}
+    Box box_;
+};
+
+}  // namespace natator::lattice
