@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,13 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// Execution options. None of them changes the result. What it points to must live as long as what it is given to.
+/// Execution options. None of them but `gpu` changes the result. What it points to must live as long as what it is given to.
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
     const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
     int threads = 1;                     ///< for scenes of many thousand particles, at most limits::threads; small ones use one all the same
     bool forces = false;                 ///< keeps what Solver::forces gives; scheme conserving only, a per cent of its time
+    std::optional<int> gpu{};            ///< scheme lattice: has its water on the GPU of this number (cuda_devices); other bits
     bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };
 

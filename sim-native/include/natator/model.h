@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "natator/gait.h"
 #include "natator/parameters.h"
+#include "natator/water_box.h"
 
 namespace natator {
 
@@ -47,6 +49,7 @@ struct Body {
     std::vector<int> particles;
     std::vector<std::vector<int>> slices;
     double length = 0;  ///< head to tail at rest, length
+    double spacing = 0;  ///< of its particles at rest, length
 };
 
 /// A swimmer beside the one that is evaluated.
@@ -70,6 +73,7 @@ struct Model {
     std::vector<Eigen::Vector3d> rest_position;  ///< for self_collide_filter; empty if no particle has it
 
     std::vector<Plane> planes;
+    std::optional<WaterBox> water_box;    ///< the water of scheme `lattice`; in the others it is particles
     std::vector<PeriodicAxis> periodic;  ///< at most one an axis; all planes are along them
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;

@@ -9,6 +9,7 @@ namespace natator {
 enum class Scheme {
     flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
     conserving,  ///< incompressible water (divergence-free SPH) and solids by mass splitting; pair forces equal and opposite
+    lattice,     ///< submerged: water on a lattice (cumulant lattice Boltzmann), solids as in conserving
 };
 
 /// How the summed corrections of one iteration are scaled before they are applied.

@@ -18,7 +18,7 @@ struct Instability {
     int particle = 0;   ///< lowest index with a value that is not finite, or the particle that broke a law most
     std::string stage;  ///< first stage whose output was not finite; of the other laws, which look at ends: "settling" or "frame"
     double time = 0;    ///< s: start of the substep; of the other laws the end of the frame
-    std::string law = "finite";  ///< or the law of LawWatch that is broken: "tank", "particle-energy", "energy", "shape", "compression"
+    std::string law = "finite";  ///< or the law of LawWatch that is broken: "tank", "particle-energy", "energy", "shape", "compression", "mach"
 };
 
 /// What is wrong, as a sentence goes on that begins with "unstable: ".

@@ -48,7 +48,8 @@ json refined(const Scene& scene, const Level& level, int substeps) {
         if (scene.fluid) overrides["fluid"] = refined_fluid(*scene.fluid, level.space);
         if (scene.creature) overrides["creature"]["refinement"] = level.space * scene.creature->refinement;
     }
-    overrides["solver"]["substeps"] = level.time * substeps;
+    const bool waves = scene.scheme == Scheme::lattice;  // go so many cells a substep, whatever their size
+    overrides["solver"]["substeps"] = level.time * substeps * (waves ? level.space : 1);
     overrides["settling"]["substeps"] = level.time * scene.settling.substeps;
     return overrides;
 }

@@ -11,6 +11,8 @@ const char* to_string(Scheme scheme) {
             return "flex";
         case Scheme::conserving:
             return "conserving";
+        case Scheme::lattice:
+            return "lattice";
     }
     return "unknown";
 }

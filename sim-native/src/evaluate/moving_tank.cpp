@@ -32,7 +32,7 @@ std::pair<double, double> walls_across(const Scene& scene, int axis) {
 }  // namespace
 
 TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(model), tank_(*scene.moving_tank) {
-    if (scene.scheme != Scheme::conserving) refuse(scene, "works in scheme conserving only");
+    if (scene.scheme == Scheme::flex) refuse(scene, "works in schemes conserving and lattice only");
     if (!scene.fluid) refuse(scene, "needs fluid");
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
     if (!scene.companions.empty() || !scene.obstacles.empty())

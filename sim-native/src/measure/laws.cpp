@@ -31,7 +31,7 @@ constexpr double disordered = 1.1;      ///< room in the box around water that i
 constexpr double depth_margin = 1;      ///< of the interaction radius
 constexpr double reach_margin = 3;      ///< of a body's length
 
-constexpr const char* law_names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression"};  ///< as Law has them
+constexpr const char* law_names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression", "mach"};  ///< as Law has them
 
 template <class Real>
 physics::Vec3<Real> vec3(const Vector3<Real>& v) {
@@ -68,6 +68,8 @@ void measure_reach(const Model& model, const State<Real>& state, LawMeasures& me
 Eigen::Vector3d bounded_gravity(const Model& model) {
     Eigen::Vector3d gravity = model.parameters.gravity;
     for (const PeriodicAxis& axis : model.periodic) gravity[axis.axis] = 0;
+    if (model.water_box && !model.body.particles.empty())  // less what the water carries
+        gravity *= 1 - model.water_box->density * std::pow(model.body.spacing, 3) * model.inverse_mass[model.body.particles.front()];
     return gravity;
 }
 
@@ -77,7 +79,7 @@ LawMeasures measure_laws(const Model& model, const State<Real>& state) {
     const Eigen::Vector3d gravity = bounded_gravity(model);
     const auto solid_gravity = vec3<Real>(gravity.cast<Real>());
     const auto fluid_gravity = vec3<Real>((model.parameters.buoyancy * gravity).cast<Real>());
-    const bool sums = model.scheme == Scheme::conserving;
+    const bool sums = model.scheme != Scheme::flex;
     LawMeasures measures;
     Vector3<Real> low = Vector3<Real>::Constant(std::numeric_limits<Real>::max()), high = -low;
     Real most = -std::numeric_limits<Real>::max();
@@ -122,7 +124,7 @@ struct LawWatch::Parts {
         if (length > 0) most = std::max(swum, 4 * std::max(1.0, own.crowding) * own.fall);
         // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its motion.
         if (model.scheme == Scheme::flex && own.crowding == 0) fallen += swum;
-        if (model.scheme != Scheme::conserving) gain = std::numeric_limits<double>::infinity();
+        if (model.scheme == Scheme::flex) gain = std::numeric_limits<double>::infinity();
         first = begin.energy;
         limits.depth = depth_margin * model.parameters.radius;
         limits.reach = length > 0 && !soft ? reach_margin * length : std::numeric_limits<double>::infinity();
@@ -283,6 +285,8 @@ std::string sentence_of(const Instability& instability) {
     if (instability.law == "shape")
         return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
     if (instability.law == "compression") return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
+    if (instability.law == "mach")
+        return particle + " goes more than 0.3 cells in a substep" + at.str() + " (law mach: needs more substeps)";
     return particle + " is not finite after stage " + instability.stage + at.str();
 }
 

@@ -75,6 +75,7 @@ void add_body(const Creature& creature, const BodyLayout& layout, Model& model) 
     const int last = static_cast<int>(creature.slices.size()) - 1;
     for (int slice = 0; slice <= last; ++slice) add_slice(creature, layout, slice, model);
     model.body.length = creature.length();
+    model.body.spacing = creature.spacing;
 
     std::vector<int> shared;
     int first = 0, cluster = 0;

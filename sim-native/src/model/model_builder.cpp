@@ -19,6 +19,7 @@
 #include "obstacles.h"
 #include "periodic.h"
 #include "refine_body.h"
+#include "water_box.h"
 
 namespace natator {
 namespace {
@@ -51,7 +52,7 @@ void check_size(const Scene& scene) {
                               " particles: must be at most " + std::to_string(limits::particles));
         sum += most;
     }
-    if (scene.fluid) sum += scene.fluid->count.cast<double>().prod();
+    if (scene.fluid && scene.scheme != Scheme::lattice) sum += scene.fluid->count.cast<double>().prod();
     constexpr double countable = 1e18;  // of what a program asks for; files are held to less
     const auto particles = static_cast<std::int64_t>(std::min(sum, countable));
     const std::string body = scene.creature ? shape_key(*scene.creature) : "slices";
@@ -175,7 +176,9 @@ Model build_model(const Scene& scene) {
     }
     check_apart(scene, model);
     add_obstacles(scene.obstacles, model);
-    if (scene.fluid) {
+    if (scene.scheme == Scheme::lattice) {
+        model.water_box = water_box(scene);
+    } else if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);
     }

@@ -84,8 +84,8 @@ void check_ends(const Scene& scene, const Model& model, const PeriodicAxis& axis
 
 void check_periodic(const Scene& scene, const Model& model) {
     if (scene.periodic.empty()) return;
-    if (scene.scheme != Scheme::conserving)
-        refuse(scene, "scheme = \"flex\": must be \"conserving\", whose water alone closes up");
+    if (scene.scheme == Scheme::flex)
+        refuse(scene, "scheme = \"flex\": must be \"conserving\" or \"lattice\", whose water alone closes up");
     if (!scene.companions.empty() || (scene.creature && !scene.obstacles.empty()))
         refuse(scene, "has no room for a creature beside ", scene.companions.empty() ? "obstacles" : "companions",
                ", as contacts of solids do not reach through the ends");

@@ -91,6 +91,7 @@ void refine_body(const Creature& creature, Model& model) {
     model.phase = repeated(model.phase, parts);
 
     model.body.particles = parts_of(model.body.particles, parts);
+    model.body.spacing /= creature.refinement;
     for (std::vector<int>& slice : model.body.slices) slice = parts_of(slice, parts);
     for (Cluster& cluster : model.clusters)
         cluster = make_cluster(parts_of(cluster.particles, parts), model.position, cluster.stiffness);

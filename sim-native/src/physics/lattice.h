@@ -57,6 +57,23 @@ NATATOR_HD void moments_of(const V (&f)[lattice_populations], V (&m)[lattice_mom
     m[16] = (s1[8] - s1[2]) - (s1[6] - s1[0]);
 }
 
+/// Population i of water in equilibrium that moves at u with the density at rest, less that of water at rest.
+NATATOR_HD float moving_population(int i, const float (&u)[3]) {
+    float product = 1, rest = 1;
+    const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    for (int a = 0; a < 3; ++a) {
+        const float square = u[a] * u[a];
+        product *= c[a] == 0 ? 2.0f / 3 - square : 0.5f * (1.0f / 3 + square + (c[a] > 0 ? u[a] : -u[a]));
+        rest *= c[a] == 0 ? 2.0f / 3 : 1.0f / 6;
+    }
+    return product - rest;
+}
+/// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in by c, and `out`,
+/// what streams out by -c, less what both have in water that moves with the body.
+NATATOR_HD float link_push(float in, float out, float c, float u) {
+    return in * (c - u) + out * (c + u);
+}
+
 /// Central moments 0, 1, 2 about u along one axis to populations -1, 0, 1 along it; `rest`: what water at rest has.
 template <class V, class W>
 NATATOR_HD void populations_of_line(V k0, V k1, V k2, V u, W rest, V& minus, V& none, V& plus) {

@@ -16,6 +16,7 @@ enum class Law {
     tank,             ///< a particle is behind a plane
     shape,            ///< a body is stretched to several times its length
     compression,      ///< the fluid is compressed to a fraction of its volume
+    mach,             ///< a body in water on a lattice goes nearly as fast as its sound
 };
 
 inline constexpr double most_compression = 0.5;  ///< of a fluid: mean of max(density - 1, 0), in rest densities

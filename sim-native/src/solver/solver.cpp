@@ -9,7 +9,9 @@
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "gait/check_values.h"
+#include "lattice/coupling.h"
 #include "natator/actuate.h"
+#include "measure/law_name.h"
 #include "natator/steering.h"
 #include "step.h"
 
@@ -68,6 +70,9 @@ void check_driven(const std::vector<double>& driven, int actuators) {
         if (!(std::abs(driven[i]) <= 2 + rounding)) check_drive(driven, actuators);
 }
 
+/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
+constexpr double most_cells = 0.3;
+
 /// Does nothing behind a stage.
 struct NoHook {
     void operator()(Stage) const {}
@@ -101,6 +106,7 @@ public:
           stages_(stages_for(model, plan_for(model, execution.skip))) {
         check_threads(execution.threads);
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
+        if (model.water_box) coupling_.emplace(model, execution.threads, execution.gpu);
         if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
     }
 
@@ -148,7 +154,7 @@ private:
     }
 
     static AnyStages stages_for(const Model& model, const Plan& plan) {
-        if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
+        if (model.scheme != Scheme::flex) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
         return std::make_unique<cpu::FlexStages<Real>>(model, plan);
     }
 
@@ -175,12 +181,18 @@ private:
                 rest_lengths_before_ = state.spring_rest_length;
                 actuate(model_, (*drive)(end), end, state);
             }
+            if (coupling_) coupling_->push(state, static_cast<double>(h));
             stages.begin_substep(state, h);
             const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
                                 : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
                                                      : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
+            if (coupling_) {
+                coupling_->follow(state, static_cast<double>(h), end);
+                if (coupling_->fastest() > most_cells)
+                    return Instability{coupling_->fastest_particle(), "frame", end, name(physics::Law::mach)};
+            }
             if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
             if (observer) observer->substep_ended(state.velocity);
         }
@@ -190,6 +202,7 @@ private:
     const Model& model_;
     Execution execution_;
     AnyStages stages_;
+    std::optional<lattice::Coupling<Real>> coupling_;
     std::vector<Real> rest_lengths_before_;  ///< of the springs, at the substep's start
     double muscle_work_ = 0;
 };

@@ -1,4 +1,4 @@
-#include <cstring>
+#include <array>
 
 #include "cube_cells.h"
 #include "kernels.h"
@@ -27,17 +27,21 @@ public:
 
 private:
     using Array = cpu::AlignedVector<float>;
+    using Populations = std::array<float, physics::lattice_populations>;
     struct Held {
         long cell;
         int cube;
         float xi[3];
         Velocity3 velocity;
+        int x, y, z;
     };
 
     long place(int x, int y, int z) const { return (static_cast<long>(z) * ny_ + y) * stride_ + margin + x; }
     View view();
     void hold(const std::vector<Cube>& cubes);
     void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
+    const Populations& after_collision(long cell, const physics::LatticeRates& rates);
     static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int nx_, ny_, nz_, stride_;
@@ -47,6 +51,10 @@ private:
     std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
     std::vector<float> out_;   ///< by place in held_
     std::vector<Held> held_;   ///< cells in bodies, by cube
+    bool periodic_[3];
+    std::vector<int> made_of_;      ///< by cell: place in made_, -1: none
+    std::vector<Populations> made_;
+    std::vector<long> made_cells_;
     std::vector<Array> rooms_;
     cpu::ThreadTeam team_;
     bool begun_ = false;  ///< else the water in bodies begins with their velocity
@@ -61,6 +69,8 @@ CpuWater::CpuWater(const Box& box, int threads)
     row_changes_.assign(static_cast<std::size_t>(ny_) * nz_, 0);
     owner_.assign(size, -1);
     chosen_.assign(size, -1);
+    made_of_.assign(size, -1);
+    for (int a = 0; a < 3; ++a) periodic_[a] = box.faces[a][0] == Face::periodic;
 }
 
 View CpuWater::view() {
@@ -87,13 +97,14 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
     const int cells[3] = {nx_, ny_, nz_};
     for (std::size_t p = 0; p < cubes.size(); ++p) {
         const Cube& cube = cubes[p];
-        const CellRange range = cells_around(cube, cells);
+        const CellRange range = cells_around(cube, cells, periodic_);
         for (int z = range.low[2]; z < range.low[2] + range.count[2]; ++z)
             for (int y = range.low[1]; y < range.low[1] + range.count[1]; ++y)
                 for (int x = range.low[0]; x < range.low[0] + range.count[0]; ++x) {
                     const PlaceInCube in = place_in(cube, x, y, z);
                     if (!(in.out <= cube_edge)) continue;
-                    const long at = place(x, y, z);
+                    const int inside[3] = {wrapped(x, nx_), wrapped(y, ny_), wrapped(z, nz_)};
+                    const long at = place(inside[0], inside[1], inside[2]);
                     if (chosen_[at] < 0) {
                         chosen_[at] = static_cast<int>(held_.size());
                         held_.emplace_back();
@@ -101,7 +112,7 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
                     } else if (out_[chosen_[at]] <= in.out) {
                         continue;
                     }
-                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi)};
+                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi), inside[0], inside[1], inside[2]};
                     out_[chosen_[at]] = in.out;
                 }
     }
@@ -140,6 +151,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     begun_ = true;
 
     const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
+    exchange(rates, pushes);
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
     rooms_.resize(static_cast<std::size_t>(team_.most_parts()));
@@ -150,14 +162,52 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
         kernel.advance(lattice, rates, begin, end, own.data());
     });
     for (int e = 0; e < moments; ++e) std::swap(now_[e], next_[e]);
+}
 
-    for (const Held& held : held_) {
-        const long at = held.cell;
-        const float density = 1 + now_[0][at];
-        const Velocity3& u = held.velocity;
-        const Velocity3 on = advected_in(cubes[held.cube], u);
-        add(held, now_[1][at] - density * (u.x - on.x), now_[2][at] - density * (u.y - on.y), now_[3][at] - density * (u.z - on.z), pushes);
+/// Of a cell, less those of water at rest.
+const CpuWater::Populations& CpuWater::after_collision(long cell, const physics::LatticeRates& rates) {
+    if (made_of_[cell] < 0) {
+        made_of_[cell] = static_cast<int>(made_.size());
+        made_cells_.push_back(cell);
+        Populations& f = made_.emplace_back();
+        float m[moments];
+        for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
+        const float density = 1 + m[0];
+        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell], m[3] / density + change_[2][cell], rates,
+                         [&](int i, float value) { f[i] = value; });
     }
+    return made_[made_of_[cell]];
+}
+
+/// What streams between cells of bodies and of water in this step pushes the bodies.
+void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes) {
+    const int cells[3] = {nx_, ny_, nz_};
+    for (const Held& held : held_) {
+        double j[3] = {};
+        const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};
+        bool any = false;
+        for (int i = 0; i < physics::lattice_populations; ++i) {
+            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            int from[3] = {held.x - c[0], held.y - c[1], held.z - c[2]};
+            bool beyond = false;
+            for (int a = 0; a < 3; ++a) {
+                if (periodic_[a]) from[a] = wrapped(from[a], cells[a]);
+                beyond = beyond || from[a] < 0 || from[a] >= cells[a];
+            }
+            if (beyond) continue;
+            const long source = place(from[0], from[1], from[2]);
+            if (chosen_[source] >= 0) continue;
+            const int opposite = physics::lattice_populations - 1 - i;
+            const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
+            const float out = after_collision(held.cell, rates)[opposite] - physics::moving_population(opposite, u);
+            for (int a = 0; a < 3; ++a) j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
+            any = true;
+        }
+        if (any) add(held, j[0], j[1], j[2], pushes);
+    }
+    for (const long cell : made_cells_) made_of_[cell] = -1;
+    made_cells_.clear();
+    made_.clear();
 }
 
 void CpuWater::shift(const Eigen::Vector3i& by) {

@@ -5,22 +5,31 @@
 
 namespace natator::lattice {
 
-/// Cells around a cube, those outside the lattice left out.
+/// Cells around a cube. Those beyond walls are left out; those beyond periodic ends count on.
 struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
 };
 
-NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3]) {
+NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3], const bool (&periodic)[3]) {
     CellRange range;
     for (int a = 0; a < 3; ++a) {
+        const float n = static_cast<float>(cells[a]), margin = periodic[a] ? n : 0;
+        const auto within = [&](float at) { return static_cast<int>(at < -margin ? -margin : at > n + margin ? n + margin : at); };
         const float low = cube.x[a] - cube.reach[a], high = cube.x[a] + cube.reach[a];
-        range.low[a] = low < 0 ? 0 : low > static_cast<float>(cells[a]) ? cells[a] : static_cast<int>(low);
-        int last = high < 0 ? -1 : high > static_cast<float>(cells[a]) ? cells[a] - 1 : static_cast<int>(high);
-        if (last > cells[a] - 1) last = cells[a] - 1;
-        range.count[a] = last < range.low[a] ? 0 : last - range.low[a] + 1;
+        int first = within(low), last = high < -margin ? -1 - static_cast<int>(margin) : within(high);
+        if (static_cast<float>(first) < low) ++first;
+        if (static_cast<float>(last) > high) --last;
+        if (!periodic[a] && last > cells[a] - 1) last = cells[a] - 1;
+        range.low[a] = first;
+        range.count[a] = last < first ? 0 : last - first + 1;
     }
     return range;
+}
+/// Its number from 0 on.
+NATATOR_HD int wrapped(int at, int cells) {
+    const int rest = at % cells;
+    return rest < 0 ? rest + cells : rest;
 }
 
 /// xi of a cell's centre, and how far out it is: the greatest |xi|.
@@ -50,13 +59,6 @@ NATATOR_HD Velocity3 velocity_in(const Cube& cube, const float (&xi)[3]) {
     const float* r = cube.rate;
     return {cube.v[0] + r[0] * xi[0] + r[1] * xi[1] + r[2] * xi[2], cube.v[1] + r[3] * xi[0] + r[4] * xi[1] + r[5] * xi[2],
             cube.v[2] + r[6] * xi[0] + r[7] * xi[1] + r[8] * xi[2]};
-}
-/// (u . grad) u of the cube's motion where its velocity is u, cells/step^2.
-NATATOR_HD Velocity3 advected_in(const Cube& cube, const Velocity3& u) {
-    const float *t = cube.to_rest, *r = cube.rate;
-    const float a = t[0] * u.x + t[1] * u.y + t[2] * u.z, b = t[3] * u.x + t[4] * u.y + t[5] * u.z,
-                c = t[6] * u.x + t[7] * u.y + t[8] * u.z;
-    return {r[0] * a + r[1] * b + r[2] * c, r[3] * a + r[4] * b + r[5] * c, r[6] * a + r[7] * b + r[8] * c};
 }
 /// Of the cube's motion, 1/step.
 NATATOR_HD float divergence_of(const Cube& cube) {

@@ -1,0 +1,60 @@
+#include "water_box.h"
+
+#include <cmath>
+#include <string>
+
+#include "io/strict_json.h"
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+[[noreturn]] void refuse_lattice(const Scene& scene, const std::string& what) {
+    throw InputError("scene " + quoted(scene.name) + ": scheme lattice: " + what);
+}
+
+/// Puts a wall where the plane stands.
+void add_wall(const Scene& scene, std::size_t plane, WaterBox& box) {
+    constexpr double slant = 1e-3, tolerance = 0.01;  // of a right angle, of a cell
+    const Eigen::Vector3d& normal = scene.planes[plane].normal;
+    const std::string place = "planes[" + std::to_string(plane) + "]";
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const int end = normal[axis] > 0 ? 0 : 1;
+    if (std::abs(normal[axis]) < 1 - slant) refuse_lattice(scene, place + ": must stand square across an axis");
+    const double stands = -scene.planes[plane].offset / normal[axis];
+    const double at = box.corner[axis] + end * box.cells[axis] * box.cell;
+    if (std::abs(stands - at) > tolerance * box.cell)
+        refuse_lattice(scene, place + " stands at " + number_text(stands) + ": must be at the fluid's end, " + number_text(at) +
+                          " (half a spacing from its last lattice points)");
+    box.faces[axis][end] = WaterFace::no_slip;
+}
+
+}  // namespace
+
+WaterBox water_box(const Scene& scene) {
+    if (!scene.fluid) refuse_lattice(scene, "needs fluid: its count, spacing and origin are the cells");
+    if (!scene.creature) refuse_lattice(scene, "needs a creature");
+    if (!scene.companions.empty() || !scene.obstacles.empty()) refuse_lattice(scene, "has no companions and obstacles yet; must be without them");
+    const FluidBlock& fluid = *scene.fluid;
+    if (fluid.gradient != MassGradient::uniform) refuse_lattice(scene, "fluid.mass.gradient: must be uniform");
+    if (!(scene.solver.kinematicViscosity > 0))
+        refuse_lattice(scene, "solver.kinematicViscosity = " + number_text(scene.solver.kinematicViscosity) + ": must be above 0");
+    WaterBox box;
+    box.cells = fluid.count;
+    box.cell = fluid.spacing;
+    box.corner = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2);
+    box.viscosity = scene.solver.kinematicViscosity;
+    box.density = fluid.bottom_mass / std::pow(fluid.spacing, 3);
+    for (auto& ends : box.faces) ends[0] = ends[1] = WaterFace::free_slip;
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) add_wall(scene, k, box);
+    for (const PeriodicAxis& periodic : scene.periodic) {
+        const double low = box.corner[periodic.axis], length = box.cells[periodic.axis] * box.cell;
+        if (std::abs(periodic.low - low) > 0.01 * box.cell || std::abs(periodic.length() - length) > 0.01 * box.cell)
+            refuse_lattice(scene, "periodic: must be from " + number_text(low) + " to " + number_text(low + length) + ", as the fluid is");
+        box.faces[periodic.axis][0] = box.faces[periodic.axis][1] = WaterFace::periodic;
+    }
+    return box;
+}
+
+}  // namespace natator

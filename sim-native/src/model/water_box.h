@@ -1,0 +1,12 @@
+#pragma once
+
+#include "natator/model.h"
+#include "natator/scene.h"
+
+namespace natator {
+
+/// The water of a scene of scheme `lattice`: a cell for each lattice point of its fluid, no slip where a plane stands, free slip at other
+/// ends that are not periodic. Throws InputError for what this water has not: a creature is needed, planes stand at its ends.
+WaterBox water_box(const Scene& scene);
+
+}  // namespace natator

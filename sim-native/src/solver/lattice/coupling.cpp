@@ -1,0 +1,63 @@
+#include "coupling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace natator::lattice {
+
+template <class Real>
+Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu)
+    : model_(model),
+      threads_(threads),
+      gpu_(gpu),
+      immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing),
+      displaced_(model.water_box->density * std::pow(model.body.spacing, 3)) {}
+
+template <class Real>
+void Coupling<Real>::begin(const State<Real>& state) {
+    water_ = gpu_ ? Water::on_gpu(*model_.water_box, *gpu_) : Water::on_cpu(*model_.water_box, threads_);
+    impulses_.assign(state.position.size(), Eigen::Vector3d::Zero());
+    origin_ = state.origin;
+    fastest_ = 0;
+}
+
+template <class Real>
+void Coupling<Real>::push(State<Real>& state, double h) {
+    if (!water_ || std::abs(state.time - time_) > h / 2) begin(state);
+    if (state.origin != origin_) {
+        const Eigen::Vector3d cells = (state.origin - origin_) / model_.water_box->cell;
+        water_->shift(cells.array().round().matrix().template cast<int>());
+        origin_ = state.origin;
+    }
+    for (std::size_t i = 0; i < impulses_.size(); ++i) {
+        const Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
+    }
+}
+
+template <class Real>
+void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
+    places_.clear();
+    velocities_.clear();
+    const double per_step = h / model_.water_box->cell;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        places_.push_back(state.position[i].template cast<double>());
+        velocities_.push_back(state.velocity[i].template cast<double>());
+        const double speed = velocities_.back().norm() * per_step;
+        if (!(speed > fastest_)) continue;
+        fastest_ = speed;
+        fastest_particle_ = static_cast<int>(i);
+    }
+    water_->advance(immersed_.cubes(places_, velocities_, *model_.water_box, h), h, pushes_);
+    const std::vector<Eigen::Vector3d> given = immersed_.impulses(pushes_, *model_.water_box, h);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const double kept = std::max(1.0, displaced_ * model_.inverse_mass[i]);
+        impulses_[i] = (given[i] + kept * impulses_[i]) / (1 + kept);
+    }
+    time_ = time;
+}
+
+template class Coupling<float>;
+template class Coupling<double>;
+
+}  // namespace natator::lattice
