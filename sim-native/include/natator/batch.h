@@ -30,7 +30,7 @@ std::optional<std::string> gpu_refusal(const Scene& scene);
 struct BatchMember {
     Gait gait;
     Perturbation perturbation;
-    std::optional<int> arrangement{};  ///< seed in place of FluidBlock::disorder; scheme `conserving`
+    std::optional<int> arrangement{};  ///< seed in place of FluidBlock::disorder; schemes `conserving` and `lattice`
 };
 
 /// Where the time of a batch goes, and what memory it takes.
@@ -54,7 +54,7 @@ struct BatchOptions {
     bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
 };
 
-/// Evaluates gaits in one scene on a GPU. Small scenes of scheme `flex` run one for each block of threads, or for
+/// Evaluates gaits in one scene on a GPU. In scheme `lattice` the water is on the GPU and bodies are on the host, a thread a member. Small scenes of scheme `flex` run one for each block of threads, or for
 /// several blocks where members are few. Everything else runs side by side by kernels of the whole GPU: scheme
 /// `conserving`, `options.whole_gpu`, more than 65 535 particles, and more than 20 000 in double or with effects.
 /// Result k belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number.

@@ -39,8 +39,8 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
-/// Selects initial condition number `start` of a scene, as `start` of a request does. Where the scheme disorders its
-/// water, `start` seeds the arrangement, which is stored in the scene; else the returned perturbation shifts every
+/// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and `lattice` `start` seeds the
+/// arrangement of the water, which is stored in the scene; else the returned perturbation shifts every
 /// coordinate by up to 0.001 of fluidRestDistance. Throws InputError if `start` is below 0.
 Perturbation choose_start(int start, Scene& scene);
 

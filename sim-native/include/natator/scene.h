@@ -30,7 +30,9 @@ struct FluidBlock {
     double bottom_mass = 2.0;                    ///< mass of the lowest layer
     double top_mass = 1.0 / 14.0;                ///< mass of the highest layer
     double clearance = 0.15;                     ///< lattice points closer than this to a body particle are left out
-    int disorder = 20;                           ///< seed of the places off the lattice that scheme `conserving` begins from
+    /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body begins in its
+    /// cells, up to half a cell from its place along each axis; 0: there.
+    int disorder = 20;
 };
 
 /// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole numbers.

@@ -37,6 +37,7 @@ constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so man
 constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
 constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
 constexpr double most_samples = 4096, most_looks = 2e7;
+constexpr double bytes_of_lattice_cell = 160, work_of_lattice_cell = 6;  // 2 x 17 moments, changes, whose it is
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
 
@@ -213,6 +214,11 @@ Cost cost_of(const Model& model, const Computing& computing) {
     cost.per_substep = cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
 
+    if (model.water_box) {
+        const double cells = model.water_box->cells.cast<double>().prod();
+        cost.per_substep += work_of_lattice_cell * cells;
+        cost.bytes += bytes_of_lattice_cell * cells;
+    }
     const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;
     const double listed = fluid * std::min(raggedness * resting + of_bursting * std::max(start.near - resting, 0.0), most);
     const auto add = [&](double count, const Room& room) { cost.bytes += count * room.with(computing); };

@@ -9,7 +9,7 @@ namespace natator {
 
 Perturbation choose_start(int start, Scene& scene) {
     if (start < 0) throw InputError("start = " + std::to_string(start) + ": must be a whole number in [0, 2147483647]");
-    if (scene.scheme == Scheme::conserving && scene.fluid) {
+    if (scene.scheme != Scheme::flex && scene.fluid) {
         scene.fluid->disorder = start;
         return {};
     }

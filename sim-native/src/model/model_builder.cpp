@@ -178,6 +178,9 @@ Model build_model(const Scene& scene) {
     add_obstacles(scene.obstacles, model);
     if (scene.scheme == Scheme::lattice) {
         model.water_box = water_box(scene);
+        const Eigen::Vector3d offset = offset_in_cells(scene);
+        for (Eigen::Vector3d& position : model.position) position += offset;
+        for (Cluster& cluster : model.clusters) cluster.centre += offset;
     } else if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);

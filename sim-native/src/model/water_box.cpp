@@ -1,6 +1,8 @@
 #include "water_box.h"
 
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <string>
 
 #include "io/strict_json.h"
@@ -55,6 +57,14 @@ WaterBox water_box(const Scene& scene) {
         box.faces[periodic.axis][0] = box.faces[periodic.axis][1] = WaterFace::periodic;
     }
     return box;
+}
+
+Eigen::Vector3d offset_in_cells(const Scene& scene) {
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+    if (scene.fluid->disorder == 0) return offset;
+    std::mt19937_64 random(static_cast<std::uint64_t>(scene.fluid->disorder));
+    for (double& along : offset) along = scene.fluid->spacing * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    return offset;
 }
 
 }  // namespace natator

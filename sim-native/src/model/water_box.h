@@ -9,4 +9,7 @@ namespace natator {
 /// ends that are not periodic. Throws InputError for what this water has not: a creature is needed, planes stand at its ends.
 WaterBox water_box(const Scene& scene);
 
+/// Where the body begins, from its place, length: FluidBlock::disorder says it.
+Eigen::Vector3d offset_in_cells(const Scene& scene);
+
 }  // namespace natator

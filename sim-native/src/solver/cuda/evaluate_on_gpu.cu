@@ -200,6 +200,21 @@ std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const s
     return evaluate_in_parts(batch, members);
 }
 
+/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host.
+std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const std::vector<BatchMember>& members, const BatchOptions& options) {
+    std::vector<Evaluation> evaluations(members.size());
+    side_by_side(members.size(), [&](std::size_t k) {
+        Scene own = scene;
+        if (members[k].arrangement) own.fluid->disorder = *members[k].arrangement;
+        EvaluationOptions how;
+        how.precision = options.precision;
+        how.perturbation = members[k].perturbation;
+        how.execution.gpu = options.device;
+        evaluations[k] = natator::evaluate(own, members[k].gait, how);
+    });
+    return evaluations;
+}
+
 }  // namespace
 }  // namespace cuda
 
@@ -210,6 +225,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
+    if (model.water_box) return cuda::evaluate_in_lattices(scene, members, options);
     const cuda::DeviceMemory::Mark memory;
     const std::vector<Evaluation> evaluations = options.precision == Precision::double_precision
                                                     ? cuda::evaluate<double>(scene, model, members, options)
