@@ -210,6 +210,7 @@ template <class Real>
 GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
     cuda::choose_device(options.device);
     check_model(model);
+    if (model.water_box) throw InputError("backend cuda: a GpuSolver has no scheme lattice; a Solver has its water on a GPU by Execution::gpu");
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
     if (path == GpuPath::by_size) {

@@ -1,0 +1,117 @@
+// Scheme lattice: bodies that swim in water on a lattice.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "natator/error.h"
+#include "natator/evaluate.h"
+#include "natator/load_scene.h"
+#include "natator/model_builder.h"
+#include "refusal_of.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+/// Creature 2 in a lake of coarse cells, for so long, s.
+Scene lake(const json& changes = json::object(), double duration = 0.5) {
+    json overrides = {{"duration", duration},
+                      {"solver", {{"substeps", 16}}},
+                      {"fluid", {{"count", {60, 24, 24}}, {"spacing", 0.075}, {"origin", {0.0375, 0.0375, 0.0375}}, {"mass", {{"bottom", 0.421875}}}, {"disorder", 0}}}};
+    overrides.merge_patch(changes);
+    return load_scene("lake/creature-2", overrides);
+}
+
+/// `late`: by so many beats; half a beat later is the mirror image.
+Gait wave(double late = 0) {
+    Gait gait;
+    gait.frequency = 2;
+    for (int k = 0; k < 8; ++k) {
+        gait.amplitude.push_back(0.1 + 0.05 * k);
+        gait.phase.push_back(std::fmod(8 + late - 0.35 * k / 7, 1.0));
+    }
+    return gait;
+}
+
+Gait still() {
+    return {2, std::vector<double>(8, 0), std::vector<double>(8, 0)};
+}
+
+TEST(LatticeSwim, ABodyAtRestStays) {
+    const Evaluation evaluation = evaluate(lake(), still());
+    EXPECT_EQ(evaluation.stopped, StopReason::completed);
+    EXPECT_LT(std::abs(evaluation.distance), 1e-5);
+}
+
+/// Four cells across the body, in little water.
+json fine(int substeps) {
+    return {{"solver", {{"substeps", substeps}}},
+            {"planes", json::array()},
+            {"creature", {{"rearCentre", {0.8, 0.6, 0.6}}}},
+            {"fluid", {{"count", {80, 32, 32}}, {"spacing", 0.0375}, {"origin", {0.01875, 0.01875, 0.01875}}, {"mass", {{"bottom", 0.052734375}}}}}};
+}
+
+TEST(LatticeSwim, HalfTheTimeStepChangesLittle) {
+    const double whole = evaluate(lake(fine(12), 0.75), wave()).distance, half = evaluate(lake(fine(24), 0.75), wave()).distance;
+    EXPECT_GT(whole, 0.02);
+    EXPECT_NEAR(half, whole, 0.01);  // a quarter of a cell: where the body lies in its cells is worth as much
+}
+
+TEST(LatticeSwim, TheMirroredGaitSwimsTheMirroredWay) {
+    const Evaluation one = evaluate(lake(), wave()), other = evaluate(lake(), wave(0.5));
+    ASSERT_TRUE(one.course && other.course);
+    EXPECT_NEAR(one.distance, other.distance, 0.02 * std::abs(one.distance));
+    EXPECT_NEAR(one.course->yaw, -other.course->yaw, 0.01);
+}
+
+TEST(LatticeSwim, IsTheSameForAnyNumberOfThreads) {
+    EvaluationOptions three;
+    three.execution.threads = 3;
+    EXPECT_EQ(evaluate(lake(json::object(), 0.2), wave()).hash, evaluate(lake(json::object(), 0.2), wave(), three).hash);
+}
+
+TEST(LatticeSwim, EachStartIsAnother) {
+    Scene first = lake(json::object(), 0.3), second = first;
+    choose_start(1, first);
+    choose_start(2, second);
+    const double one = evaluate(first, wave()).distance, two = evaluate(second, wave()).distance;
+    EXPECT_NE(one, two);
+    EXPECT_NEAR(one, two, 0.01);
+}
+
+TEST(LatticeSwim, TooFewSubstepsBreakALaw) {
+    const Evaluation evaluation = evaluate(lake(fine(1)), wave());
+    ASSERT_TRUE(evaluation.instability);
+    EXPECT_EQ(evaluation.instability->law, "mach");
+    EXPECT_NE(sentence_of(*evaluation.instability).find("needs more substeps"), std::string::npos);
+}
+
+TEST(LatticeSwim, AMovingTankChangesLittle) {
+    const json tank = {{"movingTank", {{"step", 0.15}}}, {"stopping", {{"noProgressAfter", 9}}}};
+    const Scene still_tank = lake(json::object(), 1), moving = lake(tank, 1);
+    const Evaluation one = evaluate(still_tank, wave()), other = evaluate(moving, wave());
+    EXPECT_NEAR(one.distance, other.distance, 0.1 * std::abs(one.distance));
+}
+
+TEST(LatticeSwim, MusclesWork) {
+    const Evaluation evaluation = evaluate(lake(), wave());
+    ASSERT_TRUE(evaluation.work);
+    EXPECT_GT(*evaluation.work, 0);
+}
+
+TEST(LatticeSwim, RefusesWhatItHasNot) {
+    const auto refusal = [](const json& changes) { return test::refusal_of([&] { build_model(lake(changes)); }); };
+    EXPECT_NE(refusal({{"solver", {{"kinematicViscosity", 0}}}}).find("kinematicViscosity = 0: must be above 0"), std::string::npos);
+    Scene empty = lake();
+    empty.creature.reset();
+    EXPECT_NE(test::refusal_of([&] { build_model(empty); }).find("needs a creature"), std::string::npos);
+    EXPECT_NE(refusal({{"planes", {{0, 1, 0, 0.3}}}}).find("planes[0] stands at -0.3: must be at the fluid's end, 0"), std::string::npos);
+    EXPECT_NE(refusal({{"planes", {{0.6, 0.8, 0, 0}}}}).find("square across an axis"), std::string::npos);
+    EXPECT_NE(refusal({{"fluid", {{"mass", {{"gradient", "mass-linear"}}}}}}).find("must be uniform"), std::string::npos);
+    EXPECT_NE(refusal({{"obstacles", {{{"shape", "sphere"}, {"radius", 0.2}, {"spacing", 0.1}, {"centre", {3.9, 0.9, 0.9}}}}}}).find("companions and obstacles"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace natator
