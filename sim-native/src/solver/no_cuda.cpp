@@ -4,6 +4,7 @@
 #include "natator/gpu_solver.h"
 #include "solver/cuda/large/fetch_roof.h"
 #include "solver/cuda/way.h"
+#include "solver/lattice/water.h"
 
 namespace natator {
 namespace {
@@ -23,6 +24,10 @@ std::optional<std::string> gpu_refusal(const Scene&) {
 }
 
 std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, const BatchOptions&) {
+    refuse();
+}
+
+std::unique_ptr<lattice::Water> lattice::Water::on_gpu(const Box&, int) {
     refuse();
 }
 

@@ -43,7 +43,8 @@ private:
     int nx_, ny_, nz_, stride_;
     Array now_[moments], next_[moments], change_[3];
     std::vector<unsigned char> row_changes_;
-    std::vector<int> owner_;   ///< by cell: a cube of the last step, -1: none
+    std::vector<unsigned char> was_held_;  ///< by cell: whether it was in a body in the last step
+    std::vector<long> last_held_;          ///< those cells
     std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
     std::vector<float> out_;   ///< by place in held_
     std::vector<Held> held_;   ///< cells in bodies, by cube
@@ -59,7 +60,7 @@ CpuWater::CpuWater(const Box& box, int threads)
     for (Array& array : next_) array.assign(size, 0);
     for (Array& array : change_) array.assign(size, 0);
     row_changes_.assign(static_cast<std::size_t>(ny_) * nz_, 0);
-    owner_.assign(size, -1);
+    was_held_.assign(size, 0);
     chosen_.assign(size, -1);
 }
 
@@ -125,18 +126,20 @@ void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
         const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) add(held, -density * by[0], -density * by[1], -density * by[2], pushes);
+        if (begun_ && !was_held_[at]) add(held, -density * by[0], -density * by[1], -density * by[2], pushes);
     }
 }
 
 void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     pushes.assign(cubes.size(), {});
-    std::vector<long> before;
-    for (const Held& held : held_) before.push_back(held.cell);
     hold(cubes);
     tell(cubes, pushes);
-    for (const long at : before) owner_[at] = -1;
-    for (const Held& held : held_) owner_[held.cell] = held.cube;
+    for (const long at : last_held_) was_held_[at] = 0;
+    last_held_.clear();
+    for (const Held& held : held_) {
+        was_held_[held.cell] = 1;
+        last_held_.push_back(held.cell);
+    }
     begun_ = true;
 
     const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
@@ -163,17 +166,24 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
 void CpuWater::shift(const Eigen::Vector3i& by) {
     const Eigen::Vector3i size = box_.cells;
     const auto inside = [&](const Eigen::Vector3i& c) { return (c.array() >= 0).all() && (c.array() < size.array()).all(); };
-    const auto moved = [&](auto& array, auto empty) {
-        auto old = array;
+    for (Array& array : now_) {
+        const Array old = array;
         for (int z = 0; z < nz_; ++z)
             for (int y = 0; y < ny_; ++y)
                 for (int x = 0; x < nx_; ++x) {
                     const Eigen::Vector3i from = Eigen::Vector3i(x, y, z) + by;
-                    array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : empty;
+                    array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : 0;
                 }
-    };
-    for (Array& array : now_) moved(array, 0.0f);
-    moved(owner_, -1);
+    }
+    for (const long at : last_held_) was_held_[at] = 0;
+    std::vector<long> moved;
+    for (const long at : last_held_) {
+        const long row = at / stride_;
+        const Eigen::Vector3i to = Eigen::Vector3i(static_cast<int>(at % stride_) - margin, static_cast<int>(row % ny_), static_cast<int>(row / ny_)) - by;
+        if (inside(to)) moved.push_back(place(to.x(), to.y(), to.z()));
+    }
+    last_held_ = moved;
+    for (const long at : last_held_) was_held_[at] = 1;
 }
 
 Cell CpuWater::cell(const Eigen::Vector3i& at) const {
