@@ -5,22 +5,36 @@
 
 namespace natator::lattice {
 
-/// Cells around a cube, those outside the lattice left out.
+/// A box of cells, those outside the lattice left out.
 struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
 };
 
-NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3]) {
+NATATOR_HD CellRange cells_between(const float (&lows)[3], const float (&highs)[3], const int (&cells)[3]) {
     CellRange range;
     for (int a = 0; a < 3; ++a) {
-        const float low = cube.x[a] - cube.reach[a], high = cube.x[a] + cube.reach[a];
+        const float low = lows[a], high = highs[a];
         range.low[a] = low < 0 ? 0 : low > static_cast<float>(cells[a]) ? cells[a] : static_cast<int>(low);
         int last = high < 0 ? -1 : high > static_cast<float>(cells[a]) ? cells[a] - 1 : static_cast<int>(high);
         if (last > cells[a] - 1) last = cells[a] - 1;
         range.count[a] = last < range.low[a] ? 0 : last - range.low[a] + 1;
     }
     return range;
+}
+NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3]) {
+    float low[3], high[3];
+    for (int a = 0; a < 3; ++a) low[a] = cube.x[a] - cube.reach[a], high[a] = cube.x[a] + cube.reach[a];
+    return cells_between(low, high, cells);
+}
+
+/// Not fused on a GPU, which so finds the same cells in the same cubes as the CPU.
+NATATOR_HD float scalar_product(const float* a, const float (&b)[3]) {
+#if defined(__CUDA_ARCH__)
+    return __fadd_rn(__fadd_rn(__fmul_rn(a[0], b[0]), __fmul_rn(a[1], b[1])), __fmul_rn(a[2], b[2]));
+#else
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+#endif
 }
 
 /// xi of a cell's centre, and how far out it is: the greatest |xi|.
@@ -32,8 +46,7 @@ NATATOR_HD PlaceInCube place_in(const Cube& cube, int x, int y, int z) {
     const float d[3] = {static_cast<float>(x) - cube.x[0], static_cast<float>(y) - cube.x[1], static_cast<float>(z) - cube.x[2]};
     PlaceInCube place{};
     for (int a = 0; a < 3; ++a) {
-        const float* row = cube.to_rest + 3 * a;
-        place.xi[a] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+        place.xi[a] = scalar_product(cube.to_rest + 3 * a, d);
         const float size = place.xi[a] < 0 ? -place.xi[a] : place.xi[a];
         if (size > place.out) place.out = size;
     }
