@@ -77,6 +77,7 @@ suite() {
 
 suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
+suite water-on-a-lattice 'GpuLattice*'
 suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*:GpuPeriodic*'
 suite same-bits-in-any-batch '*GpuBatch*:*GpuTeams*:*EitherWay*'
 suite one-scene-by-the-whole-GPU '*WholeGpu*:WithoutLists*:GpuRoof*'
@@ -150,7 +151,7 @@ sanitize() {  # tool; the tests take racecheck longer than anyone waits
         "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda --without-lists || return
     [[ $1 == racecheck ]] && return
     "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" \
-        --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*' || return
+        --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*:GpuLattice.TakesBodies*:GpuLattice.IsShifted*' || return
     # so many that few threads share a particle of the water
     "$sanitizer" --tool "$1" --error-exitcode 9 "$build/bin/natator-bench" speed --backend cuda --scheme conserving \
         --scene creature-1 --setting 1x1 --batch 10 --repeats 1 --quick

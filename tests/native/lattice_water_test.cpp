@@ -1,32 +1,17 @@
 // Water on a lattice against closed forms and conservation laws.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include <Eigen/Dense>
-
-#include "solver/lattice/water.h"
+#include "lattice_bar.h"
+#include "natator/error.h"
 
 namespace natator::lattice {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Box box_of(int x, int y, int z, Face face = Face::periodic) {
-    Box box;
-    box.cells = {x, y, z};
-    for (auto& ends : box.faces) ends[0] = ends[1] = face;
-    return box;
-}
-
-template <class Work>
-void for_each_cell(const Box& box, const Work& work) {
-    for (int z = 0; z < box.cells.z(); ++z)
-        for (int y = 0; y < box.cells.y(); ++y)
-            for (int x = 0; x < box.cells.x(); ++x) work(Eigen::Vector3i(x, y, z));
-}
 
 Eigen::Vector3d momentum(const Water& water) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -119,64 +104,7 @@ TEST(LatticeWater, ShearBetweenWallsIsLinear) {
     }
 }
 
-/// A rigid bar of particles, 2 x 2 x 2 cells each and as heavy as their water, in a box without friction along its walls.
-class LatticeBar : public ::testing::Test {
-protected:
-    LatticeBar() {
-        for (int x = 0; x < 6; ++x)
-            for (int y = 0; y < 2; ++y)
-                for (int z = 0; z < 3; ++z) place_.emplace_back(10.3 + 2 * x, 10.2 + 2 * y, 10.1 + 2 * z);
-        velocity_.assign(place_.size(), Eigen::Vector3d::Zero());
-        body_.emplace(place_, std::vector<int>(place_.size(), 0), 2);
-        box_ = box_of(36, 28, 28, Face::free_slip);
-        box_.viscosity = 0.02;
-    }
-    void begin(const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) {
-        for (std::size_t i = 0; i < place_.size(); ++i) velocity_[i] = velocity + spin.cross(place_[i] - centre());
-    }
-    Eigen::Vector3d centre() const {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const Eigen::Vector3d& x : place_) sum += x / static_cast<double>(place_.size());
-        return sum;
-    }
-    Eigen::Vector3d momentum_of_bar() const {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const Eigen::Vector3d& v : velocity_) sum += mass * v;
-        return sum;
-    }
-    double energy_of_bar() const {
-        double sum = 0;
-        for (const Eigen::Vector3d& v : velocity_) sum += mass * v.squaredNorm() / 2;
-        return sum;
-    }
-    /// A step; the bar stays rigid.
-    void advance(Water& water) {
-        std::vector<Push> pushes;
-        water.advance(body_->cubes(place_, velocity_, box_, 1), 1, pushes);
-        const std::vector<Eigen::Vector3d> impulse = body_->impulses(pushes, box_, 1);
-        const Eigen::Vector3d middle = centre();
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero(), turning = sum;
-        Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-        for (std::size_t i = 0; i < place_.size(); ++i) {
-            const Eigen::Vector3d p = mass * velocity_[i] + impulse[i], arm = place_[i] - middle;
-            sum += p;
-            turning += arm.cross(p);
-            inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-        }
-        const Eigen::Vector3d v = sum / (mass * static_cast<double>(place_.size())), spin = inertia.inverse() * turning;
-        const Eigen::Matrix3d turn = Eigen::AngleAxisd(spin.norm(), spin.norm() > 0 ? spin.normalized() : Eigen::Vector3d::UnitX()).toRotationMatrix();
-        for (std::size_t i = 0; i < place_.size(); ++i) {
-            const Eigen::Vector3d arm = turn * (place_[i] - middle);
-            place_[i] = middle + v + arm;
-            velocity_[i] = v + spin.cross(arm);
-        }
-    }
-
-    static constexpr double mass = 8;
-    std::vector<Eigen::Vector3d> place_, velocity_;
-    std::optional<Immersed> body_;
-    Box box_;
-};
+class LatticeBar : public ::testing::Test, protected Bar {};
 
 TEST_F(LatticeBar, GivesItsMomentumToTheWater) {
     for (auto& ends : box_.faces) ends[0] = ends[1] = Face::periodic;
@@ -199,6 +127,33 @@ TEST_F(LatticeBar, GoesAlongWithWaterThatMoves) {
     EXPECT_LT((momentum_of_bar() / (mass * static_cast<double>(place_.size())) - u).norm(), 1e-5);
 }
 
+/// As in water that is not shifted, in the middle of a box so wide that its ends do not matter yet: it leaves cells and comes back to
+/// them, which have moved on meanwhile.
+TEST_F(LatticeBar, IsPushedTheSameWhenItsWaterIsShifted) {
+    const auto run = [&](const Eigen::Vector3i& by) {
+        Bar bar;
+        bar.begin({0.05, 0.03, 0.02}, {0.001, 0.004, 0});
+        const auto water = Water::on_cpu(bar.box_, 1);
+        for (int k = 0; k < 4; ++k) bar.advance(*water);
+        water->shift(by);
+        std::vector<double> pushed;
+        for (const Eigen::Vector3d& to : {Eigen::Vector3d(0.6, 0.6, 0.6), Eigen::Vector3d(-0.6, -0.6, -0.6), Eigen::Vector3d(0, 0, 0)}) {
+            for (Eigen::Vector3d& place : bar.place_) place += to - (pushed.empty() ? by : Eigen::Vector3i(0, 0, 0)).cast<double>();
+            std::vector<Push> pushes;
+            water->advance(bar.cubes(), 1, pushes);
+            for (const Push& push : pushes) pushed.insert(pushed.end(), push.j, push.j + 3);
+        }
+        return pushed;
+    };
+    const std::vector<double> still = run({0, 0, 0});
+    for (const Eigen::Vector3i& by : {Eigen::Vector3i(1, 0, 0), Eigen::Vector3i(0, -1, 0), Eigen::Vector3i(-1, 0, 1), Eigen::Vector3i(2, 2, 2)}) {
+        const std::vector<double> shifted = run(by);
+        double most = 0;
+        for (std::size_t i = 0; i < still.size(); ++i) most = std::max(most, std::abs(shifted[i] - still[i]));
+        EXPECT_LT(most, 1e-5) << by.transpose();
+    }
+}
+
 TEST_F(LatticeBar, IsTheSameForAnyNumberOfThreads) {
     const auto run = [&](int threads) {
         const auto places = place_, velocities = velocity_;
@@ -210,6 +165,11 @@ TEST_F(LatticeBar, IsTheSameForAnyNumberOfThreads) {
         return end;
     };
     EXPECT_EQ(run(1), run(3));
+}
+
+TEST(LatticeWater, SaysWhenThereIsNoSuchGpu) {
+    EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), 99), NoDevice);
+    EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), -1), NoDevice);
 }
 
 }  // namespace

@@ -142,6 +142,9 @@ NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const L
     along_x(yzz, k112, k212, 0, a[2][1]);
     along_x(k022, k122, k222, ninth, a[2][2]);
     constexpr float w[3] = {1.0f / 6, 2.0f / 3, 1.0f / 6};
+#if defined(__CUDA_ARCH__)
+#pragma unroll
+#endif
     for (int cx = 0; cx < 3; ++cx) {
         V b[3][3];  // [order along z][population along y]
         for (int z = 0; z < 3; ++z)

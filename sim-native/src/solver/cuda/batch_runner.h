@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batch_kernel.cuh"
+#include "device.h"
 #include "device_states.h"
 #include "event.h"
 #include "natator/error.h"
@@ -98,9 +99,6 @@ private:
     DeviceBuffer<double> path_;
     double seconds_ = 0;
 };
-
-/// Makes a GPU the current one. Throws NoDevice where there is no such one.
-void choose_device(int device);
 
 /// Why scenes of this Model cannot be computed; none if they can.
 std::optional<std::string> refusal(const Model& model);

@@ -1,4 +1,5 @@
 #include <array>
+#include <utility>
 
 #include "cube_cells.h"
 #include "kernels.h"
@@ -40,6 +41,7 @@ private:
     View view();
     void hold(const std::vector<Cube>& cubes);
     void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
     const Populations& after_collision(long cell, const physics::LatticeRates& rates);
     static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
@@ -47,7 +49,12 @@ private:
     int nx_, ny_, nz_, stride_;
     Array now_[moments], next_[moments], change_[3];
     std::vector<unsigned char> row_changes_;
-    std::vector<int> owner_;   ///< by cell: a cube of the last step, -1: none
+    std::vector<int> owner_;  ///< by cell: the cube that held it in the last step, -1: none
+    struct Owned {
+        long cell;
+        int x, y, z;
+    };
+    std::vector<Owned> owned_;  ///< those cells
     std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
     std::vector<float> out_;   ///< by place in held_
     std::vector<Held> held_;   ///< cells in bodies, by cube
@@ -140,14 +147,33 @@ void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
     }
 }
 
+/// Cells that a body has left keep what they have more than it, which it was given.
+void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
+    const int cells[3] = {nx_, ny_, nz_};
+    for (const Owned& one : owned_) {
+        const int p = std::exchange(owner_[one.cell], -1);
+        if (chosen_[one.cell] >= 0 || p >= static_cast<int>(cubes.size())) continue;
+        const int at[3] = {one.x, one.y, one.z};
+        int here[3];
+        for (int a = 0; a < 3; ++a) here[a] = beside(cubes[p].x[a], at[a], cells[a], periodic_[a]);
+        const PlaceInCube in = place_in(cubes[p], here[0], here[1], here[2]);
+        const Held left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
+        const float density = 1 + now_[0][one.cell];
+        add(left, density * left.velocity.x - now_[1][one.cell], density * left.velocity.y - now_[2][one.cell],
+            density * left.velocity.z - now_[3][one.cell], pushes);
+    }
+    owned_.clear();
+    for (const Held& held : held_) {
+        owner_[held.cell] = held.cube;
+        owned_.push_back({held.cell, held.x, held.y, held.z});
+    }
+}
+
 void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     pushes.assign(cubes.size(), {});
-    std::vector<long> before;
-    for (const Held& held : held_) before.push_back(held.cell);
     hold(cubes);
     tell(cubes, pushes);
-    for (const long at : before) owner_[at] = -1;
-    for (const Held& held : held_) owner_[held.cell] = held.cube;
+    release(cubes, pushes);
     begun_ = true;
 
     const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
@@ -213,17 +239,26 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
 void CpuWater::shift(const Eigen::Vector3i& by) {
     const Eigen::Vector3i size = box_.cells;
     const auto inside = [&](const Eigen::Vector3i& c) { return (c.array() >= 0).all() && (c.array() < size.array()).all(); };
-    const auto moved = [&](auto& array, auto empty) {
-        auto old = array;
+    for (Array& array : now_) {
+        const Array old = array;
         for (int z = 0; z < nz_; ++z)
             for (int y = 0; y < ny_; ++y)
                 for (int x = 0; x < nx_; ++x) {
                     const Eigen::Vector3i from = Eigen::Vector3i(x, y, z) + by;
-                    array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : empty;
+                    array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : 0;
                 }
-    };
-    for (Array& array : now_) moved(array, 0.0f);
-    moved(owner_, -1);
+    }
+    std::vector<Owned> moved;
+    std::vector<int> owners;
+    for (const Owned& one : owned_) {
+        const int owner = std::exchange(owner_[one.cell], -1);
+        const Eigen::Vector3i to = Eigen::Vector3i(one.x, one.y, one.z) - by;
+        if (!inside(to)) continue;
+        moved.push_back({place(to.x(), to.y(), to.z()), to.x(), to.y(), to.z()});
+        owners.push_back(owner);
+    }
+    owned_ = moved;
+    for (std::size_t k = 0; k < owned_.size(); ++k) owner_[owned_[k].cell] = owners[k];
 }
 
 Cell CpuWater::cell(const Eigen::Vector3i& at) const {

@@ -5,7 +5,7 @@
 
 namespace natator::lattice {
 
-/// Cells around a cube. Those beyond walls are left out; those beyond periodic ends count on.
+/// Cells around a cube. Those beyond walls are left out; those beyond periodic ends count on, but for plane flow, of one cell.
 struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
@@ -14,22 +14,37 @@ struct CellRange {
 NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3], const bool (&periodic)[3]) {
     CellRange range;
     for (int a = 0; a < 3; ++a) {
-        const float n = static_cast<float>(cells[a]), margin = periodic[a] ? n : 0;
-        const auto within = [&](float at) { return static_cast<int>(at < -margin ? -margin : at > n + margin ? n + margin : at); };
         const float low = cube.x[a] - cube.reach[a], high = cube.x[a] + cube.reach[a];
-        int first = within(low), last = high < -margin ? -1 - static_cast<int>(margin) : within(high);
+        const bool on = periodic[a] && cells[a] > 1;
+        const float least = on ? static_cast<float>(-cells[a]) : 0, most = static_cast<float>(on ? 2 * cells[a] : cells[a]) - 1;
+        int first = static_cast<int>(low < least ? least : low > most ? most + 1 : low);
+        int last = static_cast<int>(high < least ? least - 1 : high > most ? most : high);
         if (static_cast<float>(first) < low) ++first;
         if (static_cast<float>(last) > high) --last;
-        if (!periodic[a] && last > cells[a] - 1) last = cells[a] - 1;
         range.low[a] = first;
         range.count[a] = last < first ? 0 : last - first + 1;
     }
     return range;
 }
-/// Its number from 0 on.
+/// The same beyond periodic ends, from 0 on.
 NATATOR_HD int wrapped(int at, int cells) {
-    const int rest = at % cells;
-    return rest < 0 ? rest + cells : rest;
+    return at < 0 ? at + cells : at >= cells ? at - cells : at;
+}
+
+/// A cell's number as it is nearest to x, where ends are periodic.
+NATATOR_HD int beside(float x, int at, int cells, bool periodic) {
+    if (!periodic || cells == 1) return at;
+    const float half = 0.5f * static_cast<float>(cells), d = static_cast<float>(at) - x;
+    return d > half ? at - cells : d < -half ? at + cells : at;
+}
+
+/// Not fused on a GPU, which so finds the same cells in the same cubes as the CPU.
+NATATOR_HD float scalar_product(const float* a, const float (&b)[3]) {
+#if defined(__CUDA_ARCH__)
+    return __fadd_rn(__fadd_rn(__fmul_rn(a[0], b[0]), __fmul_rn(a[1], b[1])), __fmul_rn(a[2], b[2]));
+#else
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+#endif
 }
 
 /// xi of a cell's centre, and how far out it is: the greatest |xi|.
@@ -41,8 +56,7 @@ NATATOR_HD PlaceInCube place_in(const Cube& cube, int x, int y, int z) {
     const float d[3] = {static_cast<float>(x) - cube.x[0], static_cast<float>(y) - cube.x[1], static_cast<float>(z) - cube.x[2]};
     PlaceInCube place{};
     for (int a = 0; a < 3; ++a) {
-        const float* row = cube.to_rest + 3 * a;
-        place.xi[a] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+        place.xi[a] = scalar_product(cube.to_rest + 3 * a, d);
         const float size = place.xi[a] < 0 ? -place.xi[a] : place.xi[a];
         if (size > place.out) place.out = size;
     }

@@ -80,7 +80,9 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
             rate += (velocities[one.particle] - velocities[p]) * one.weight.transpose();
         }
         shape = completed(shape, missing_[p], spacing_ / 2) / box.cell;
-        const Eigen::Vector3d middle = (places[p] - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
+        Eigen::Vector3d middle = (places[p] - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
+        for (int a = 0; a < 3; ++a)
+            if (box.faces[a][0] == Face::periodic && box.cells[a] > 1) middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
         Cube& cube = cubes[p];
         store(shape.inverse(), cube.to_rest);
         store(rate * per_step, cube.rate);

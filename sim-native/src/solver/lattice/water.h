@@ -33,6 +33,7 @@ class Water {
 public:
     /// At rest.
     static std::unique_ptr<Water> on_cpu(const Box& box, int threads);
+    /// Throws NoDevice without that GPU or if this library was built without CUDA, std::bad_alloc if its memory is too small.
     static std::unique_ptr<Water> on_gpu(const Box& box, int device);
     virtual ~Water() = default;
 

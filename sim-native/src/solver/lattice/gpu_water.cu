@@ -1,0 +1,427 @@
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "cube_cells.h"
+#include "physics/lattice.h"
+#include "solver/cuda/device.h"
+#include "solver/cuda/host_buffer.h"
+#include "solver/cuda/stream.h"
+#include "water.h"
+
+namespace natator::lattice {
+namespace {
+
+using namespace physics;
+
+constexpr int block = 128;           ///< threads
+constexpr unsigned warp = 32, all = ~0u;
+constexpr int cube_words = sizeof(Cube) / sizeof(float), push_numbers = sizeof(Push) / sizeof(double);
+static_assert(cube_words <= 32 && push_numbers <= 32, "a word each of a warp's threads");
+
+/// Who has a cell: how far out it is in the cube, as bits, which sort like numbers above 0, then the cube.
+using Key = unsigned long long;
+constexpr Key nobody = ~Key{0};
+
+/// Whose a cell is and was in the last step; -1: nobody's.
+struct Owners {
+    int now, before;
+};
+
+struct Lattice {
+    int cells[3];
+    unsigned count;
+    Face faces[3][2];
+    bool periodic[3];
+
+    NATATOR_HD unsigned at(int x, int y, int z) const { return (static_cast<unsigned>(z) * cells[1] + y) * cells[0] + x; }
+    NATATOR_HD int inside(int axis, int at) const { return periodic[axis] ? wrapped(at, cells[axis]) : at; }
+    NATATOR_HD unsigned at_inside(int x, int y, int z) const { return at(inside(0, x), inside(1, y), inside(2, z)); }
+    NATATOR_HD void place(unsigned at, int (&to)[3]) const {
+        const unsigned row = at / cells[0];
+        to[0] = static_cast<int>(at - row * cells[0]);
+        to[2] = static_cast<int>(row / cells[1]);
+        to[1] = static_cast<int>(row - static_cast<unsigned>(to[2]) * cells[1]);
+    }
+};
+
+/// The cells around all bodies, now and before, with their keys; along periodic axes all.
+struct Keys {
+    CellRange around;
+    Key* data;
+
+    /// None of a cell outside.
+    NATATOR_HD Key* of(int x, int y, int z) const {
+        const int a = x - around.low[0], b = y - around.low[1], c = z - around.low[2];
+        if (a < 0 || b < 0 || c < 0 || a >= around.count[0] || b >= around.count[1] || c >= around.count[2]) return nullptr;
+        return data + (static_cast<unsigned>(c) * around.count[1] + b) * around.count[0] + a;
+    }
+};
+__device__ int cube_of(Key key) {
+    return static_cast<int>(key);
+}
+
+/// The warp's cube; none beyond the last.
+__device__ int cube_of_warp(int cubes) {
+    const int cube = static_cast<int>((blockIdx.x * block + threadIdx.x) / warp);
+    return cube < cubes ? cube : -1;
+}
+/// Does something with each cell around a cube, and so many beyond, by a warp's threads in turn: work(x, y, z, key), which count on beyond
+/// periodic ends.
+template <class Work>
+__device__ void each_cell_around(const Lattice& lattice, const Keys& keys, const Cube& cube, float more, const Work& work) {
+    Cube wide = cube;
+    for (float& reach : wide.reach) reach += more;
+    const CellRange range = cells_around(wide, lattice.cells, lattice.periodic);
+    const unsigned size = range.size();
+    for (unsigned k = threadIdx.x % warp; k < size; k += warp) {
+        const unsigned row = k / range.count[0], plane = row / range.count[1];
+        const int x = range.low[0] + static_cast<int>(k - row * range.count[0]), y = range.low[1] + static_cast<int>(row - plane * range.count[1]),
+                  z = range.low[2] + static_cast<int>(plane);
+        Key* const key = keys.of(lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z));
+        if (key) work(x, y, z, *key);
+    }
+}
+
+/// Takes the cubes over from the host and finds the cells that they hold.
+__global__ void hold(Lattice lattice, Keys keys, const float* from_host, Cube* cubes, int count) {
+    __shared__ Cube of_block[block / warp];
+    const int p = cube_of_warp(count);
+    if (p < 0) return;
+    Cube& cube = of_block[threadIdx.x / warp];
+    if (const int word = threadIdx.x % warp; word < cube_words) {
+        const float value = from_host[p * cube_words + word];
+        reinterpret_cast<float*>(&cube)[word] = value;
+        reinterpret_cast<float*>(cubes + p)[word] = value;
+    }
+    __syncwarp();
+    each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, Key& key) {
+        const PlaceInCube in = place_in(cube, x, y, z);
+        if (in.out <= cube_edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
+    });
+}
+
+/// Where the populations of a cell go.
+class Ways {
+public:
+    __device__ Ways(const Lattice& lattice, unsigned cell, const int (&place)[3], float* to)
+        : count_(lattice.count), back_(to + cell) {
+        long stride = 1;
+        int axis_of_populations = 1;
+        for (int a = 0; a < 3; ++a) {
+            const int n = lattice.cells[a];
+            for (int end = 0; end < 2; ++end) {
+                const int sign = end == 0 ? -1 : 1;
+                long by = sign * stride;
+                if (place[a] == (end == 0 ? 0 : n - 1)) {
+                    const Face face = lattice.faces[a][end];
+                    if (face == Face::no_slip) bounces_ |= 1u << (2 * a + end);
+                    by = face == Face::periodic ? by - sign * n * stride : -2L * sign * axis_of_populations * count_;
+                }
+                by_[a][end] = by;
+            }
+            stride *= n;
+            axis_of_populations *= 3;
+        }
+    }
+
+    __device__ void operator()(int i, float f) const {
+        const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+        unsigned crosses = 0;
+        long by = i * count_;
+        for (int a = 0; a < 3; ++a) {
+            if (c[a] == 0) continue;
+            const int end = c[a] > 0 ? 1 : 0;
+            crosses |= 1u << (2 * a + end);
+            by += by_[a][end];
+        }
+        back_[(bounces_ & crosses) != 0 ? (lattice_populations - 1 - i) * count_ : by] = f;
+    }
+
+private:
+    long count_;
+    float* back_;            ///< the cell itself
+    long by_[3][2];          ///< along each axis down and up: to the cell there, or to the mirrored population of the cell here
+    unsigned bounces_ = 0;   ///< bits: ends
+};
+
+struct Put {
+    const Ways& ways;
+    NATATOR_HD void operator()(int i, float f) const {
+#if defined(__CUDA_ARCH__)
+        ways(i, f);
+#endif
+    }
+};
+
+/// The moments of cell `at`.
+__device__ void load_moments(const float* populations, long count, unsigned at, float (&m)[lattice_moments]) {
+    float f[lattice_populations];
+    for (int i = 0; i < lattice_populations; ++i) f[i] = populations[i * count + at];
+    moments_of(f, m);
+}
+
+/// Collides and streams: a thread a cell.
+__global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeRates rates, const float* __restrict__ from,
+                                                       float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes,
+                                                       Owners* __restrict__ owners) {
+    const unsigned cell = blockIdx.x * block + threadIdx.x;
+    if (cell >= lattice.count) return;
+    float m[lattice_moments];
+    load_moments(from, lattice.count, cell, m);
+    int place[3];
+    lattice.place(cell, place);
+    const Ways ways(lattice, cell, place, to);
+    Velocity3 told{};
+    bool held = false;
+    if (const Key* const key = keys.of(place[0], place[1], place[2])) {
+        const Key of_cell = *key;
+        held = of_cell != nobody;
+        owners[cell] = {held ? cube_of(of_cell) : -1, owners[cell].now};
+        if (held) {
+            const Cube& cube = cubes[cube_of(of_cell)];
+            for (int a = 0; a < 3; ++a) place[a] = beside(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
+            told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
+            m[0] += divergence_of(cube);
+        }
+    }
+    const float inverse = 1.0f / (m[0] + 1.0f);
+    const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse, uz = held ? told.z : m[3] * inverse;
+    collide(m, ux, uy, uz, rates, Put{ways});
+}
+
+/// Sums what each cube is pushed by, in a fixed order, and forgets who has its cells.
+__global__ void push(Lattice lattice, Keys keys, const float* before, const float* after, const Cube* cubes, int count,
+                     const Owners* owners, bool begun, double* to_host) {
+    const int p = cube_of_warp(count);
+    if (p < 0) return;
+    const Cube& cube = cubes[p];
+    const long cells = lattice.count;
+    double sums[push_numbers] = {};  // as Push has them
+    each_cell_around(lattice, keys, cube, 1, [&](int x, int y, int z, Key& key) {
+        const unsigned at = lattice.at_inside(x, y, z);
+        const Owners own = owners[at];
+        const bool holds = own.now == p, comes = holds && begun && own.before < 0, leaves = own.now < 0 && own.before == p;
+        if (!holds && !leaves) return;
+        const PlaceInCube in = place_in(cube, x, y, z);
+        const Velocity3 told = velocity_in(cube, in.xi);
+        const float u[3] = {told.x, told.y, told.z};
+        float j[3] = {};
+        if (holds) {
+            key = nobody;
+            for (int i = 0; i < lattice_populations; ++i) {
+                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+                int from[3] = {lattice.inside(0, x) - c[0], lattice.inside(1, y) - c[1], lattice.inside(2, z) - c[2]};
+                bool beyond = false;
+                for (int a = 0; a < 3; ++a) {
+                    from[a] = lattice.inside(a, from[a]);
+                    beyond = beyond || from[a] < 0 || from[a] >= lattice.cells[a];
+                }
+                if (beyond) continue;
+                const unsigned source = lattice.at(from[0], from[1], from[2]);
+                if (owners[source].now >= 0) continue;
+                const int opposite = lattice_populations - 1 - i;
+                const float in_ = after[i * cells + at] - moving_population(i, u), out = after[opposite * cells + source] - moving_population(opposite, u);
+                for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out, static_cast<float>(c[a]), u[a]);
+            }
+        }
+        if (comes || leaves) {
+            float m[lattice_moments];
+            load_moments(before, lattice.count, at, m);
+            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0), sign = comes ? 1 : -1;
+            for (int a = 0; a < 3; ++a) j[a] += sign * (m[1 + a] - density * u[a]);
+        }
+        for (int a = 0; a < 3; ++a) {
+            sums[a] += j[a];
+            for (int b = 0; b < 3; ++b) sums[3 + 3 * a + b] += static_cast<double>(j[a]) * in.xi[b];
+        }
+    });
+    const unsigned lane = threadIdx.x % warp;
+    double own = 0;
+    for (int k = 0; k < push_numbers; ++k) {
+        double sum = sums[k];
+        for (unsigned other = warp / 2; other > 0; other /= 2) sum += __shfl_xor_sync(all, sum, other);
+        if (lane == static_cast<unsigned>(k)) own = sum;
+    }
+    if (lane < push_numbers) to_host[p * push_numbers + lane] = own;
+}
+
+__global__ void __launch_bounds__(block) shift_cells(Lattice lattice, const float* __restrict__ from, float* __restrict__ to,
+                                                     const Owners* __restrict__ owners_from,
+                                                     Owners* __restrict__ owners_to, int x, int y, int z) {
+    const unsigned cell = blockIdx.x * block + threadIdx.x;
+    if (cell >= lattice.count) return;
+    int place[3];
+    lattice.place(cell, place);
+    const int by[3] = {x, y, z};
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) {
+        place[a] += by[a];
+        inside = inside && place[a] >= 0 && place[a] < lattice.cells[a];
+    }
+    const long count = lattice.count;
+    const unsigned source = inside ? lattice.at(place[0], place[1], place[2]) : 0;
+    for (int i = 0; i < lattice_populations; ++i) to[i * count + cell] = inside ? from[i * count + source] : 0;
+    owners_to[cell] = inside ? owners_from[source] : Owners{-1, -1};
+}
+
+/// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is found by kernels.
+class GpuWater : public Water {
+public:
+    GpuWater(const Box& box, int device);
+
+    void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
+    void shift(const Eigen::Vector3i& by) override;
+    Cell cell(const Eigen::Vector3i& at) const override;
+    void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
+
+private:
+    /// Chooses a device before anything is made there.
+    struct Chosen {
+        explicit Chosen(int device) { cuda::choose_device(device); }
+    };
+    static unsigned blocks_of(std::size_t threads) { return static_cast<unsigned>((threads + block - 1) / block); }
+    void choose() const { cuda::check(cudaSetDevice(device_), "choose device"); }
+    void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
+    float* now() const { return populations_[now_].data(); }
+    float* next() const { return populations_[1 - now_].data(); }
+    float* at(const Eigen::Vector3i& place) const { return now() + lattice_.at(place.x(), place.y(), place.z()); }
+    Keys keys_around(const std::vector<Cube>& cubes);
+
+    int device_;
+    Chosen chosen_{device_};
+    Lattice lattice_;
+    cuda::Stream stream_;
+    cuda::DeviceBuffer<float> populations_[2];
+    cuda::DeviceBuffer<Owners> owners_[2];  ///< the second is for shifts
+    cuda::DeviceBuffer<Key> keys_;                 ///< nobody's between steps
+    cuda::DeviceBuffer<Cube> cubes_;
+    cuda::HostBuffer<Cube> cubes_on_host_;
+    cuda::HostBuffer<Push> pushes_;
+    int now_ = 0;
+    bool begun_ = false;     ///< else the water in bodies begins with their velocity
+    CellRange around_{};     ///< the bodies of the last step
+};
+
+GpuWater::GpuWater(const Box& box, int device) : Water(box), device_(device) {
+    const auto count = static_cast<std::size_t>(box.cells.cast<double>().prod());
+    if (count > std::numeric_limits<int>::max()) throw std::bad_alloc();  // more than any GPU has room for
+    lattice_.count = static_cast<unsigned>(count);
+    for (int a = 0; a < 3; ++a) {
+        lattice_.cells[a] = box.cells[a];
+        for (int end = 0; end < 2; ++end) lattice_.faces[a][end] = box.faces[a][end];
+        lattice_.periodic[a] = box.faces[a][0] == Face::periodic;
+    }
+    for (auto& populations : populations_) populations = cuda::DeviceBuffer<float>(lattice_populations * count);
+    for (auto& owners : owners_) owners = cuda::DeviceBuffer<Owners>(count);
+    populations_[now_].clear();
+    cuda::check(cudaMemset(owners_[0].data(), 0xff, count * sizeof(Owners)), "clear");
+    cuda::wait_for_uploads();
+}
+
+Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    Cube all{};
+    float low[3] = {far, far, far}, high[3] = {-far, -far, -far};
+    for (const Cube& cube : cubes)
+        for (int a = 0; a < 3; ++a) {
+            low[a] = std::min(low[a], cube.x[a] - cube.reach[a]);
+            high[a] = std::max(high[a], cube.x[a] + cube.reach[a]);
+        }
+    for (int a = 0; a < 3; ++a) all.x[a] = (low[a] + high[a]) / 2, all.reach[a] = (high[a] - low[a]) / 2 + 1;
+    const bool none[3] = {};
+    const CellRange last = around_;
+    around_ = cubes.empty() ? CellRange{} : cells_around(all, lattice_.cells, none);
+    for (int a = 0; a < 3; ++a)
+        if (lattice_.periodic[a] && !cubes.empty()) around_.low[a] = 0, around_.count[a] = lattice_.cells[a];
+    if (around_.size() == 0) around_ = {};
+    CellRange both = around_.size() > 0 ? around_ : last;
+    if (around_.size() > 0 && last.size() > 0)
+        for (int a = 0; a < 3; ++a) {
+            both.low[a] = std::min(around_.low[a], last.low[a]);
+            both.count[a] = std::max(around_.low[a] + around_.count[a], last.low[a] + last.count[a]) - both.low[a];
+        }
+    const auto size = static_cast<std::size_t>(both.size());
+    if (keys_.size() < size) {
+        wait();
+        keys_ = {};
+        keys_ = cuda::DeviceBuffer<Key>(std::min<std::size_t>(size + size / 2, lattice_.count));
+        cuda::check(cudaMemsetAsync(keys_.data(), 0xff, keys_.size() * sizeof(Key), stream_.get()), "clear");
+    }
+    return {both, keys_.data()};
+}
+
+void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
+    choose();
+    const int count = static_cast<int>(cubes.size());
+    const Keys keys = keys_around(cubes);
+    const unsigned blocks_of_warps = blocks_of(cubes.size() * warp);
+    if (cubes_.size() < cubes.size()) {
+        wait();
+        cubes_ = cuda::DeviceBuffer<Cube>(cubes.size());
+        cubes_on_host_ = cuda::HostBuffer<Cube>(cubes.size());
+        pushes_ = cuda::HostBuffer<Push>(cubes.size());
+    }
+    if (count > 0) {
+        std::ranges::copy(cubes, cubes_on_host_.data());
+        hold<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, reinterpret_cast<const float*>(cubes_on_host_.data()),
+                                                           cubes_.data(), count);
+    }
+    const LatticeRates rates = lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
+    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, now(), next(), keys, cubes_.data(),
+                                                                          owners_[0].data());
+    if (count > 0)
+        push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count, owners_[0].data(),
+                                                           begun_, reinterpret_cast<double*>(pushes_.data()));
+    cuda::check(cudaGetLastError(), "launch");
+    now_ = 1 - now_;
+    begun_ = true;
+    if (count > 0) wait();
+    pushes.assign(pushes_.data(), pushes_.data() + count);
+}
+
+void GpuWater::shift(const Eigen::Vector3i& by) {
+    choose();
+    shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), next(), owners_[0].data(), owners_[1].data(),
+                                                                        by.x(), by.y(), by.z());
+    cuda::check(cudaGetLastError(), "launch");
+    now_ = 1 - now_;
+    std::swap(owners_[0], owners_[1]);
+    for (int a = 0; a < 3; ++a) {
+        const int low = std::max(around_.low[a] - by[a], 0);
+        around_.count[a] = std::max(std::min(around_.low[a] + around_.count[a] - by[a], lattice_.cells[a]) - low, 0);
+        around_.low[a] = low;
+    }
+}
+
+Cell GpuWater::cell(const Eigen::Vector3i& place) const {
+    choose();
+    float f[lattice_populations], m[lattice_moments];
+    cuda::check(cudaMemcpy2DAsync(f, sizeof(float), at(place), lattice_.count * sizeof(float), sizeof(float), lattice_populations,
+                                  cudaMemcpyDeviceToHost, stream_.get()),
+                "download");
+    wait();
+    moments_of(f, m);
+    return {m[0], Eigen::Vector3d(m[1], m[2], m[3]) / (1 + m[0])};
+}
+
+void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
+    choose();
+    float f[lattice_populations], m[lattice_moments];
+    equilibrium(cell, m);
+    const float inverse = 1 / (1 + m[0]);
+    // All cumulants of a collision that keeps nothing are 0.
+    collide(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{}, [&](int i, float value) { f[i] = value; });
+    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), f, sizeof(float), sizeof(float), lattice_populations,
+                                  cudaMemcpyHostToDevice, stream_.get()),
+                "upload");
+    wait();
+}
+
+}  // namespace
+
+std::unique_ptr<Water> Water::on_gpu(const Box& box, int device) {
+    return std::make_unique<GpuWater>(box, device);
+}
+
+}  // namespace natator::lattice

@@ -1,0 +1,162 @@
+// Water on a lattice by the GPU against the CPU's.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gpu_test.h"
+#include "../native/lattice_bar.h"
+#include "natator/error.h"
+
+namespace natator::lattice {
+namespace {
+
+using GpuLattice = test::OnGpu<>;
+
+/// Waves along each axis, some of them sound.
+void stir(Water& water) {
+    const Eigen::Vector3i n = water.box().cells;
+    for_each_cell(water.box(), [&](const Eigen::Vector3i& at) {
+        const Eigen::Array3d wave = 2 * std::numbers::pi * (at.cast<double>().array() + 0.3) / n.cast<double>().array();
+        const Eigen::Array3d s = wave.sin(), c = wave.cos();
+        water.set_cell(at, {0.01 * s.x() * c.y(), 0.05 * Eigen::Vector3d(s.y() * c.z(), s.z() * c.x(), s.x() + c.y() * s.z())});
+    });
+}
+
+/// Of velocities and densities, of the greatest velocity.
+double largest_difference(const Water& a, const Water& b) {
+    double most = 0, scale = 0;
+    for_each_cell(a.box(), [&](const Eigen::Vector3i& at) {
+        const Cell p = a.cell(at), q = b.cell(at);
+        const double difference = std::max((p.velocity - q.velocity).norm(), std::abs(p.excess - q.excess));
+        if (!(difference <= most)) most = difference;  // also for NaN
+        scale = std::max(scale, p.velocity.norm());
+    });
+    return most / scale;
+}
+double largest_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
+    double most = 0, scale = 0;
+    for (std::size_t p = 0; p < a.size(); ++p)
+        for (int k = 0; k < 12; ++k) {
+            const auto of = [&](const Push& push) { return k < 3 ? push.j[k] : push.moment[k - 3]; };
+            const double difference = std::abs(of(a[p]) - of(b[p]));
+            if (!(difference <= most)) most = difference;
+            scale = std::max(scale, std::abs(of(a[p])));
+        }
+    return most / scale;
+}
+
+TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
+    constexpr Face kinds[] = {Face::periodic, Face::free_slip, Face::no_slip};
+    for (const Eigen::Vector3i& size : {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
+        for (const Face x : kinds)
+            for (const Face y : kinds)
+                for (const Face z : kinds) {
+                    Box box = box_of(size.x(), size.y(), size.z());
+                    const Face faces[3] = {x, y, z};
+                    for (int a = 0; a < 3; ++a) box.faces[a][0] = box.faces[a][1] = faces[a];
+                    // Different ones at the two ends of an axis, too.
+                    if (x == Face::no_slip) box.faces[0][1] = Face::free_slip;
+                    if (z == Face::free_slip) box.faces[2][1] = Face::no_slip;
+                    box.viscosity = 0.01;
+                    const auto cpu = Water::on_cpu(box, 1), gpu = Water::on_gpu(box, 0);
+                    std::vector<Push> pushes;
+                    for (Water* water : {cpu.get(), gpu.get()}) {
+                        stir(*water);
+                        for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
+                    }
+                    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4)
+                        << size.transpose() << ": " << static_cast<int>(x) << static_cast<int>(y) << static_cast<int>(z);
+                }
+}
+
+/// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in a step, then on,
+/// so that it comes to lie in cells that it left.
+void expect_same_pushes(const Face face, bool shifts) {
+    Bar bar;
+    for (auto& ends : bar.box_.faces) ends[0] = ends[1] = face;
+    const auto cpu = Water::on_cpu(bar.box_, 1), gpu = Water::on_gpu(bar.box_, 0);
+    stir(*cpu);
+    stir(*gpu);
+    bar.begin({0.06, 0.02, 0.03}, {0.001, 0.008, 0});
+    for (int k = 0; k < 100; ++k) {
+        if (shifts && k % 10 == 9) {
+            const Eigen::Vector3i by(k % 20 == 9 ? 1 : -1, k % 30 == 9 ? 1 : 0, -(k / 50));
+            cpu->shift(by);
+            gpu->shift(by);
+            for (Eigen::Vector3d& place : bar.place_) place -= by.cast<double>();
+        }
+        const double back = k % 7 == 0 ? -0.7 : k % 7 == 1 ? 0.7 : 0;
+        for (Eigen::Vector3d& place : bar.place_) place.x() += back;
+        std::vector<Push> by_cpu, by_gpu;
+        cpu->advance(bar.cubes(), 1, by_cpu);
+        gpu->advance(bar.cubes(), 1, by_gpu);
+        ASSERT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << k;
+        bar.move(by_cpu);
+    }
+    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+}
+TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
+    expect_same_pushes(Face::periodic, false);
+    expect_same_pushes(Face::free_slip, false);
+    expect_same_pushes(Face::no_slip, false);
+}
+TEST_F(GpuLattice, IsShiftedAsOnTheCpu) {
+    expect_same_pushes(Face::periodic, true);
+    expect_same_pushes(Face::no_slip, true);
+}
+
+/// More cubes than before, fewer, none, at the ends of the box and beyond them.
+TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
+    Box box = box_of(20, 16, 12, Face::no_slip);
+    box.viscosity = 0.02;
+    const auto cpu = Water::on_cpu(box, 1), gpu = Water::on_gpu(box, 0);
+    stir(*cpu);
+    stir(*gpu);
+    const auto cubes_of = [](int count, double along) {
+        std::vector<Cube> cubes(count);
+        for (int k = 0; k < count; ++k) {
+            Cube& cube = cubes[k];
+            cube.x[0] = static_cast<float>(along + 1.5 * (k % 5)), cube.x[1] = static_cast<float>(5 + 1.5 * (k / 5 % 5)), cube.x[2] = static_cast<float>(-1 + 1.5 * (k / 25));
+            for (int a = 0; a < 3; ++a) {
+                cube.v[a] = 0.01f * static_cast<float>(a - 1), cube.to_rest[4 * a] = 1 / 0.8f, cube.reach[a] = 0.8f;
+                cube.rate[4 * a] = 0.003f, cube.rate[(4 * a + 1) % 9] = 0.002f;
+            }
+        }
+        return cubes;
+    };
+    int step = 0;
+    for (const auto& [count, along] : {std::pair{3, 4.0}, {40, 4.2}, {200, 4.6}, {60, 10.2}, {0, 0.0}, {30, 17.0}, {30, -30.0}, {30, 40.0}, {200, -2.5}, {1, 8.0}, {0, 0.0}, {100, 8.0}})
+        for (int k = 0; k < 3; ++k, ++step) {
+            std::vector<Push> by_cpu, by_gpu;
+            cpu->advance(cubes_of(count, along), 1, by_cpu);
+            gpu->advance(cubes_of(count, along), 1, by_gpu);
+            ASSERT_EQ(by_cpu.size(), by_gpu.size());
+            bool any = false;
+            for (const Push& push : by_cpu) any = any || push.j[0] != 0;
+            if (any) {
+                EXPECT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << step;
+            }
+            for (const Push& push : by_gpu) ASSERT_TRUE(any || push.j[0] == 0) << step;
+        }
+    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+}
+
+TEST_F(GpuLattice, HasTheSameBitsInEachRun) {
+    const auto run = [] {
+        Bar bar;
+        bar.begin({0.06, 0.02, 0.03}, {0.001, 0.008, 0});
+        const auto water = Water::on_gpu(bar.box_, 0);
+        stir(*water);
+        for (int k = 0; k < 100; ++k) bar.advance(*water);
+        return bar.place_;
+    };
+    EXPECT_EQ(run(), run());
+}
+
+TEST_F(GpuLattice, SaysWhatItHasNoRoomFor) {
+    EXPECT_THROW(Water::on_gpu(box_of(2000, 1000, 1000), 0), std::bad_alloc);
+    EXPECT_THROW(Water::on_gpu(box_of(4000, 4000, 4000), 0), std::bad_alloc);
+}
+
+}  // namespace
+}  // namespace natator::lattice
