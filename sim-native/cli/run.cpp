@@ -86,6 +86,7 @@ std::string swimming_line(const SwimmingNumbers& numbers) {
     if (numbers.cavities.value_or(0) >= worth_telling)
         text << ", cavities in the water " << figure_text(*numbers.cavities) << " body volumes";
     text << "\n";
+    if (const std::string warning = warning_of_across(numbers.across); !warning.empty()) text << "warning    " << warning << "\n";
     return text.str();
 }
 
@@ -199,7 +200,7 @@ void add_run(CLI::App& app, int& status) {
                         R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"
                         "Default: muscles at rest.");
     command->add_option("--duration", options->duration, "Simulated time, s, to the nearest whole number of frames. Default: the scene's.");
-    command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
+    command->add_option("--scheme", options->scheme, "Update rule: flex, conserving or lattice. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
         ->check(precision_name())
         ->capture_default_str();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "natator/gait.h"
@@ -16,8 +17,16 @@ struct SwimmingNumbers {
     std::optional<double> strouhal;         ///< f A / U; none at rest
     std::optional<double> reynolds;         ///< U L / nu; none where nu is 0
     std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola and others 2014); none where nu is 0
+    double across = 0;                      ///< water_across of the body
     std::optional<double> cavities;         ///< at the end, in volumes of the body, see cavities(); none without gravity
 };
+
+/// How many spacings of the water, or cells, the body is across: the lesser of width and height of its thickest slice at rest. Below
+/// `least_spacings_across` its speed may change by half and more with a finer water. 0 without a body or water.
+double water_across(const Model& model);
+inline constexpr double least_spacings_across = 4;
+/// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `least_spacings_across`; else empty.
+std::string warning_of_across(double across);
 
 /// Mean z of the body's last slice, length: across the swimmer's heading at the start. 0 without a body.
 template <class Real>
@@ -37,7 +46,7 @@ template <class Real>
 std::optional<double> cavities(const Model& model, const State<Real>& state, const std::vector<Real>& densities);
 
 /// Dimensionless numbers of a run that got `distance` (length) in `simulated` (s), with its tail at `tail` (tail_z for
-/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving`, or if
+/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving` or `lattice`, or if
 /// the tail did not beat once; see peak_to_peak.
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
                                                 const std::vector<double>& tail);

@@ -12,6 +12,8 @@ ordered_json swimming_json(const SwimmingNumbers& numbers) {
     if (numbers.strouhal) result["strouhal"] = *numbers.strouhal;
     if (numbers.reynolds) result["reynolds"] = *numbers.reynolds;
     if (numbers.swimming_number) result["swimmingNumber"] = *numbers.swimming_number;
+    result["across"] = numbers.across;
+    if (const std::string warning = warning_of_across(numbers.across); !warning.empty()) result["warning"] = warning;
     if (numbers.cavities) result["cavities"] = *numbers.cavities;
     return result;
 }

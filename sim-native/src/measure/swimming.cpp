@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/strict_json.h"
 #include "natator/plan.h"
 
 namespace natator {
@@ -33,6 +34,28 @@ double range_between(const std::vector<double>& path, double begin, double end) 
 
 }  // namespace
 
+double water_across(const Model& model) {
+    const bool water = model.water_box || std::ranges::any_of(model.phase, [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
+    if (!water) return 0;
+    double across = 0;
+    for (const std::vector<int>& slice : model.body.slices) {
+        Eigen::Array3d low = model.position[slice.front()], high = low;
+        for (const int particle : slice) {
+            low = low.min(model.position[particle].array());
+            high = high.max(model.position[particle].array());
+        }
+        const Eigen::Array3d size = high - low + model.body.spacing;
+        across = std::max(across, std::min(size.y(), size.z()));
+    }
+    return across / (model.water_box ? model.water_box->cell : model.parameters.fluidRestDistance);
+}
+
+std::string warning_of_across(double across) {
+    if (across == 0 || across > least_spacings_across - 0.01) return "";
+    return "the body is " + figure_text(across) + " spacings of the water across: at least " + figure_text(least_spacings_across) +
+           " are needed, below which its speed may change by half with a finer water";
+}
+
 template <class Real>
 double tail_z(const Body& body, const State<Real>& state) {
     if (body.slices.empty()) return 0;
@@ -53,11 +76,12 @@ std::optional<double> peak_to_peak(const std::vector<double>& path, double time_
 
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
                                                 const std::vector<double>& tail) {
-    if (model.actuators == 0 || !make_plan(model).water) return std::nullopt;
+    if (model.actuators == 0 || !(make_plan(model).water || model.water_box)) return std::nullopt;
     const std::optional<double> amplitude = peak_to_peak(tail, model.time_step, 1 / gait.frequency);
     if (!amplitude) return std::nullopt;
     SwimmingNumbers numbers;
     numbers.tail_amplitude = *amplitude;
+    numbers.across = water_across(model);
     const double speed = std::abs(distance) / simulated, length = model.body.length;
     const double viscosity = model.parameters.kinematicViscosity;
     if (speed > 0) numbers.strouhal = gait.frequency * *amplitude / speed;

@@ -20,7 +20,7 @@ class EvaluationCacheTest {
 
     private static final SimulationResult RESULT = new SimulationResult(0L, Status.OK, 0.1 + 0.2, "no-progress", 2.5,
             150, "conserving", "float", "17a1dfe6c68edf45", null, null,
-            new SwimmingNumbers(0.1, null, 131.4, 1e5, 0.02), 0.7, null);
+            new SwimmingNumbers(0.1, null, 131.4, 1e5, 0.02, null), 0.7, null);
 
     @TempDir
     private Path folder;

@@ -51,7 +51,7 @@ class ProcessSimulatorTest {
     void readsTheMechanicsOfASwim() throws InterruptedException {
         SimulationResult result = evaluate("pool/creature-1", PATIENCE);
 
-        assertThat(result.swimming()).isEqualTo(new SwimmingNumbers(0.25, 0.3125, 131.4, 409.6, null));
+        assertThat(result.swimming()).isEqualTo(new SwimmingNumbers(0.25, 0.3125, 131.4, 409.6, null, null));
         assertThat(result.work()).isEqualTo(0.75);
         assertThat(result.withId(8L).withVacuumDrift(0.5)).as("in all else the same")
                 .isEqualTo(new SimulationResult(8L, Status.OK, result.distance(), result.stopped(), result.simulated(),

@@ -23,7 +23,7 @@ class WinnerFactsTest {
 
     private static SimulationResult result(double distance) {
         return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float", null, null,
-                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10), 3.0, null);
+                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, null), 3.0, null);
     }
 
     private static BestGait best(FreshRuns fresh) {
