@@ -32,13 +32,15 @@ private:
         int cube;
         float xi[3];
         Velocity3 velocity;
+        double gained[3];  ///< in the last step, cells' masses cells/step
     };
 
     long place(int x, int y, int z) const { return (static_cast<long>(z) * ny_ + y) * stride_ + margin + x; }
     View view();
+    void release();
     void hold(const std::vector<Cube>& cubes);
     void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
-    static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
+    static void add(const Held& held, const double (&j)[3], std::vector<Push>& pushes);
 
     int nx_, ny_, nz_, stride_;
     Array now_[moments], next_[moments], change_[3];
@@ -75,13 +77,18 @@ View CpuWater::view() {
     return view;
 }
 
-/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near ones the first.
-void CpuWater::hold(const std::vector<Cube>& cubes) {
+/// Nothing is told any more.
+void CpuWater::release() {
     for (const Held& held : held_) {
         for (Array& change : change_) change[held.cell] = 0;
         row_changes_[static_cast<std::size_t>(held.cell / stride_)] = 0;
         chosen_[held.cell] = -1;
     }
+}
+
+/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near ones the first.
+void CpuWater::hold(const std::vector<Cube>& cubes) {
+    release();
     held_.clear();
     out_.clear();
     const int cells[3] = {nx_, ny_, nz_};
@@ -101,15 +108,14 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
                     } else if (out_[chosen_[at]] <= in.out) {
                         continue;
                     }
-                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi)};
+                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi), {}};
                     out_[chosen_[at]] = in.out;
                 }
     }
 }
 
-void CpuWater::add(const Held& held, double x, double y, double z, std::vector<Push>& pushes) {
+void CpuWater::add(const Held& held, const double (&j)[3], std::vector<Push>& pushes) {
     Push& push = pushes[held.cube];
-    const double j[3] = {x, y, z};
     for (int a = 0; a < 3; ++a) {
         push.j[a] += j[a];
         for (int b = 0; b < 3; ++b) push.moment[3 * a + b] += j[a] * held.xi[b];
@@ -125,17 +131,19 @@ void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
         const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) add(held, -density * by[0], -density * by[1], -density * by[2], pushes);
+        if (begun_ && owner_[at] < 0) add(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
     }
 }
 
 void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     pushes.assign(cubes.size(), {});
-    std::vector<long> before;
-    for (const Held& held : held_) before.push_back(held.cell);
+    const std::vector<Held> before = held_;
     hold(cubes);
     tell(cubes, pushes);
-    for (const long at : before) owner_[at] = -1;
+    for (const Held& held : before) {
+        owner_[held.cell] = -1;
+        if (chosen_[held.cell] < 0) add(held, {-held.gained[0], -held.gained[1], -held.gained[2]}, pushes);  // it keeps that
+    }
     for (const Held& held : held_) owner_[held.cell] = held.cube;
     begun_ = true;
 
@@ -151,12 +159,15 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     });
     for (int e = 0; e < moments; ++e) std::swap(now_[e], next_[e]);
 
-    for (const Held& held : held_) {
+    for (Held& held : held_) {
         const long at = held.cell;
         const float density = 1 + now_[0][at];
         const Velocity3& u = held.velocity;
         const Velocity3 on = advected_in(cubes[held.cube], u);
-        add(held, now_[1][at] - density * (u.x - on.x), now_[2][at] - density * (u.y - on.y), now_[3][at] - density * (u.z - on.z), pushes);
+        held.gained[0] = now_[1][at] - density * (u.x - on.x);
+        held.gained[1] = now_[2][at] - density * (u.y - on.y);
+        held.gained[2] = now_[3][at] - density * (u.z - on.z);
+        add(held, held.gained, pushes);
     }
 }
 
@@ -174,6 +185,16 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
     };
     for (Array& array : now_) moved(array, 0.0f);
     moved(owner_, -1);
+    release();
+    std::vector<Held> here;
+    for (Held& held : held_) {
+        const int row = static_cast<int>(held.cell / stride_);
+        const Eigen::Vector3i to = Eigen::Vector3i(static_cast<int>(held.cell % stride_) - margin, row % ny_, row / ny_) - by;
+        if (!inside(to)) continue;
+        held.cell = place(to.x(), to.y(), to.z());
+        here.push_back(held);
+    }
+    held_ = here;
 }
 
 Cell CpuWater::cell(const Eigen::Vector3i& at) const {

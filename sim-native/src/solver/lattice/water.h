@@ -23,8 +23,8 @@ void equilibrium(const Cell& cell, float (&moments)[17]);
 ///
 /// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's velocity. What it
 /// has gained by the next collision, beyond what it would have moving on with the body, is the push on the body, which keeps its own
-/// mass and momentum. So is what a cell has more than the body when it comes to lie in it; those that it leaves go on as water with its
-/// velocity: there are no fresh cells. No cell can give more than it holds, so a body needs no implicit coupling, whatever its density.
+/// mass and momentum. So is what a cell has more than the body when it comes to lie in it; those that it leaves go on as they are, with what
+/// they gained last, which the body gives back: there are no fresh cells. No cell can give more than it holds, so a body needs no implicit coupling, whatever its density.
 /// (Direct forcing: Fadlun, Verzicco, Orlandi, Mohd-Yusof 2000; the inertia of the water inside: Uhlmann 2005, eq. 10.)
 ///
 /// A body may widen as it bends, which the water in it must not resist: the divergence of its motion is added to the density of
