@@ -4,6 +4,7 @@
 #include "natator/gpu_solver.h"
 #include "solver/cuda/large/fetch_roof.h"
 #include "solver/cuda/way.h"
+#include "solver/lattice/water.h"
 
 namespace natator {
 namespace {
@@ -39,6 +40,10 @@ bool by_whole_gpu(const Scene&, const Model&, const BatchOptions&) {
 }
 
 }  // namespace cuda
+
+std::unique_ptr<lattice::Water> lattice::Water::on_gpu(const Box&, int) {
+    refuse();
+}
 
 template <class Real>
 class GpuSolver<Real>::Implementation {};
