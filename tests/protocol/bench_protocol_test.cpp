@@ -149,7 +149,7 @@ TEST(BenchProtocolTest, SwimmersWriteRowsBeatsAndTargets) {
     EXPECT_EQ(content(file), table);
     const Outcome lattice = run_simulator({"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--scheme", "lattice", "--output", file});
     ASSERT_EQ(lattice.exit_code, 0) << lattice.err;
-    EXPECT_NE(content(file).find("own,a,8,1,,1,lattice,float,cpu,,,,,,0.15,ok,0.8,128,0.02,"), std::string::npos) << content(file);
+    EXPECT_NE(content(file).find("own,a,8,1,,1,lattice,float,cpu,,,,,,0.15,ok,0.8,111,0.02,"), std::string::npos) << content(file);
 }
 
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
