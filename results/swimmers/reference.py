@@ -77,7 +77,8 @@ class Midline:
             angle = np.interp(axis, fine, slope)
         cos, sin = np.cos(angle), np.sin(angle)
         x = np.concatenate([[0], np.cumsum((cos[1:] + cos[:-1]) / 2) * ds])
-        y = np.concatenate([[0], np.cumsum((sin[1:] + sin[:-1]) / 2) * ds])
+        nose = 0 if self.by == "curvature" else self.wave(s[:1], t)[0]  # where a towed body's is; a free one's frame may begin anywhere
+        y = nose + np.concatenate([[0], np.cumsum((sin[1:] + sin[:-1]) / 2) * ds])
         return x, y, angle
 
 

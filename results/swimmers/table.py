@@ -20,6 +20,8 @@ def short(text, digits=3):
 
 
 def setting(row):
+    if row["scheme"] == "lattice":
+        return f"lattice, Ma {row['mach']}"
     return f"{row['substeps']} × {row['iterations']}" + (f", p = {row['pressure']}" if row["pressure"] != "2.5" else "")
 
 
@@ -31,8 +33,8 @@ def within(row):
 rows(FILE.with_name(FILE.stem + "-targets.csv"),
      lambda row: [row["case"], row["variant"], row["resolution"], setting(row), row["quantity"] + (f" as a power of {row['over']}" if row["over"] else "") +
                   (f" at {row['zero_of']} 0" if row["zero_of"] else ""), short(row["value"]) or "none", within(row), row["met"], row["confirmed"]],
-     ["case", "variant", "particles along", "setting", "target", "value", "met from", "met", "figure confirmed"])
+     ["case", "variant", "along it", "setting", "target", "value", "met from", "met", "figure confirmed"])
 rows(FILE, lambda row: [row["case"], row["variant"], row["resolution"], short(row["across"], 2), setting(row)] +
      ([f"{float(row['speed']):.3f} ± {float(row['spread']):.3f}"] + [short(row[key], 2) for key in ("lateral", "slip", "strouhal", "reynolds", "force", "power")]
       if row["status"] == "ok" else [row["status"]] + [""] * 6) + [row["particles"], short(row["run_time"])],
-     ["case", "variant", "particles along", "across", "setting", "speed, L/T", "to the side", "slip", "St", "Re", "force", "power", "particles", "s"])
+     ["case", "variant", "along it", "across", "setting", "speed, L/T", "to the side", "slip", "St", "Re", "force", "power", "particles or cells", "s"])

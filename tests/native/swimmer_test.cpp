@@ -7,7 +7,7 @@
 
 #include "natator/error.h"
 #include "refusal_of.h"
-#include "water/swim.h"
+#include "water/lattice_swim.h"
 #include "water/swimmer_study.h"
 
 namespace natator::bench {
@@ -213,12 +213,12 @@ TEST(Swim, StaysAtRestWithoutMotion) {
     nlohmann::json document = plain();
     document.merge_patch({{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}, {"viscosity", 0.1}, {"midline", {{"scale", 0}}}});
     Swim<float> still(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}}, {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
-    const Eigen::Vector3d start = still.centre();
+    const Eigen::Vector3d start = still.body().centre();
     ASSERT_TRUE(still.set_kinematic_viscosity(0.1 * water_length * water_length / 2));
-    for (long k = 0; k < still.frames_per_beat(); ++k) ASSERT_TRUE(still.frame());
-    EXPECT_LE((still.centre() - start).norm(), 2e-3 * water_length);
+    for (long k = 0; k < still.body().frames_per_beat(); ++k) ASSERT_TRUE(still.frame());
+    EXPECT_LE((still.body().centre() - start).norm(), 2e-3 * water_length);
     const double mass = std::pow(water_length / still.spacing(), 3) * 0.25;  // of a length of water, cubic but for its height
-    EXPECT_NEAR(still.power() / mass, 0, 1e-4);
+    EXPECT_NEAR(still.body().power() / mass, 0, 1e-4);
 }
 
 /// It goes where it is led, whatever the water does, and the water holds it back.
@@ -228,21 +228,90 @@ TEST(Swim, TowedBodyGoesAtItsSpeed) {
     document["towed"] = 0.5;
     document.merge_patch({{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}});
     Swim<float> towed(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}}, {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
-    const double start = towed.centre().x();
+    const double start = towed.body().centre().x();
     double force = 0;
-    for (long k = 0; k < 2 * towed.frames_per_beat(); ++k) {
+    for (long k = 0; k < 2 * towed.body().frames_per_beat(); ++k) {
         ASSERT_TRUE(towed.frame());
-        force += towed.force();
+        force += towed.body().force();
     }
-    EXPECT_NEAR((towed.centre().x() - start) / water_length, 0.5 * 1.5, 0.01);
+    EXPECT_NEAR((towed.body().centre().x() - start) / water_length, 0.5 * 1.5, 0.01);
     EXPECT_LT(force, 0);
+}
+
+/// Means over the last of some beats on a lattice, in lengths and beats.
+struct LatticeBeat {
+    double speed = 0, lateral = 0, force = 0, power = 0;
+};
+LatticeBeat last_beat(const Swimmer& swimmer, int beats, double mach = 0.15, int resolution = 32) {
+    SwimScene scene;
+    scene.box = {4, 1, 2};
+    LatticeSwim swim(swimmer, scene, resolution, mach, {});
+    const SwimBody& body = swim.body();
+    const double frames = static_cast<double>(body.frames_per_beat()), mass = std::pow(resolution, 2);  // of a square length
+    LatticeBeat last;
+    for (int k = 1; k <= beats; ++k) {
+        const Eigen::Vector3d from = body.centre();
+        last = {};
+        for (long f = 0; f < body.frames_per_beat(); ++f) {
+            EXPECT_TRUE(swim.frame());
+            last.force += body.force() / frames / mass * scene.beat * scene.beat / scene.length;
+            last.power += body.power() / frames / mass * std::pow(scene.beat, 3) / (scene.length * scene.length);
+        }
+        const Eigen::Vector3d way = (body.centre() - from) / scene.length;
+        last.speed = way.x(), last.lateral = way.z();
+    }
+    return last;
+}
+
+Swimmer slab(const nlohmann::json& patch) {
+    nlohmann::json document = plain();
+    document.merge_patch({{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}});
+    document.merge_patch(patch);
+    return swim_case_from_json(document, "test").base;
+}
+
+TEST(LatticeSwim, StaysAtRestWithoutMotion) {
+    const LatticeBeat still = last_beat(slab({{"midline", {{"scale", 0}}}}), 1);
+    EXPECT_NEAR(still.speed, 0, 1e-6);
+    EXPECT_NEAR(still.lateral, 0, 1e-6);
+    EXPECT_NEAR(still.power, 0, 1e-9);
+}
+
+/// What is gained by a wave to the tail is lost by one to the head, to the target of standing plates, and motion costs power.
+TEST(LatticeSwim, PlatesMirrorEachOther) {
+    const LatticeBeat tail = last_beat(swimmer("plate", "to the tail"), 3, 0.15, 64), head = last_beat(swimmer("plate", "to the head"), 3, 0.15, 64);
+    EXPECT_GT(tail.speed, 0.05);
+    EXPECT_NEAR(head.speed, -tail.speed, 0.005);
+    EXPECT_GT(tail.power, 0.05);
+    EXPECT_NEAR(head.power / tail.power, 1, 0.03);
+    EXPECT_NEAR(last_beat(swimmer("plate", "standing"), 3, 0.15, 64).speed, 0, 0.01);
+}
+
+/// It goes where it is led, the water holds it back, and all that it gives the water is what that takes.
+TEST(LatticeSwim, TowedBodyIsHeldBack) {
+    const Swimmer towed = slab({{"midline", {{"scale", 0}}}, {"towed", 0.5}});
+    const LatticeBeat one = last_beat(towed, 3), fine = last_beat(towed, 3, 0.075);
+    EXPECT_NEAR(one.speed, 0.5, 1e-3);
+    EXPECT_LT(one.force, -0.01);
+    EXPECT_NEAR(one.power, -0.5 * one.force, 0.01 * one.power);
+    EXPECT_NEAR(fine.force / one.force, 1, 0.05);
+}
+
+/// The same in three dimensions; half the step changes little.
+TEST(LatticeSwim, MachNumberHardlyMatters) {
+    nlohmann::json document = plain();
+    document["midline"] = {{"by", "displacement"}, {"amplitude", {0.02, 0.08}}, {"waves", 1}};
+    const Swimmer eel = swim_case_from_json(document, "test").base;
+    const LatticeBeat one = last_beat(eel, 2, 0.3, 24), fine = last_beat(eel, 2, 0.15, 24);
+    EXPECT_NEAR(fine.speed, one.speed, 0.01);
+    EXPECT_NEAR(fine.power / one.power, 1, 0.1);
 }
 
 /// Without forces it bends but neither goes nor turns, whatever its shape's own frame does.
 TEST(FreeMotion, BendingAloneHasNoMomentum) {
     const Swimmer larva = swimmer("larva");
     const Places straight = body(larva);
-    FreeMotion motion(straight);
+    FreeMotion motion(straight, kept_among_particles);
     const Eigen::Vector3d start = motion.centre();
     constexpr double h = 0.005;
     double most = 0, size = 0;
@@ -270,7 +339,7 @@ TEST(FreeMotion, BendingAloneHasNoMomentum) {
 TEST(FreeMotion, ForcesMoveAndTurnIt) {
     Places bar;
     for (int k = 0; k <= 20; ++k) bar.emplace_back(0.1 * k - 1, 0, 0);
-    FreeMotion motion(bar);
+    FreeMotion motion(bar, kept_among_particles);
     constexpr double h = 0.001, time = 1;
     for (int k = 0; k < time / h; ++k) {
         motion.set_off(bar, h);
@@ -292,7 +361,7 @@ TEST(FreeMotion, ForcesMoveAndTurnIt) {
 /// Whatever momentum it has.
 TEST(FreeMotion, ItIsSteered) {
     const Places bar{{-1, 0, 0}, {1, 0, 0}};
-    FreeMotion motion(bar);
+    FreeMotion motion(bar, kept_among_particles);
     motion.steer(0.2);
     for (int k = 0; k < 100; ++k) {
         motion.set_off(bar, 0.01);
@@ -304,7 +373,7 @@ TEST(FreeMotion, ItIsSteered) {
 
 /// Water that goes along with four times the body's mass, and shows it a step late.
 TEST(FreeMotion, BearsAddedMassOfWater) {
-    FreeMotion motion({{-1, 0, 0}, {1, 0, 0}});
+    FreeMotion motion({{-1, 0, 0}, {1, 0, 0}}, kept_among_particles);
     constexpr double h = 0.01, added = 4, push = 0.7;
     double before = 0;
     for (int k = 0; k < 400; ++k) {

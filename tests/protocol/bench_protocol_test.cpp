@@ -135,18 +135,21 @@ TEST(BenchProtocolTest, SwimmersWriteRowsBeatsAndTargets) {
         "variants": {"a": {}, "b": {"midline": {"scale": 0.5}}},
         "targets": [{"quantity": "power", "over": "amplitude", "reference": 2, "within": 0.3, "confirmed": true, "source": "of small waves"},
                     {"quantity": "speed", "variant": "b", "reference": 9, "within": 0.1, "confirmed": false, "source": "none"}]})";
-    const std::vector<std::string> arguments{"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--setting", "2x2", "--output", file};
+    const std::vector<std::string> arguments{"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--scheme", "conserving", "--setting", "2x2", "--output", file};
     const Outcome outcome = run_simulator(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), targets = content(folder.path / "swimmers-targets.csv");
-    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,ok,0.8,240,0.02,"), std::string::npos) << table;
+    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,ok,0.8,240,0.02,"), std::string::npos) << table;
     EXPECT_NE(table.find(",9,"), std::string::npos) << "the target of b alone: " << table;
-    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,1,"), std::string::npos);
-    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,power,amplitude,,"), std::string::npos) << targets;
-    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,speed,,,"), std::string::npos) << targets;
+    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,1,"), std::string::npos);
+    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,power,amplitude,,"), std::string::npos) << targets;
+    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,speed,,,"), std::string::npos) << targets;
     EXPECT_NE(targets.find(",no,no\n"), std::string::npos) << targets;
     EXPECT_EQ(run_simulator(arguments).exit_code, 0);
     EXPECT_EQ(content(file), table);
+    const Outcome lattice = run_simulator({"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--scheme", "lattice", "--output", file});
+    ASSERT_EQ(lattice.exit_code, 0) << lattice.err;
+    EXPECT_NE(content(file).find("own,a,8,1,,1,lattice,float,cpu,,,,,,0.15,ok,0.8,111,0.02,"), std::string::npos) << content(file);
 }
 
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
@@ -169,11 +172,19 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"stability", "--device", "1"}, "--device = 1: the backend is cpu; must be left out"},
         {{"stability", "--axis", "dr"}, "--axis = \"dr\": must be one of "},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
-        {{"swimmers", "--scheme", "flex"}, "--scheme = flex: has no forces on a body; must be conserving"},
+        {{"swimmers", "--scheme", "flex"}, "--scheme = flex: has no forces on a body; must be conserving or lattice"},
+        {{"swimmers", "--scheme", "latice"}, "--scheme = latice: is unknown; must be conserving or lattice"},
+        {{"swimmers", "--scheme", "lattice", "--pressure", "1"}, "--pressure: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--setting", "8x4"}, "--setting: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--support", "2.5"}, "--support: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--start", "2"}, "--start: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "conserving", "--mach", "0.1"}, "--mach: is of scheme lattice; must be left out"},
+        {{"swimmers", "--mach", "0.6"}, "--mach = 0.6: must be a number in [0.01, 0.5]; see "},
+        {{"swimmers", "--precision", "double"}, "--precision = double: scheme lattice computes in float; must be float"},
         {{"swimmers", "--case", "lavra"}, "--case = lavra: must be creature-2, eel-2d, "},
         {{"swimmers", "--case", "no/such.json"}, "no/such.json"},
         {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
-        {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 400]; see "},
+        {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 1000]; see "},
         {{"swimmers", "--box", "0.5"}, "--box = 0.5: must be a number in [0.8, 10]; see "},
         {{"swimmers", "--pressure", "0"}, "--pressure = 0: must be a number in [0.01, 100]; see "},
         {{"swimmers", "--beats", "0"}, "--beats = 0: must be a whole number in [1, 1000]; see "},

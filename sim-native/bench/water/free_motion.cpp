@@ -3,11 +3,6 @@
 namespace natator::bench {
 namespace {
 
-// The water answers to a change of speed only in the next step, with forces that are those of its added mass. Where that is more than the
-// body's own mass, a body that took all of each force at once would swing ever more. Of so much more inertia, which keeps on as it
-// did last, it takes an added mass of up to 1 + 2 times that; a force that lasts acts in full.
-constexpr double kept = 2;
-
 Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& of) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& x : of) sum += x;
@@ -16,7 +11,7 @@ Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& of) {
 
 }  // namespace
 
-FreeMotion::FreeMotion(std::vector<Eigen::Vector3d> places) : places_(std::move(places)) {}
+FreeMotion::FreeMotion(std::vector<Eigen::Vector3d> places, double kept) : places_(std::move(places)), kept_(kept) {}
 
 Eigen::Vector3d FreeMotion::centre() const {
     return mean(places_);
@@ -52,8 +47,8 @@ void FreeMotion::arrive(const std::vector<Eigen::Vector3d>& forces, double time)
     force.y() = 0;
     double moment = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) moment += (places_[k] - here).cross(forces[k]).y();
-    acceleration_ = (force + kept * acceleration_) / (1 + kept);
-    moment_ = (moment + kept * moment_) / (1 + kept);
+    acceleration_ = (force + kept_ * acceleration_) / (1 + kept_);
+    moment_ = (moment + kept_ * moment_) / (1 + kept_);
     velocity_ += time * acceleration_;
     angular_momentum_ += time * moment_;
     places_ = next_;

@@ -34,16 +34,14 @@ double Helm::rate(double angle, double out) {
     return (course_per_drift * mean.y() - mean.x()) / steering_time;
 }
 
-template <class Real>
-Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSetting& setting)
-    : spacing_(spacing_of(setting)),
-      swimmer_(swimmer),
+SwimBody::SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose, std::vector<Eigen::Vector3d> places, double frame,
+                   double kept)
+    : swimmer_(swimmer),
       scene_(scene),
-      count_((scene.length / 2 * scene.box / spacing_).array().round().matrix().cast<int>() * 2),
-      start_(scene.box.x() / 2.3 * nose * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
-      tank_(count_, setting, [this](Model& model) { immerse(model); }),
-      motion_(places_of_body()),
-      frames_per_beat_(std::lround(scene.beat / tank_.model().time_step)),
+      start_(nose),
+      frame_(frame),
+      frames_per_beat_(std::lround(scene.beat / frame)),
+      motion_(std::move(places), kept),
       helm_(frames_per_beat_) {
     for (const Eigen::Vector3d& place : motion_.places()) {
         straight_.push_back(place - start_);
@@ -51,36 +49,12 @@ Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSett
     }
 }
 
-template <class Real>
-void Swim<Real>::immerse(Model& model) {
-    model.parameters.gravity = {0, -scene_.gravity, 0};
-    body_ = hold([this](const Eigen::Vector3d& x) { return swimmer_.holds(x - start_, scene_.length, spacing_); }, model);
-}
-
-template <class Real>
-std::vector<Eigen::Vector3d> Swim<Real>::places_of_body() const {
-    std::vector<Eigen::Vector3d> places;
-    for (const int i : body_) places.push_back(tank_.state().position[i].template cast<double>());
-    return places;
-}
-
-template <class Real>
-bool Swim<Real>::frame() {
-    const double frame = tank_.model().time_step, h = frame / tank_.model().parameters.substeps;
-    const double before = motion_.centre().x();
+void SwimBody::begin_frame() {
+    before_ = motion_.centre().x();
     force_ = power_ = 0;
-    const auto arrive_with = [&](double, const std::vector<Vector3<Real>>& forces) { arrive(forces, h); };
-    if (!tank_.drive([&] { set_off(h); }, arrive_with)) return false;
-    time_ += frame;
-    unshifted_ += motion_.centre().x() - before;
-    motion_.steer(helm_.rate(motion_.angle(), (motion_.centre() - start_).z() / scene_.length));
-    move_box_along();
-    return true;
 }
 
-/// A substep of h, s, begins: the body bends on.
-template <class Real>
-void Swim<Real>::set_off(double h) {
+const std::vector<Eigen::Vector3d>& SwimBody::set_off(double h) {
     bending_time_ += h;
     const double beats = bending_time_ / scene_.beat;
     std::vector<Eigen::Vector3d> shape = swimmer_.bent(straight_, scene_.length, beats);
@@ -91,34 +65,61 @@ void Swim<Real>::set_off(double h) {
     } else {
         velocities_ = motion_.set_off(shape, h);
     }
-    for (std::size_t k = 0; k < body_.size(); ++k)
-        tank_.state().velocity[body_[k]] = velocities_[k].template cast<Real>();
+    return velocities_;
 }
 
-/// It is over; `forces` are the water's, by particle.
-template <class Real>
-void Swim<Real>::arrive(const std::vector<Vector3<Real>>& forces, double h) {
-    std::vector<Eigen::Vector3d> on_body;
-    for (const int i : body_) on_body.push_back(forces[i].template cast<double>());
-    const double part = h / tank_.model().time_step;
-    for (std::size_t k = 0; k < body_.size(); ++k) {
-        force_ += part * on_body[k].x();
-        power_ -= part * on_body[k].dot(velocities_[k]);
+void SwimBody::arrive(const std::vector<Eigen::Vector3d>& forces, double h) {
+    const double part = h / frame_;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+        force_ += part * forces[k].x();
+        power_ -= part * forces[k].dot(velocities_[k]);
     }
-    motion_.arrive(on_body, h);
-    for (std::size_t k = 0; k < body_.size(); ++k)
-        tank_.state().position[body_[k]] = motion_.places()[k].template cast<Real>();
+    motion_.arrive(forces, h);
 }
 
-/// By whole spacings, once the body has gone far enough.
-template <class Real>
-void Swim<Real>::move_box_along() {
-    const double box_step = std::copysign(std::round(step * scene_.length / spacing_) * spacing_, unshifted_);
-    if (std::abs(unshifted_) < std::abs(box_step)) return;
-    tank_.shift(box_step);
+double SwimBody::end_frame(double spacing, double far) {
+    time_ += frame_;
+    unshifted_ += motion_.centre().x() - before_;
+    motion_.steer(helm_.rate(motion_.angle(), (motion_.centre() - start_).z() / scene_.length));
+    const double box_step = std::copysign(std::max(1.0, std::round(far * scene_.length / spacing)) * spacing, unshifted_);
+    if (std::abs(unshifted_) < std::abs(box_step)) return 0;
     motion_.shift({-box_step, 0, 0});
     shifted_ += box_step;
     unshifted_ -= box_step;
+    return box_step;
+}
+
+template <class Real>
+Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSetting& setting)
+    : spacing_(spacing_of(setting)),
+      count_((scene.length / 2 * scene.box / spacing_).array().round().matrix().template cast<int>() * 2),
+      start_(scene.box.x() / 2.3 * nose * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
+      tank_(count_, setting, [&](Model& model) {
+          model.parameters.gravity = {0, -scene.gravity, 0};
+          held_ = hold([&](const Eigen::Vector3d& x) { return swimmer.holds(x - start_, scene.length, spacing_); }, model);
+      }) {
+    std::vector<Eigen::Vector3d> places;
+    for (const int i : held_) places.push_back(tank_.state().position[i].template cast<double>());
+    body_.emplace(swimmer, scene, start_, std::move(places), tank_.model().time_step, kept_among_particles);
+}
+
+template <class Real>
+bool Swim<Real>::frame() {
+    const double h = tank_.model().time_step / tank_.model().parameters.substeps;
+    body_->begin_frame();
+    const auto set_off = [&] {
+        const std::vector<Eigen::Vector3d>& velocities = body_->set_off(h);
+        for (std::size_t k = 0; k < held_.size(); ++k) tank_.state().velocity[held_[k]] = velocities[k].template cast<Real>();
+    };
+    const auto arrive = [&](double, const std::vector<Vector3<Real>>& forces) {
+        std::vector<Eigen::Vector3d> on_body;
+        for (const int i : held_) on_body.push_back(forces[i].template cast<double>());
+        body_->arrive(on_body, h);
+        for (std::size_t k = 0; k < held_.size(); ++k) tank_.state().position[held_[k]] = body_->places()[k].template cast<Real>();
+    };
+    if (!tank_.drive(set_off, arrive)) return false;
+    if (const double by = body_->end_frame(spacing_, step); by != 0) tank_.shift(by);
+    return true;
 }
 
 template class Swim<float>;

@@ -40,53 +40,70 @@ private:
     double drift_ = 0;
 };
 
-/// A swimmer in a box of water that goes along with it.
+/// A swimmer in a box of water that goes along with it: what is the same in any water. A frame is what the water is looked at by.
+class SwimBody {
+public:
+    /// Particles of mass 1 at `places`, straight; `nose`: where its nose is.
+    SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose, std::vector<Eigen::Vector3d> places, double frame,
+             double kept);
+
+    long frames_per_beat() const { return frames_per_beat_; }
+    void begin_frame();
+    /// A step of h, s, begins: the body bends on. Velocities of its particles.
+    const std::vector<Eigen::Vector3d>& set_off(double h);
+    /// It is over; `forces` are the water's, by particle.
+    void arrive(const std::vector<Eigen::Vector3d>& forces, double h);
+    /// How far the box is to be moved along now, in whole spacings: not until the body has gone `far`, of the length.
+    double end_frame(double spacing, double far);
+
+    double time() const { return time_; }  ///< s, of whole frames
+    const std::vector<Eigen::Vector3d>& places() const { return motion_.places(); }
+    const Eigen::Vector3d& velocity() const { return motion_.velocity(); }
+    double drift() const { return helm_.drift(); }
+    Eigen::Vector3d centre() const { return motion_.centre() + Eigen::Vector3d(shifted_, 0, 0); }
+    Eigen::Vector3d tail() const { return motion_.places()[tail_] + Eigen::Vector3d(shifted_, 0, 0); }
+    /// Of the water's on the body along x in the last frame, mass length/s^2, and what the body gave the water, mass length^2/s^3.
+    double force() const { return force_; }
+    double power() const { return power_; }
+
+private:
+    Swimmer swimmer_;
+    SwimScene scene_;
+    Eigen::Vector3d start_;  ///< of the nose
+    double frame_;
+    long frames_per_beat_;
+    FreeMotion motion_;
+    std::vector<Eigen::Vector3d> straight_, velocities_;  ///< straight_: as Swimmer has them
+    std::size_t tail_ = 0;                                ///< the rearmost
+    Helm helm_;
+    double time_ = 0, bending_time_ = 0;  ///< s
+    double towed_ = 0;                    ///< how far
+    double shifted_ = 0, unshifted_ = 0;  ///< how far the box was moved along, and has still to be
+    double before_ = 0;                   ///< the frame: the centre's x
+    double force_ = 0, power_ = 0;
+};
+
+/// A swimmer in a tank of particles.
 template <class Real>
 class Swim {
 public:
     Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSetting& setting);
 
-    long frames_per_beat() const { return frames_per_beat_; }
+    const SwimBody& body() const { return *body_; }
+    double spacing() const { return spacing_; }  ///< a particle of water has mass 1
     /// False if the water is unstable.
     bool frame();
     /// As WaterTank's.
     [[nodiscard]] bool set_kinematic_viscosity(double viscosity) { return tank_.set_kinematic_viscosity(viscosity); }
     WaterRun run() const { return tank_.run(); }
 
-    double time() const { return time_; }  ///< s
-    const FreeMotion& motion() const { return motion_; }
-    Eigen::Vector3d centre() const { return motion_.centre() + Eigen::Vector3d(shifted_, 0, 0); }
-    Eigen::Vector3d tail() const { return motion_.places()[tail_] + Eigen::Vector3d(shifted_, 0, 0); }
-    double drift() const { return helm_.drift(); }
-    /// Of the water's on the body along x in the last frame, mass length/s^2, and what the body gave the water, mass length^2/s^3. A
-    /// particle of water has mass 1.
-    double force() const { return force_; }
-    double power() const { return power_; }
-    double spacing() const { return spacing_; }
-
 private:
-    void immerse(Model& model);
-    std::vector<Eigen::Vector3d> places_of_body() const;
-    void set_off(double h);
-    void arrive(const std::vector<Vector3<Real>>& forces, double h);
-    void move_box_along();
-
     double spacing_;
-    Swimmer swimmer_;
-    SwimScene scene_;
     Eigen::Vector3i count_;
     Eigen::Vector3d start_;  ///< of the nose
-    std::vector<int> body_;  ///< its particles
+    std::vector<int> held_;  ///< the body's particles
     WaterTank<Real> tank_;
-    FreeMotion motion_;
-    std::vector<Eigen::Vector3d> straight_, velocities_;  ///< of the body's particles; straight_: as Swimmer has them
-    std::size_t tail_ = 0;                                ///< the rearmost of them
-    long frames_per_beat_;
-    Helm helm_;
-    double time_ = 0, bending_time_ = 0;  ///< s
-    double towed_ = 0;                    ///< how far
-    double shifted_ = 0, unshifted_ = 0;  ///< how far the box was moved along, and has still to be
-    double force_ = 0, power_ = 0;
+    std::optional<SwimBody> body_;
 };
 
 extern template class Swim<float>;

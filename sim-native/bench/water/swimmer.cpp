@@ -128,12 +128,12 @@ double Swimmer::slope(double s, double ds, double beats) const {
     return (bending(s + ds / 2, beats) - bending(s - ds / 2, beats)) / ds;
 }
 
-bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest) const {
+bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest, double wider) const {
     const double s = -x.x() / length;
     if (s < 0 || s > 1) return false;
-    const double width = std::max(half_width.at(s) * length, thinnest);
+    const double width = std::max(half_width.at(s) * length + wider, thinnest);
     if (slab) return std::abs(x.z()) <= width;
-    const double height = std::max(half_height.at(s) * length, thinnest);
+    const double height = std::max(half_height.at(s) * length + wider, thinnest);
     if (square) return std::abs(x.z()) <= width && std::abs(x.y()) <= height;
     return std::hypot(x.z() / width, x.y() / height) <= 1;
 }

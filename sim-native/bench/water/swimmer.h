@@ -37,8 +37,8 @@ struct Swimmer {
     double viscosity = 0.001;     ///< length^2/beat
     std::optional<double> towed;  ///< at this speed, length/beat; else it moves freely
 
-    /// Whether the straight body of this length holds this place. It is half as thick as `thinnest` at least everywhere.
-    bool holds(const Eigen::Vector3d& x, double length, double thinnest) const;
+    /// Whether the straight body of this length holds this place. Its sections' half axes are longer by `wider`, then nowhere less than `thinnest`.
+    bool holds(const Eigen::Vector3d& x, double length, double thinnest, double wider = 0) const;
     /// Where places of the straight body are after so many beats.
     std::vector<Eigen::Vector3d> bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const;
 

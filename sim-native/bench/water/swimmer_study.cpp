@@ -7,18 +7,20 @@
 
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "water/swim.h"
+#include "water/lattice_swim.h"
 
 namespace natator::bench {
 namespace {
 
-constexpr double slab_height = 0.25;  ///< of the box, of the body's length
+constexpr double slab_height = 0.25;  ///< of the box of particles, of the body's length
 
 using Figures = std::map<std::string, double>;
 
-/// Water in its box.
+/// Water in its box: on a lattice at this Mach number, else of particles.
 struct Pool {
-    double box, pressure;
+    double box;
+    std::optional<double> mach, pressure;
+    WaterSetting water;
 };
 
 /// What a beat gave, in lengths and beats.
@@ -30,30 +32,26 @@ struct Swum {
     WaterRun run;
     std::vector<Beat> beats;
     double tail_beat = 0;  ///< in the counted beats
+    long steps = 0;        ///< in a beat
     bool viscous = false;
 };
 
-template <class Real>
-Swum swim(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool, const WaterSetting& setting) {
-    SwimScene scene;
-    scene.box *= pool.box;
-    if (swimmer.slab) scene.box.y() = slab_height;
+/// `height`: of a slab, in lengths.
+template <class AnySwim>
+void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, double height, const SwimmerStudy& study, Swum& swum) {
+    const SwimBody& body = swim.body();
     const double length = scene.length, beat = scene.beat;
-    scene.gravity = 2 * pool.pressure / scene.box.y() * length / (beat * beat);
-    Swim<Real> body(swimmer, scene, setting);
-    Swum swum;
-    swum.viscous = !body.set_kinematic_viscosity(swimmer.viscosity * length * length / beat);
-    const double mass = std::pow(length / body.spacing(), 3) * (swimmer.slab ? scene.box.y() : 1);  // of a cubic length of water
+    const double mass = std::pow(length / swim.spacing(), 3) * (swimmer.slab ? height : 1);  // of a cubic length of water
+    const auto frames = static_cast<double>(body.frames_per_beat());
     Track counted;
-    for (int k = 0; k < study.beats && !swum.viscous; ++k) {
+    for (int k = 0; k < study.beats; ++k) {
         const Eigen::Vector3d from = body.centre();
         Beat sum;
         for (long f = 0; f < body.frames_per_beat(); ++f) {
-            if (!body.frame()) {
-                swum.run = body.run();
-                return swum;
+            if (!swim.frame()) {
+                swum.run = swim.run();
+                return;
             }
-            const auto frames = static_cast<double>(body.frames_per_beat());
             sum.force += body.force() / frames / mass * beat * beat / length;
             sum.power += body.power() / frames / mass * std::pow(beat, 3) / (length * length);
             if (k < study.beats - study.counted) continue;
@@ -63,9 +61,53 @@ Swum swim(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool, c
         const Eigen::Vector3d way = (body.centre() - from) / length;
         swum.beats.push_back({way.x(), way.z(), sum.force, sum.power});
     }
-    swum.run = body.run();
-    if (!counted.tail.empty()) swum.tail_beat = counted.beat(Eigen::Vector3d::UnitZ()) / length;
+    swum.run = swim.run();
+    swum.tail_beat = counted.beat(Eigen::Vector3d::UnitZ()) / length;
+}
+
+template <class Real>
+Swum swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+    SwimScene scene;
+    scene.box *= pool.box;
+    if (swimmer.slab) scene.box.y() = slab_height;
+    const double length = scene.length, beat = scene.beat;
+    scene.gravity = 2 * *pool.pressure / scene.box.y() * length / (beat * beat);
+    Swim<Real> swim(swimmer, scene, pool.water);
+    Swum swum;
+    swum.steps = swim.body().frames_per_beat() * pool.water.solver.substeps;
+    swum.viscous = !swim.set_kinematic_viscosity(swimmer.viscosity * length * length / beat);
+    if (swum.viscous)
+        swum.run = swim.run();
+    else
+        follow(swim, swimmer, scene, scene.box.y(), study, swum);
     return swum;
+}
+
+Swum swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+    const int resolution = pool.water.resolution;
+    SwimScene scene;
+    scene.box = pool.box * Eigen::Vector3d(4, 1, 2);
+    LatticeSwim swim(swimmer, scene, resolution, *pool.mach, pool.water.gpu);
+    Swum swum;
+    swum.steps = swim.body().frames_per_beat();
+    follow(swim, swimmer, scene, 1.0 / resolution, study, swum);
+    return swum;
+}
+
+/// The columns that tell a row from others, empty where its water has no such thing.
+Row key_of(const SwimCase& one, const std::string& variant, const SwimmerStudy& study, const Pool& pool) {
+    const WaterSetting& water = pool.water;
+    const Setting& solver = water.solver;
+    const auto number = [](const std::optional<double>& value) { return value ? number_text(*value) : ""; };
+    Row key{one.name, variant, std::to_string(water.resolution), number_text(pool.box), number(pool.pressure), std::to_string(study.beats),
+            pool.mach ? "lattice" : to_string(solver.scheme), to_string(solver.precision), water.gpu ? "cuda" : "cpu"};
+    if (pool.mach)
+        key = joined_rows(key, Row(5));
+    else
+        key = joined_rows(key, {std::to_string(solver.substeps), std::to_string(solver.iterations), yes_or_no(solver.modified_pressure),
+                                number_text(water.support), std::to_string(water.start)});
+    key.push_back(number(pool.mach));
+    return key;
 }
 
 Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
@@ -96,17 +138,14 @@ Row judged(double value, const SwimTarget& target) {
             yes_or_no(target.least <= value && value <= target.greatest), yes_or_no(target.confirmed)};
 }
 
-void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study, const Pool& pool,
-             const WaterSetting& setting, ResultTable& table, ResultTable& beats,
-             const std::function<void(const std::string&)>& report) {
-    const Setting& solver = setting.solver;
+void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study, const Pool& pool, ResultTable& table,
+             ResultTable& beats, const std::function<void(const std::string&)>& report) {
     const Swimmer& swimmer = variant.second;
-    const Row key{one.name, variant.first, std::to_string(setting.resolution), number_text(pool.box), number_text(pool.pressure), std::to_string(study.beats),
-                  to_string(solver.scheme), to_string(solver.precision), setting.gpu ? "cuda" : "cpu",
-                  std::to_string(solver.substeps), std::to_string(solver.iterations), yes_or_no(solver.modified_pressure),
-                  number_text(setting.support), std::to_string(setting.start)};
+    const Row key = key_of(one, variant.first, study, pool);
     if (table.has(key)) return;
-    const Swum swum = in_precision(solver.precision, [&](auto real) { return swim<decltype(real)>(swimmer, study, pool, setting); });
+    const Swum swum = pool.mach ? swim_on_lattice(swimmer, study, pool) : in_precision(pool.water.solver.precision, [&](auto real) {
+        return swim_among_particles<decltype(real)>(swimmer, study, pool);
+    });
     for (std::size_t k = 0; k < swum.beats.size(); ++k) {
         const Beat& beat = swum.beats[k];
         Row row = joined_rows(key, {std::to_string(k + 1)});
@@ -119,8 +158,7 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
     const bool ok = !swum.viscous && !swum.run.instability;
     Figures figures;
     if (ok) figures = figures_of(swum, swimmer, study.counted);
-    Row row = joined_rows(key, {ok ? "ok" : swum.viscous ? "too viscous" : "unstable", measured_text(widest * setting.resolution),
-                                std::to_string(std::lround(SwimScene().beat / Model().time_step) * solver.substeps),
+    Row row = joined_rows(key, {ok ? "ok" : swum.viscous ? "too viscous" : "unstable", measured_text(widest * pool.water.resolution), std::to_string(swum.steps),
                                 number_text(swimmer.viscosity)});
     for (const std::string& name : swim_quantities()) row.push_back(ok ? measured_text(figures[name]) : "");
     row = joined_rows(row, {std::to_string(swum.run.particles), measured_text(swum.run.seconds)});
@@ -130,6 +168,16 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
     row = joined_rows(row, ok && target != one.targets.end() ? judged(figures[target->quantity], *target) : Row(4));
     table.add(row);
     report(joined(row, " "));
+}
+
+std::vector<Pool> pools_of(const SwimmerStudy& study, int resolution, double box) {
+    std::vector<Pool> pools;
+    for (const double pressure : study.pressures)
+        for (const Setting& setting : study.settings)
+            for (const double support : study.supports)
+                for (const int start : study.starts) pools.push_back({box, {}, pressure, {setting, resolution, study.gpu, support, start}});
+    for (const double mach : study.machs) pools.push_back({box, mach, {}, {.solver = {}, .resolution = resolution, .gpu = study.gpu}});
+    return pools;
 }
 
 /// By least squares, of |y| as a power of x.
@@ -160,7 +208,7 @@ double at_zero(std::vector<Eigen::Vector2d> points) {
 
 Row swimmer_columns() {
     Row columns{"case", "variant", "resolution", "box", "pressure", "beats", "scheme", "precision", "backend", "substeps", "iterations",
-                "modified_pressure", "support", "start", "status", "across", "steps", "viscosity"};
+                "modified_pressure", "support", "start", "mach", "status", "across", "steps", "viscosity"};
     columns = joined_rows(columns, swim_quantities());
     return joined_rows(columns, {"particles", "run_time", "reference", "deviation", "met", "confirmed"});
 }
@@ -182,15 +230,11 @@ void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTabl
     for (const SwimCase& one : cases)
         for (const int resolution : study.resolutions)
             for (const double box : study.boxes)
-                for (const double pressure : study.pressures)
-                    for (const Setting& setting : study.settings)
-                        for (const double support : study.supports)
-                            for (const int start : study.starts)
-                                for (const auto& variant : one.variants) {
-                                    const WaterSetting water{setting, resolution, study.gpu, support, start};
-                                    run_one(one, variant, study, {box, pressure}, water, table, beats, report);
-                                    if (study.quick) break;
-                                }
+                for (const Pool& pool : pools_of(study, resolution, box))
+                    for (const auto& variant : one.variants) {
+                        run_one(one, variant, study, pool, table, beats, report);
+                        if (study.quick) break;
+                    }
 }
 
 ResultTable swimmer_targets(const SwimmerStudy& study, const ResultTable& table) {

@@ -24,19 +24,20 @@ const double fall = std::log(slow_strouhal / fast_strouhal) / std::log(fast_reyn
 
 /// False if the water becomes unstable, or is too viscous.
 template <class Real>
-bool swim(const Leg& leg, Swim<Real>& body, std::vector<WaterFigure>& figures, std::vector<WaterSample>& curve) {
-    if (!body.set_kinematic_viscosity(leg.viscosity)) return false;
+bool swim(const Leg& leg, Swim<Real>& swim, std::vector<WaterFigure>& figures, std::vector<WaterSample>& curve) {
+    if (!swim.set_kinematic_viscosity(leg.viscosity)) return false;
+    const SwimBody& body = swim.body();
     Track track;
     const long first = (leg.beats - counted) * body.frames_per_beat();
     double begin = 0;
     for (long k = 1; k <= leg.beats * body.frames_per_beat(); ++k) {
-        if (!body.frame()) return false;
+        if (!swim.frame()) return false;
         if (k == first) begin = body.time();
         if (k >= first) {
             track.centre.push_back(body.centre());
             track.tail.push_back(body.tail());
         }
-        curve.push_back({body.time(), body.motion().velocity().x() / length});
+        curve.push_back({body.time(), body.velocity().x() / length});
     }
     const Eigen::Vector3d velocity = (track.centre.back() - track.centre.front()) / (body.time() - begin);
     const double speed = velocity.norm(), beat = track.beat(Eigen::Vector3d::UnitY().cross(velocity.normalized()));
@@ -60,12 +61,12 @@ double reynolds_of_larvae(double beating) {
 /// A larva that beats its tail and swims as far as the water pushes it, ever more viscous.
 WaterRun run_travelling_wave(const WaterSetting& setting) {
     return in_precision(setting.solver.precision, [&](auto real) {
-        Swim<decltype(real)> body(read_swim_case("larva").base, {.length = length, .beat = 1 / frequency}, setting);
+        Swim<decltype(real)> larva(read_swim_case("larva").base, {.length = length, .beat = 1 / frequency}, setting);
         std::vector<WaterFigure> figures;
         std::vector<WaterSample> curve;
-        if (std::ranges::all_of(legs, [&](const Leg& leg) { return swim(leg, body, figures, curve); }))
-            figures.push_back({.value = body.drift(), .reference = 0, .greatest = most_drift});
-        WaterRun run = body.run();
+        if (std::ranges::all_of(legs, [&](const Leg& leg) { return swim(leg, larva, figures, curve); }))
+            figures.push_back({.value = larva.body().drift(), .reference = 0, .greatest = most_drift});
+        WaterRun run = larva.run();
         run.figures = figures;
         run.curve = curve;
         return run;

@@ -37,10 +37,14 @@ std::vector<Precision> StudyOptions::chosen_precisions() const {
 }
 
 void add_study_options(CLI::App* command, StudyOptions& common, std::vector<std::string> precisions) {
-    common.precisions = std::move(precisions);
     command->add_option("--scheme", common.schemes, "flex, conserving.")
         ->check(one_of({"flex", "conserving"}))
         ->capture_default_str();
+    add_other_study_options(command, common, std::move(precisions));
+}
+
+void add_other_study_options(CLI::App* command, StudyOptions& common, std::vector<std::string> precisions) {
+    common.precisions = std::move(precisions);
     command->add_option("--precision", common.precisions, "float, double.")
         ->check(precision_name())
         ->capture_default_str();

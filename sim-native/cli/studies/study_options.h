@@ -26,6 +26,8 @@ struct StudyOptions {
 
 /// Adds --scheme, --precision, with these if it is not given, --output and --quick.
 void add_study_options(CLI::App* command, StudyOptions& common, std::vector<std::string> precisions);
+/// Those but --scheme.
+void add_other_study_options(CLI::App* command, StudyOptions& common, std::vector<std::string> precisions);
 /// Adds --repeats.
 void add_repeats(CLI::App* command, int& repeats, const std::string& description);
 
