@@ -9,8 +9,7 @@
 namespace natator::lattice {
 namespace {
 
-constexpr double neighbourhood = 1.75;  ///< spacings: the next of edges and faces, not those two away
-constexpr double spanned = 0.05;        ///< of the greatest eigenvalue, below which neighbours don't span an axis
+constexpr double spanned = 0.05;  ///< of the greatest eigenvalue, below which neighbours don't span an axis
 
 /// A gradient where neighbours span less than three axes, completed to a motion that is rigid across.
 Eigen::Matrix3d completed(Eigen::Matrix3d gradient, const Eigen::Matrix3d& missing, double half) {
@@ -37,12 +36,12 @@ void store(const Eigen::Matrix3d& from, float* to) {
 
 }  // namespace
 
-Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing)
+Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach_in_spacings)
     : spacing_(spacing), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
-    const double reach = neighbourhood * spacing, half = spacing / 2;
+    const double reach = reach_in_spacings * spacing, half = spacing / 2;
     for (std::size_t a = 0; a < order.size(); ++a)
         for (std::size_t b = a + 1; b < order.size() && rest[order[b]].x() - rest[order[a]].x() < reach; ++b) {
             const int i = order[a], j = order[b];

@@ -27,8 +27,9 @@ struct Push {
 /// motions are exact; what pushes its cells is given to it and them by the transposed weights, which keep momentum.
 class Immersed {
 public:
-    /// `rest`: places at rest, length; of particles of the same `body` those nearer than 1.75 spacings are neighbours.
-    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing);
+    /// `rest`: places at rest, length; of particles of the same `body` those nearer than `reach` spacings are neighbours. 1.75: those of faces
+    /// and edges, with which soft bodies are stable; 1.2: those of faces alone, for bodies of given shape.
+    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach = 1.75);
 
     int particles() const { return static_cast<int>(near_.size()); }
     /// At these places, length, with these velocities, length/s, in a step of so long, s.
