@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "cube_cells.h"
@@ -155,7 +156,12 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         if (chosen_[one.cell] >= 0 || p >= static_cast<int>(cubes.size())) continue;
         const int at[3] = {one.x, one.y, one.z};
         int here[3];
-        for (int a = 0; a < 3; ++a) here[a] = beside(cubes[p].x[a], at[a], cells[a], periodic_[a]);
+        bool near = true;  // a body that has been put elsewhere is not pushed by what it left
+        for (int a = 0; a < 3; ++a) {
+            here[a] = beside(cubes[p].x[a], at[a], cells[a], periodic_[a]);
+            near = near && std::abs(static_cast<float>(here[a]) - cubes[p].x[a]) <= cubes[p].reach[a] + 1;
+        }
+        if (!near) continue;
         const PlaceInCube in = place_in(cubes[p], here[0], here[1], here[2]);
         const Held left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
         const float density = 1 + now_[0][one.cell];
