@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Soft bodies in lakes under finer cells and steps: `soft.py requests` writes what `natator-sim serve` is to compute, `soft.py table FILE` shows
-its results. Each gait beats at f and is a wave of w lengths that runs to the tail, muscles driven from `first` at the head to `last` at the tail."""
+"""Soft bodies in lakes under finer cells and steps: `soft.py requests` writes what `natator-sim serve` is to compute, `soft.py keep` what is kept of its
+answers, `soft.py table FILE` shows those. Each gait beats at f and is a wave of w lengths that runs to the tail, muscles driven from `first` at the head to `last` at the tail."""
 import json
 import sys
 
@@ -36,6 +36,13 @@ def requests():
                     yield {"id": number(body, k, name, start), "scene": f"lake/{body}", "overrides": level(*how), "gait": gait(actuators, *one), "start": start}
 
 
+def keep():
+    for line in sys.stdin:
+        one = json.loads(line)
+        swim = one.get("swimming", {})
+        print(json.dumps({key: one.get(key) for key in ("id", "status", "distance")} | {key: swim.get(key) for key in ("reynolds", "strouhal")}))
+
+
 def table(path):
     results = {one["id"]: one for one in map(json.loads, open(path))}
     print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | Reynolds, Strouhal |\n| --- " + "| ---: " * (len(LEVELS) + 1) + "|")
@@ -46,15 +53,16 @@ def table(path):
                 found = [results.get(number(body, k, name, start), {}) for start in range(1, STARTS + 1)]
                 way = [r["distance"] for r in found if r.get("status") == "ok"]
                 cells.append(f"{sum(way) / len(way):.3f} ± {(max(way) - min(way)) / 2:.3f}" if len(way) == STARTS else "unstable")
-            swim = found[0].get("swimming", {})
-            print(f"| {body}, " + ", ".join(map(str, one)) + " | " + " | ".join(cells) + f" | {swim.get('reynolds', 0):.0f}, {swim.get('strouhal', 0):.2g} |")
+            print(f"| {body}, " + ", ".join(map(str, one)) + " | " + " | ".join(cells) + f" | {found[0]['reynolds']:.0f}, {found[0]['strouhal']:.2g} |")
 
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["requests"]:
         for one in requests():
             print(json.dumps(one))
+    elif sys.argv[1:] == ["keep"]:
+        keep()
     elif len(sys.argv) == 3 and sys.argv[1] == "table":
         table(sys.argv[2])
     else:
-        sys.exit("usage: soft.py requests | soft.py table FILE")
+        sys.exit("usage: soft.py requests | soft.py keep | soft.py table FILE")

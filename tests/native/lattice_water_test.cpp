@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "lattice_bar.h"
@@ -215,6 +217,59 @@ TEST_F(LatticeBar, IsTheSameForAnyNumberOfThreads) {
 TEST(LatticeWater, SaysWhenThereIsNoSuchGpu) {
     EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), 99), NoDevice);
     EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), -1), NoDevice);
+}
+
+/// A sphere of cubes a cell wide, a fifth of a cell larger than 12 cells, in a periodic box of 48.
+class LatticeSphere : public ::testing::Test {
+protected:
+    LatticeSphere() {
+        for (int x = -7; x <= 7; ++x)
+            for (int y = -7; y <= 7; ++y)
+                for (int z = -7; z <= 7; ++z)
+                    if (const Eigen::Vector3d at(x, y, z); at.norm() <= radius + 0.2) place_.push_back(centre + at);
+    }
+    /// Moves it for so many steps, by velocity(step, from its centre), and sums what it does to the water, of(from its centre, impulse), in the second half.
+    double mean(double viscosity, int steps, const std::function<Eigen::Vector3d(int, const Eigen::Vector3d&)>& velocity,
+                const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& of) {
+        Box box = box_of(48, 48, 48);
+        box.viscosity = viscosity;
+        const auto water = Water::on_cpu(box, 1);
+        const Immersed body(place_, std::vector<int>(place_.size(), 0), 1, 1.2);
+        std::vector<Push> pushes;
+        std::vector<Eigen::Vector3d> velocities(place_.size());
+        double sum = 0;
+        for (int k = 0; k < steps; ++k) {
+            for (std::size_t i = 0; i < place_.size(); ++i) velocities[i] = velocity(k, place_[i] - centre);
+            water->advance(body.cubes(place_, velocities, box, 1), 1, pushes);
+            const std::vector<Eigen::Vector3d> impulse = body.impulses(pushes, box, 1);
+            for (std::size_t i = 0; i < place_.size() && 2 * k >= steps; ++i) sum -= of(place_[i] - centre, impulse[i]);
+        }
+        return 2 * sum / steps;
+    }
+
+    static constexpr double radius = 6;
+    const Eigen::Vector3d centre{24.13, 23.79, 24.07};
+    std::vector<Eigen::Vector3d> place_;
+};
+
+/// Torque 8 pi nu R^3 omega (Stokes); what is at its side a box further adds less than a per cent.
+TEST_F(LatticeSphere, FeelsTheTorqueOfSlowSpinning) {
+    const double viscosity = 1.0 / 6, spin = 0.005;
+    const double torque = mean(
+        viscosity, 600, [&](int k, const Eigen::Vector3d& arm) -> Eigen::Vector3d { return spin * std::min(1.0, (k + 1) / 150.0) * Eigen::Vector3d::UnitZ().cross(arm); },
+        [](const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse) { return arm.cross(impulse).z(); });
+    EXPECT_NEAR(torque / (8 * std::numbers::pi * viscosity * std::pow(radius, 3) * spin), 1, 0.05);
+}
+
+/// Half its water's mass, a fifth for Basset's force by then, and what sticks to its cells; it hardly leaves its place.
+TEST_F(LatticeSphere, MovesWaterAlong) {
+    const double pull = 1e-5;
+    const double force = mean(
+        2e-4, 400, [&](int k, const Eigen::Vector3d&) -> Eigen::Vector3d { return {pull * (k + 1), 0, 0}; },
+        [](const Eigen::Vector3d&, const Eigen::Vector3d& impulse) { return impulse.x(); });
+    const double part = force / (pull * 4 / 3 * std::numbers::pi * std::pow(radius, 3));
+    EXPECT_GT(part, 0.7);
+    EXPECT_LT(part, 1);
 }
 
 }  // namespace

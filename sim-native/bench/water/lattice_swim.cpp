@@ -9,8 +9,8 @@ namespace {
 
 /// Where the body's middle is in the box, and how far it goes until the box is moved along, of its length.
 constexpr double middle = 2.0 / 3, far = 0.05;
-/// Cells by which it is larger than its outline. Water sticks to the outer cells' centres, which lie up to a cell inside of it: with 0, 0.25 and 0.5 a
-/// sphere 12 cells across has 1.00, 1.09, 1.17 of its drag at Re 100, 0.95, 1.02, 1.08 at Re 10, and 0.85, 0.97, 1.09 of its torque.
+/// Cells by which it is larger than its outline. Water sticks to the outer cells' centres, which lie up to a cell inside of it: with 0, 0.2 and 0.4 a
+/// slowly spinning sphere 12 cells across has 0.88, 0.98 and 1.01 of its torque.
 constexpr double larger = 0.2;
 constexpr double tail_speed = 1.2;  ///< lengths/beat
 /// cells^2/step: a cell that is told its velocity has it to half of what a step's force gives, which puts walls half of this off, in cells.
