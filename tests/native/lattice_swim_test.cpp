@@ -101,6 +101,12 @@ TEST(LatticeSwim, MusclesWork) {
     EXPECT_GT(*evaluation.work, 0);
 }
 
+TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
+    const json tank = {{"movingTank", {{"step", 0.1}}}};
+    const std::string refusal = test::refusal_of([&] { evaluate(lake(tank), wave()); });
+    EXPECT_NE(refusal.find("step = 0.1: must be a multiple of the cells' 0.075"), std::string::npos) << refusal;
+}
+
 TEST(LatticeSwim, RefusesWhatItHasNot) {
     const auto refusal = [](const json& changes) { return test::refusal_of([&] { build_model(lake(changes)); }); };
     EXPECT_NE(refusal({{"solver", {{"kinematicViscosity", 0}}}}).find("kinematicViscosity = 0: must be above 0"), std::string::npos);

@@ -37,6 +37,11 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
     if (!scene.companions.empty() || !scene.obstacles.empty())
         refuse(scene, "has no room for companions and obstacles, which would be left behind");
+    if (model.water_box) {
+        const double cells = tank_.step / model.water_box->cell;
+        if (std::abs(cells - std::round(cells)) > 1e-3 || cells < 0.5)
+            refuse(scene, "step = " + number_text(tank_.step) + ": must be a multiple of the cells' " + number_text(model.water_box->cell) + " (fluid.spacing) in scheme lattice");
+    }
     const Eigen::Vector3d centre = rest_centre(model);
     const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
     for (const int axis : {0, 2}) {

@@ -200,8 +200,14 @@ std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const s
     return evaluate_in_parts(batch, members);
 }
 
-/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host.
-std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const std::vector<BatchMember>& members, const BatchOptions& options) {
+/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host; as many at once as it has room for.
+std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox& box, const std::vector<BatchMember>& members,
+                                             const BatchOptions& options) {
+    constexpr double bytes_of_cell = 2 * 27 * sizeof(float) + 2 * sizeof(int) + 16;  // populations, owners, room
+    std::size_t free = 0, all = 0;
+    check(cudaMemGetInfo(&free, &all), "memory");
+    const double room = static_cast<double>(free) / (bytes_of_cell * box.cells.cast<double>().prod());
+    const auto at_once = static_cast<std::size_t>(std::clamp(room, 1.0, 1e6));
     std::vector<Evaluation> evaluations(members.size());
     side_by_side(members.size(), [&](std::size_t k) {
         Scene own = scene;
@@ -211,7 +217,7 @@ std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const std::vect
         how.perturbation = members[k].perturbation;
         how.execution.gpu = options.device;
         evaluations[k] = natator::evaluate(own, members[k].gait, how);
-    });
+    }, at_once);
     return evaluations;
 }
 
@@ -225,7 +231,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    if (model.water_box) return cuda::evaluate_in_lattices(scene, members, options);
+    if (model.water_box) return cuda::evaluate_in_lattices(scene, *model.water_box, members, options);
     const cuda::DeviceMemory::Mark memory;
     const std::vector<Evaluation> evaluations = options.precision == Precision::double_precision
                                                     ? cuda::evaluate<double>(scene, model, members, options)
