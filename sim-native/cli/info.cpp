@@ -100,7 +100,10 @@ ordered_json describe_scene(const Scene& scene) {
     info["bodyLength"] = model.body.length;
     if (const double across = water_across(model); across > 0) info["across"] = across;
     if (const std::string warning = warning_of_across(water_across(model)); !warning.empty()) info["warning"] = warning;
-    if (model.water_box) info["cells"] = {model.water_box->cells.x(), model.water_box->cells.y(), model.water_box->cells.z()};
+    if (model.water_box) {
+        const Eigen::Vector3i& cells = model.water_box->cells;
+        info["cells"] = std::to_string(cells.x()) + " x " + std::to_string(cells.y()) + " x " + std::to_string(cells.z());
+    }
     if (scene.creature) {
         if (const std::string bends = describe_bends(*scene.creature); !bends.empty()) info["bends"] = bends;
         if (scene.creature->joint == Joint::line) info["joint"] = "line";

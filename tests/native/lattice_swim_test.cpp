@@ -101,6 +101,19 @@ TEST(LatticeSwim, MusclesWork) {
     EXPECT_GT(*evaluation.work, 0);
 }
 
+TEST(LatticeSwim, ACurrentInTheTankChangesNothingInIt) {
+    const auto in = [](double current) {
+        return evaluate(lake({{"movingTank", {{"step", 0.15}, {"current", {current, 0, 0}}}}, {"stopping", {{"noProgressAfter", 0}}}}), wave());
+    };
+    EXPECT_EQ(in(0).hash, in(3).hash);
+}
+
+TEST(LatticeSwim, NothingSwimsInAVacuum) {
+    const Evaluation evaluation = natator::evaluate(lake({{"fluid", nullptr}}), wave());
+    EXPECT_EQ(evaluation.stopped, StopReason::completed);
+    EXPECT_LT(std::abs(evaluation.distance), 1e-4);
+}
+
 TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
     const json tank = {{"movingTank", {{"step", 0.1}}}};
     const std::string refusal = test::refusal_of([&] { evaluate(lake(tank), wave()); });

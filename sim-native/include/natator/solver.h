@@ -68,6 +68,10 @@ public:
     /// Counts it anew from here.
     void clear_muscle_work();
 
+    /// Scheme lattice, when a State's particles have been moved along by -by, length, a whole number of cells: so is its water. Nothing in the
+    /// other schemes, whose water is of particles.
+    void shift_water(const Eigen::Vector3d& by);
+
     /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final positions,
     /// in conserving at those of the start of its last substep.
     std::vector<Real> densities();

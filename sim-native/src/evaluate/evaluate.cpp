@@ -84,7 +84,9 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
             snapshot.take(model, snapshot_of(state, solver.densities()));
         }
         if (record.tank_is_due()) {
+            const Vector3<Real> before = state.position.front();
             record.move_tank(state);
+            solver.shift_water((before - state.position.front()).template cast<double>());
             laws.begin_anew();
         }
     }

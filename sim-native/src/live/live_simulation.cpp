@@ -210,7 +210,9 @@ template <class Real>
 void LiveSimulation<Real>::follow(TankFollower& follower) {
     follower.drift(scene().time_step);
     const Eigen::Vector3d before = state_.origin;
+    const Vector3<Real> first = state_.position.front();
     follower.follow(mean_place(body_places_in_tank(model().body, state_)), state_);
+    run_->solver.shift_water((first - state_.position.front()).template cast<double>());
     if (state_.origin != before) run_->laws.begin_anew();
 }
 

@@ -176,7 +176,7 @@ Model build_model(const Scene& scene) {
     }
     check_apart(scene, model);
     add_obstacles(scene.obstacles, model);
-    if (scene.scheme == Scheme::lattice) {
+    if (scene.scheme == Scheme::lattice && scene.fluid) {
         model.water_box = water_box(scene);
         const Eigen::Vector3d offset = offset_in_cells(scene);
         for (Eigen::Vector3d& position : model.position) position += offset;

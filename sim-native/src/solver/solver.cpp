@@ -128,6 +128,9 @@ public:
 
     const Model& model() const { return model_; }
 
+    void shift_water(const Eigen::Vector3d& by) {
+        if (coupling_) coupling_->shift(by);
+    }
     double muscle_work() const { return muscle_work_; }
     void clear_muscle_work() { muscle_work_ = 0; }
 
@@ -236,6 +239,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
         check_driven(driven, implementation_->model().actuators);
         return driven;
     });
+}
+
+template <class Real>
+void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
+    implementation_->shift_water(by);
 }
 
 template <class Real>

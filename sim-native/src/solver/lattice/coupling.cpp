@@ -17,22 +17,22 @@ template <class Real>
 void Coupling<Real>::begin(const State<Real>& state) {
     water_ = gpu_ ? Water::on_gpu(*model_.water_box, *gpu_) : Water::on_cpu(*model_.water_box, threads_);
     impulses_.assign(state.position.size(), Eigen::Vector3d::Zero());
-    origin_ = state.origin;
     fastest_ = 0;
 }
 
 template <class Real>
 void Coupling<Real>::push(State<Real>& state, double h) {
     if (!water_ || std::abs(state.time - time_) > h / 2) begin(state);
-    if (state.origin != origin_) {
-        const Eigen::Vector3d cells = (state.origin - origin_) / model_.water_box->cell;
-        water_->shift(cells.array().round().matrix().template cast<int>());
-        origin_ = state.origin;
-    }
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
         const Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
         state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
     }
+}
+
+template <class Real>
+void Coupling<Real>::shift(const Eigen::Vector3d& by) {
+    const Eigen::Vector3d cells = by / model_.water_box->cell;
+    if (water_) water_->shift(cells.array().round().matrix().template cast<int>());
 }
 
 template <class Real>

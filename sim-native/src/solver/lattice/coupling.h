@@ -13,7 +13,7 @@ namespace natator::lattice {
 /// The water of a Model of scheme `lattice` and the particles in it, substep by substep: a substep is a step of the water. What the water
 /// gives a particle comes to it as a running mean, half of it at once: all at once, particles of two cells or less swing ever more from
 /// step to step (free particles, measured: 1.02 times; with the mean none do from one cell on). Nothing of it is lost. The water is at rest
-/// at first and wherever a State's time does not go on from where the last one ended; it goes along with a State's moving tank.
+/// at first and wherever a State's time does not go on from where the last one ended.
 template <class Real>
 class Coupling {
 public:
@@ -24,6 +24,8 @@ public:
     void push(State<Real>& state, double h);
     /// The water's step, once the particles have made theirs to `time`, s.
     void follow(const State<Real>& state, double h, double time);
+    /// What is at x comes to x - by, length: a whole number of cells. The State's particles are moved by who calls this.
+    void shift(const Eigen::Vector3d& by);
     /// The greatest speed of a particle in a substep so far, cells.
     double fastest() const { return fastest_; }
     int fastest_particle() const { return fastest_particle_; }
@@ -40,7 +42,6 @@ private:
     std::vector<Push> pushes_;
     std::vector<Eigen::Vector3d> impulses_, places_, velocities_;
     double time_ = 0;
-    Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     double fastest_ = 0;
     int fastest_particle_ = 0;
 };
