@@ -7,7 +7,7 @@ import natator
 from jsonschema import Draft202012Validator
 from schemas import FILES, ROOT, validator
 
-LAWS = ["finite", "tank", "particle-energy", "energy", "shape", "compression"]
+LAWS = ["finite", "tank", "particle-energy", "energy", "shape", "compression", "mach"]
 GAIT = {"frequency": 1, "amplitude": [0.5, 0.5], "phase": [0, 0.5]}
 
 TAKEN = [
