@@ -145,7 +145,7 @@ std::string as_text(const ordered_json& info) {
         const std::string label = key + std::string(key.size() < column ? column - key.size() : 1, ' ');
         if (value.is_array()) {
             for (std::size_t i = 0; i < value.size(); ++i) {
-                text << (i == 0 ? label : std::string(column, ' ')) << value[i].get<std::string>() << '\n';
+                text << (i == 0 ? label : std::string(column, ' ')) << as_text_of_one(value[i]) << '\n';
             }
         } else {
             text << label << as_text_of_one(value) << '\n';

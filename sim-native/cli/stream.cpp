@@ -82,7 +82,7 @@ void add_stream(CLI::App& app, int& status) {
     command->add_option("scene", options->scene, "Name or path of the scene.")->required();
     command->add_option("--gait", options->gait, "File or JSON text. Default: muscles at rest.");
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
-    command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
+    command->add_option("--scheme", options->scheme, "Update rule: flex, conserving or lattice. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
         ->check(precision_name())
         ->capture_default_str();

@@ -55,6 +55,24 @@ TEST(CostTest, LongRunsAreWithinTheLimits) {
     EXPECT_LT(1e7 * (cost_of(tank).bytes - of_program) / tank.particles() + of_program, 20e9);
 }
 
+/// Each cell counts, with a body and without; solids in it count with all their iterations.
+TEST(CostTest, CellsOfALatticeCount) {
+    const Scene lake = load_scene("lake/creature-2"), water = load_scene("lake/water");
+    const Cost swum = cost_of(build_model(lake)), empty = cost_of(build_model(water));
+    EXPECT_EQ(empty.cells, 120 * 48 * 48);
+    EXPECT_EQ(swum.cells, empty.cells);
+    EXPECT_GT(cost_of(build_model(water), {.several_threads = false}).bytes, 59e6);  // measured, less that of the program
+    EXPECT_GT(empty.bytes, 76e6);
+    EXPECT_LT(empty.bytes, 1.4 * 76e6);
+    EXPECT_GT(swum.bytes, empty.bytes);
+    EXPECT_GT(empty.per_substep, empty.cells);
+    EXPECT_GT(swum.per_substep, empty.per_substep);
+    const Cost doubled = cost_of(build_model(with("lake/creature-2", R"({"solver":{"solidIterations":8}})")));
+    EXPECT_GT(doubled.per_substep, swum.per_substep);
+    const std::string refused = refusal(with("lake/water", R"({"fluid":{"count":[10000,6400,6400]},"planes":[]})"));
+    EXPECT_NE(refused.find("in 4.1e+11 cells of water need about "), std::string::npos) << refused;
+}
+
 /// The estimate is never below what the solver finds, and not absurdly above it.
 TEST(CostTest, NeighboursAreEstimatedFromAbove) {
     for (const char* name : {"thesis/creature-1", "thesis/creature-4", "thesis/tank", "bench/small-tank"}) {

@@ -95,6 +95,34 @@ TEST(LatticeSwim, AMovingTankChangesLittle) {
     EXPECT_NEAR(one.distance, other.distance, 0.1 * std::abs(one.distance));
 }
 
+/// It is what scenes build on.
+TEST(LatticeSwim, WaterAloneIsAScene) {
+    Scene water = load_scene("lake/water");
+    water.duration = 0.1;
+    const Model model = build_model(water);
+    EXPECT_EQ(model.particles(), 0);
+    EXPECT_EQ(model.water_box->cells, Eigen::Vector3i(120, 48, 48));
+    for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+        const Evaluation evaluation = evaluate(water, {}, {.precision = precision});
+        EXPECT_EQ(evaluation.stopped, StopReason::completed);
+        EXPECT_EQ(evaluation.frames, 6);
+        EXPECT_EQ(evaluation.distance, 0);
+        EXPECT_FALSE(evaluation.swimming);
+    }
+}
+
+/// Bodies are then as in scheme conserving, to the bit.
+TEST(LatticeSwim, NothingSwimsInVacuum) {
+    Scene scene = lake();
+    scene.fluid.reset();
+    scene.planes.clear();
+    const Evaluation evaluation = evaluate(scene, wave());
+    EXPECT_EQ(evaluation.stopped, StopReason::completed);
+    EXPECT_LT(std::abs(evaluation.distance), 1e-4);
+    scene.scheme = Scheme::conserving;
+    EXPECT_EQ(evaluate(scene, wave()).hash, evaluation.hash);
+}
+
 TEST(LatticeSwim, MusclesWork) {
     const Evaluation evaluation = evaluate(lake(), wave());
     ASSERT_TRUE(evaluation.work);
@@ -109,7 +137,9 @@ TEST(LatticeSwim, ACurrentInTheTankChangesNothingInIt) {
 }
 
 TEST(LatticeSwim, NothingSwimsInAVacuum) {
-    const Evaluation evaluation = natator::evaluate(lake({{"fluid", nullptr}}), wave());
+    Scene empty = lake();
+    empty.fluid.reset();
+    const Evaluation evaluation = evaluate(empty, wave());
     EXPECT_EQ(evaluation.stopped, StopReason::completed);
     EXPECT_LT(std::abs(evaluation.distance), 1e-4);
 }
@@ -125,7 +155,8 @@ TEST(LatticeSwim, RefusesWhatItHasNot) {
     EXPECT_NE(refusal({{"solver", {{"kinematicViscosity", 0}}}}).find("kinematicViscosity = 0: must be above 0"), std::string::npos);
     Scene empty = lake();
     empty.creature.reset();
-    EXPECT_NE(test::refusal_of([&] { build_model(empty); }).find("needs a creature"), std::string::npos);
+    empty.fluid.reset();
+    EXPECT_NE(test::refusal_of([&] { build_model(empty); }).find("needs a creature or fluid"), std::string::npos);
     EXPECT_NE(refusal({{"planes", {{0, 1, 0, 0.3}}}}).find("planes[0] stands at -0.3: must be at the fluid's end, 0"), std::string::npos);
     EXPECT_NE(refusal({{"planes", {{0.6, 0.8, 0, 0}}}}).find("square across an axis"), std::string::npos);
     EXPECT_NE(refusal({{"fluid", {{"mass", {{"gradient", "mass-linear"}}}}}}).find("must be uniform"), std::string::npos);

@@ -134,7 +134,7 @@ TEST(MovingTank, ScenesThatItCantFollowAreRefused) {
         const char* overrides;
         const char* word;
     } cases[] = {
-        {R"({"scheme": "flex", "solver": {"kinematicViscosity": 0}})", "scheme conserving only"},
+        {R"({"scheme": "flex", "solver": {"kinematicViscosity": 0}})", "schemes conserving and lattice only"},
         {R"({"fluid": null})", "needs fluid"},
         {R"({"creature": null})", "needs a creature"},
         {R"({"planes": [[0,1,0,0],[1,0,0,0]]})", "one plane at each end of the tank along x"},

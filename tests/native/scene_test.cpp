@@ -47,6 +47,8 @@ TEST(SceneTest, AllNamedScenesAreThere) {
         "endless/eel",              "endless/evolved-eel",      "endless/water",            "endless/wide-water",
         "goals/cruise",             "goals/hold",               "goals/reach",
         "goals/turn",
+        "lake/creature-1",          "lake/creature-2",          "lake/creature-3",          "lake/creature-4",          "lake/eel",
+        "lake/fry",                 "lake/ray",                 "lake/tadpole",             "lake/tuna",                "lake/water",
         "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",
         "open-water/creature-4",    "open-water/eel",           "open-water/periodic",      "open-water/ray",           "open-water/tadpole",
         "open-water/tuna",          "open-water/water",         "pool/creature-1",

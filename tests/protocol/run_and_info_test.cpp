@@ -207,6 +207,19 @@ TEST(InfoTest, DescribesTheProgramWithoutAScene) {
     EXPECT_NE(run_simulator({"info"}).out.find("thesis/creature-4-vacuum"), std::string::npos);
 }
 
+/// Scene lake/water has no particles; the rest has a body in the same cells.
+TEST(InfoTest, DescribesWaterOnALattice) {
+    for (const char* scene : {"lake/water", "lake/creature-2"}) {
+        const Outcome text = run_simulator({"info", scene});
+        EXPECT_EQ(text.exit_code, 0) << text.err;
+        EXPECT_NE(text.out.find("cells           120\n                48\n                48\n"), std::string::npos) << text.out;
+        EXPECT_EQ(json::parse(run_simulator({"info", scene, "--json"}).out).at("cells"), json({120, 48, 48}));
+    }
+    const Outcome run = run_simulator({"run", "lake/water", "--duration", "0.1"});
+    EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+    EXPECT_NE(run.out.find("completed"), std::string::npos) << run.out;
+}
+
 TEST(RunTest, ASnapshotHoldsAllParticlesAndChangesNothing) {
     const TemporaryPath file("-snapshot.csv");
     const std::vector<std::string> run = {"run", "thesis/creature-1", "--gait", gait, "--duration", "0.1"};

@@ -13,6 +13,7 @@ namespace natator {
 struct Cost {
     double candidates = 0;  ///< pairs that the search for neighbours looks at in a substep
     double neighbours = 0;  ///< entries of the neighbour lists, fluid and contacts
+    double cells = 0;       ///< of water on a lattice
     double per_substep = 0;  ///< pair visits in a substep, with all its iterations; other work is counted as if it were
     double bytes = 0;  ///< memory on the CPU at most; most runs were measured to take four fifths of it or more
 };

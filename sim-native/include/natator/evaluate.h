@@ -24,7 +24,7 @@ enum class Precision { single_precision, double_precision };
 /// Why an evaluation ended.
 enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
-/// Name in requests and results: "flex", "conserving".
+/// Name in requests and results: "flex", "conserving", "lattice".
 const char* to_string(Scheme scheme);
 /// Name in requests and results: "float", "double".
 const char* to_string(Precision precision);

@@ -73,7 +73,7 @@ struct Model {
     std::vector<Eigen::Vector3d> rest_position;  ///< for self_collide_filter; empty if no particle has it
 
     std::vector<Plane> planes;
-    std::optional<WaterBox> water_box;    ///< the water of scheme `lattice`; in the others it is particles
+    std::optional<WaterBox> water_box;    ///< the water of scheme `lattice`, if any; in the others it is particles
     std::vector<PeriodicAxis> periodic;  ///< at most one an axis; all planes are along them
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;

@@ -37,7 +37,8 @@ constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so man
 constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
 constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
 constexpr double most_samples = 4096, most_looks = 2e7;
-constexpr double bytes_of_lattice_cell = 160, work_of_lattice_cell = 6;  // 2 x 17 moments, changes, whose it is
+// Of scheme lattice: 2 x 17 moments, a change of the velocity, whose it is. Rows are padded, and each part of the planes has three of populations.
+constexpr double bytes_of_lattice_cell = 160, bytes_of_populations = 3 * 27 * sizeof(float), work_of_lattice_cell = 25;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
 
@@ -146,6 +147,13 @@ Candidates candidates_at_start(const Model& model, double search_distance, bool 
     return sum;
 }
 
+double bytes_of_lattice(const Eigen::Vector3d& cells, bool several_threads) {
+    constexpr double group = 16, margins = 2 * 16, planes_of_part = 4;
+    const double plane = (std::ceil(cells.x() / group) * group + margins) * cells.y();
+    const double parts = several_threads ? std::max(1.0, cells.z() / planes_of_part) : 1;
+    return plane * (bytes_of_lattice_cell * cells.z() + bytes_of_populations * parts);
+}
+
 /// What a variable of the environment says instead of `usual`.
 double from_environment(const char* name, double usual) {
     const char* const text = std::getenv(name);
@@ -184,6 +192,12 @@ Cost cost_of(const Model& model, const Computing& computing) {
     Cost cost;
     const double particles = model.particles();
     const SolverParameters& p = model.parameters;
+    if (model.water_box) {
+        const Eigen::Vector3d cells = model.water_box->cells.cast<double>();
+        cost.cells = cells.prod();
+        cost.per_substep = work_of_lattice_cell * cost.cells;
+        cost.bytes = bytes_of_lattice(cells, computing.several_threads);
+    }
     if (model.position.empty()) return cost;
     const bool water = model.scheme == Scheme::conserving;
     const double support = p.kernelSupport * p.fluidRestDistance;
@@ -208,17 +222,12 @@ Cost cost_of(const Model& model, const Computing& computing) {
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
     const double springs = static_cast<double>(model.springs.size());
     const double of_solids = springs + members + work_of_cluster * static_cast<double>(model.clusters.size());
-    const double per_iteration = cost.neighbours + (water ? p.solidIterations : 1) * of_solids +
+    const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.solidIterations) * of_solids +
                                  particles * (work_of_particle + static_cast<double>(model.planes.size())) +
                                  work_of_substep;
-    cost.per_substep = cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +
+    cost.per_substep += cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
 
-    if (model.water_box) {
-        const double cells = model.water_box->cells.cast<double>().prod();
-        cost.per_substep += work_of_lattice_cell * cells;
-        cost.bytes += bytes_of_lattice_cell * cells;
-    }
     const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;
     const double listed = fluid * std::min(raggedness * resting + of_bursting * std::max(start.near - resting, 0.0), most);
     const auto add = [&](double count, const Room& room) { cost.bytes += count * room.with(computing); };
@@ -245,8 +254,8 @@ Budget Budget::of_user() {
 void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where, const Computing& computing) {
     const Cost cost = cost_of(model, computing);
     const Budget budget = Budget::of_user();
-    const std::string particles =
-        std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
+    std::string particles = std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
+    if (cost.cells > 0) particles += " in " + figure_text(cost.cells) + " cells of water";
     if (cost.neighbours > limits::neighbours)
         throw InputError(where + ": " + particles + ": must be at most " + figure_text(limits::neighbours) +
                          " neighbours together (radius, spacing, maxNeighborsPerParticle)");

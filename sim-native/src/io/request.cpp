@@ -104,7 +104,7 @@ Request parse_request(const json& value, const std::string& document) {
         request.overrides = value.at("overrides");
         if (!request.overrides.is_object()) fields::refuse(place.key("overrides"), request.overrides, "an object");
     }
-    for (const auto& [key, must_be] : {std::pair("duration", "a number"), std::pair("scheme", R"("flex" or "conserving")")}) {
+    for (const auto& [key, must_be] : {std::pair("duration", "a number"), std::pair("scheme", R"("flex", "conserving" or "lattice")")}) {
         if (!value.contains(key)) continue;
         if (value.at(key).is_null()) fields::refuse(place.key(key), value.at(key), must_be);  // it would erase the scene's own
         request.overrides[key] = value.at(key);

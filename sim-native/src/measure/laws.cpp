@@ -96,7 +96,7 @@ LawMeasures measure_laws(const Model& model, const State<Real>& state) {
         most = energy;
         measures.most_energetic = i;
     }
-    measures.particle_energy = static_cast<double>(most);
+    measures.particle_energy = low.x() <= high.x() ? static_cast<double>(most) : 0;  // nothing moves, nothing has any
     measure_depth(model, state, low, high, measures);
     measure_reach(model, state, measures);
     return measures;

@@ -62,7 +62,7 @@ void check_size(const Scene& scene) {
     const bool two = scene.companions.empty() && scene.obstacles.empty();
     const std::string found =
         std::to_string(particles) + " particles (fluid.count" + (two ? " and " : ", ") + parts + " together)";
-    if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
+    if (particles == 0 && !(scene.fluid && scene.scheme == Scheme::lattice)) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }
 

@@ -35,7 +35,6 @@ void add_wall(const Scene& scene, std::size_t plane, WaterBox& box) {
 }  // namespace
 
 WaterBox water_box(const Scene& scene) {
-    if (!scene.creature) refuse_lattice(scene, "needs a creature");
     if (!scene.companions.empty() || !scene.obstacles.empty()) refuse_lattice(scene, "has no companions and obstacles yet; must be without them");
     const FluidBlock& fluid = *scene.fluid;
     if (fluid.gradient != MassGradient::uniform) refuse_lattice(scene, "fluid.mass.gradient: must be uniform");

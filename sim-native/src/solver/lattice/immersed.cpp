@@ -17,7 +17,7 @@ Eigen::Matrix3d completed(Eigen::Matrix3d gradient, const Eigen::Matrix3d& missi
     if (lost < 0.5) return gradient;
     if (lost > 2.5) return half * Eigen::Matrix3d::Identity();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(missing);  // ascending: 0 spanned, 1 missing
-    const Eigen::Matrix3d e = axes.eigenvectors();
+    const Eigen::Matrix3d& e = axes.eigenvectors();
     if (lost < 1.5) {
         const Eigen::Vector3d n = (gradient * e.col(0)).cross(gradient * e.col(1)).normalized();
         const double sign = e.col(0).cross(e.col(1)).dot(e.col(2)) > 0 ? 1 : -1;

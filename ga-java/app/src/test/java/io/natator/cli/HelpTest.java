@@ -60,14 +60,14 @@ class HelpTest {
     @CsvSource(delimiter = '|', value = {
         "evolve|a GPU where there is one). Default: cpu; of a run that is resumed, its own.",
         "evolve|Simulated time, to the nearest frame. Default: the preset's, else the scene's (4 for the thesis scenes).",
-        "evolve|How to solve: flex or conserving. Default: the scene's.",
+        "evolve|How to solve: flex, conserving or lattice. Default: the scene's.",
         "resume|a GPU where there is one). Default: the run's.", "check|a GPU where there is one). Default: the run's.",
         "evaluate|a GPU where there is one). Default: cpu.", "compare-flex|a GPU where there is one). Default: cpu.",
         "compare|a GPU where there is one). Default: that of the runs, cpu if they have several.",
         "evaluate|Simulated time, to the nearest frame. Default: the scene's (4 for the thesis scenes).",
-        "evaluate|How to solve: flex or conserving. Default: the scene's.",
+        "evaluate|How to solve: flex, conserving or lattice. Default: the scene's.",
         "page|Simulated time, to the nearest frame. Default: the run's, else the scene's (4 for the thesis scenes).",
-        "page|How to solve: flex or conserving. Default: the run's, else the scene's."})
+        "page|How to solve: flex, conserving or lattice. Default: the run's, else the scene's."})
     void sharedOptionsHaveEachCommandsDefault(String command, String text) {
         String help = Main.commandLine().getSubcommands().get(command).getUsageMessage();
 

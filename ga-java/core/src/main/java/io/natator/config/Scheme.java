@@ -9,5 +9,8 @@ public enum Scheme {
     FLEX,
     /** Incompressible water, and bodies that move by their own forces alone. */
     @JsonProperty("conserving")
-    CONSERVING
+    CONSERVING,
+    /** The same bodies in water on a lattice, which has no surface. */
+    @JsonProperty("lattice")
+    LATTICE
 }

@@ -49,7 +49,7 @@ public final class EffortEvaluator implements Evaluator {
     private Effort effort(SimulationResult result, SimulationRequest request) {
         if (result.work() == null) {
             throw new InvalidInputException("optimizer map-elites: this simulator does not measure the muscles' work in scheme "
-                    + result.scheme() + ", by which kinds of gaits are told apart; expected --scheme conserving");
+                    + result.scheme() + ", by which kinds of gaits are told apart; expected --scheme conserving or lattice");
         }
         return new Effort(request.gait().frequency() * result.simulated(),
                 result.distance() / bodyLength.applyAsDouble(request), result.distance(), result.work());

@@ -39,6 +39,7 @@ public record Verdict(Kind kind, String text, String advice) {
     static final double LEAST_LEFT = 0.5;
 
     private static final String CONSERVING = "conserving";
+    private static final String LATTICE = "lattice";
     private static final String NEUTRAL = "try --scene pool/creature-N or, finer and slower, "
             + "open-water/creature-N, whose scheme keeps momentum";
     private static final String HONEST = NEUTRAL + "; or --fitness net, which takes off the drift in vacuum";
@@ -101,7 +102,7 @@ public record Verdict(Kind kind, String text, String advice) {
 
     /** By the drift first, since that is no swimming wherever it leads. */
     private static Verdict judged(Swim water, SimulationResult vacuum, Length length, String speeds) {
-        boolean keepsMomentum = CONSERVING.equals(water.scheme());
+        boolean keepsMomentum = CONSERVING.equals(water.scheme()) || LATTICE.equals(water.scheme());
         double drift = vacuum.speed() / water.speed();
         if (Math.abs(drift) >= DRIFT_ONLY) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + times(drift, water, vacuum),

@@ -21,6 +21,7 @@ public final class WinnerFacts {
 
     private static final int DIGITS = 3;
     private static final double WORTH_TELLING = 0.01; // body volumes of cavities
+    private static final double LEAST_ACROSS = 3.99; // spacings of the water, less rounding, that a body needs
 
     private WinnerFacts() {
     }
@@ -57,13 +58,13 @@ public final class WinnerFacts {
         if (best.fresh() != null) {
             SwimSample base = best.fresh().base();
             put(facts, "cost", cost(base.work(), base.costOfTransport()));
-            put(facts, "flow", numbers(base.reynolds(), base.strouhal(), base.cavities()));
+            put(facts, "flow", numbers(base.reynolds(), base.strouhal(), base.cavities(), across(best.result().swimming())));
         } else {
             SimulationResult one = best.result();
             SwimmingNumbers numbers = one.swimming();
             put(facts, "cost", cost(one.work(), one.work() == null || one.distanceOrZero() <= 0 ? null : one.work() / one.distance()));
             put(facts, "flow", numbers == null ? List.of()
-                    : numbers(numbers.reynolds(), numbers.strouhal(), numbers.cavities()));
+                    : numbers(numbers.reynolds(), numbers.strouhal(), numbers.cavities(), across(numbers)));
         }
         return facts;
     }
@@ -79,7 +80,12 @@ public final class WinnerFacts {
         return parts;
     }
 
-    private static List<String> numbers(Double reynolds, Double strouhal, Double cavities) {
+    /** The same for all runs of a body in one water. */
+    private static Double across(SwimmingNumbers one) {
+        return one == null ? null : one.across();
+    }
+
+    private static List<String> numbers(Double reynolds, Double strouhal, Double cavities, Double across) {
         List<String> parts = new ArrayList<>();
         if (reynolds != null) {
             parts.add("Reynolds number " + Numbers.significant(reynolds, DIGITS));
@@ -89,6 +95,9 @@ public final class WinnerFacts {
         }
         if (cavities != null && cavities >= WORTH_TELLING) {
             parts.add("cavities in the water " + Numbers.significant(cavities, DIGITS) + " body volumes");
+        }
+        if (across != null && across > 0 && across < LEAST_ACROSS) {
+            parts.add("body " + Numbers.significant(across, 2) + " spacings of the water across");
         }
         return parts;
     }

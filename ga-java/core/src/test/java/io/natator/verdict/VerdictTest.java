@@ -30,6 +30,7 @@ class VerdictTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+        "lattice|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
         "conserving|0.75|completed|4|-0.001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
         "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.048 body lengths in 4.00 s, less than 0.05",
         "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves -0.001 body lengths in 4.00 s, less than 0.05",

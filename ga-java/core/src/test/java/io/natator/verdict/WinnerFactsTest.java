@@ -10,10 +10,13 @@ import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SwimmingNumbers;
 import java.nio.file.Path;
+import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 class WinnerFactsTest {
 
@@ -22,8 +25,12 @@ class WinnerFactsTest {
     private Path run;
 
     private static SimulationResult result(double distance) {
+        return result(distance, null);
+    }
+
+    private static SimulationResult result(double distance, Double across) {
         return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float", null, null,
-                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, null), 3.0, null);
+                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, across), 3.0, null);
     }
 
     private static BestGait best(FreshRuns fresh) {
@@ -52,5 +59,21 @@ class WinnerFactsTest {
         assertThat(WinnerFacts.of(run, best(null))).containsOnlyKeys("verdict", "cost", "flow")
                 .containsEntry("verdict", "swims: 0.50 body lengths/s, 0.00 in vacuum (one run, not a mean)")
                 .containsEntry("cost", "cost of transport 1.2 mass · length/s², work of the muscles 3 mass · length²/s²");
+    }
+
+    /** A body that the water is too coarse for is said to be, of one run and of fresh ones; what has no number of it, or enough, is not. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", value = {"1.5|, body 1.5 spacings of the water across",
+        "3.98|, body 4 spacings of the water across", "0.5|, body 0.5 spacings of the water across",
+        "4|-", "3.999999|-", "9|-", "0|-", "-|-"})
+    void coarseWaterIsTold(Double across, String told) {
+        SimulationResult one = result(2.0, across);
+        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(one), 4, GAIT, 4.0, 1.25),
+                SwimSample.of(List.of(one), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, List.of(2.0));
+        String flow = "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes" + (told == null ? "" : told);
+        for (FreshRuns runs : Arrays.asList(null, fresh)) {
+            BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, one, 1.25, result(0), 2.5, 1, runs);
+            assertThat(WinnerFacts.mechanics(best)).containsEntry("flow", flow);
+        }
     }
 }

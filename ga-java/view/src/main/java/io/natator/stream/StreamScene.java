@@ -19,7 +19,7 @@ import java.util.Map;
  * @param scene             name or path
  * @param overrides         JSON Merge Patch on the scene, or null
  * @param gait              how the muscles move, or null
- * @param scheme            {@code flex} or {@code conserving}
+ * @param scheme            {@code flex}, {@code conserving} or {@code lattice}
  * @param precision         {@code float} or {@code double}
  * @param definition        the whole scene, bases and overrides merged
  * @param timeStep          of a frame, s

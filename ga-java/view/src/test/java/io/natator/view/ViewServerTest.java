@@ -108,7 +108,7 @@ class ViewServerTest {
         assertThat(setup.get("version").textValue()).matches("\\d+\\.\\d+\\.\\d+.*");
         assertThat(setup.get("scenes")).extracting(JsonNode::textValue).contains("thesis/creature-1", "thesis/tank");
         assertThat(setup.get("schemes")).extracting(JsonNode::textValue)
-                .containsExactly("flex", "conserving");
+                .containsExactly("flex", "conserving", "lattice");
         assertThat(setup.get("start").get("scene").textValue()).isEqualTo(ViewFixture.SCENE);
         assertThat(setup.get("start").get("gait").get("frequency").asDouble()).isEqualTo(1.5);
         assertThat(setup.get("runs").toString()).isEqualTo("[{\"id\":0,\"name\":\"my-run\"}]");

@@ -11,8 +11,8 @@ const DEFAULTS = {
 const SETTINGS = [
   {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1, accepts: [1, 1000]},
   {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1, accepts: [1, 1000]},
-  {id: 'solidIterations', label: 'Of solids', title: 'solidIterations: of springs, clusters and contacts in each iteration; scheme conserving',
-    min: 1, max: 32, step: 1, accepts: [1, 1000], scheme: 'conserving'},
+  {id: 'solidIterations', label: 'Of solids', title: 'solidIterations: of springs, clusters and contacts in each iteration; not of scheme flex',
+    min: 1, max: 32, step: 1, accepts: [1, 1000], not: 'flex'},
   {id: 'viscosity', label: 'Viscosity', title: 'of the fluid', min: 0, max: 60, step: 0.5, accepts: [0, 10000]},
   {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01,
     accepts: [0, 100]},
@@ -49,9 +49,9 @@ export class SolverControls {
   show(scene) {
     const solver = {...DEFAULTS, ...scene.definition.solver};
     this.#gravity = solver.gravity;
-    for (const {id, scheme} of SETTINGS) {
+    for (const {id, not} of SETTINGS) {
       const slider = this.#sliders.get(id);
-      slider.disabled = scheme !== undefined && scheme !== scene.scheme;
+      slider.disabled = not === scene.scheme;
       slider.show(id === 'gravity' ? -solver.gravity[1] : solver[id]);
     }
   }
