@@ -26,16 +26,16 @@ class UnknownSceneTest {
     @CsvSource(delimiter = '|', value = {
         "export --format csv runs/nothing|runs/nothing is neither a run folder nor a scene",
         "export --format csv --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
-        "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray or pool/ray?",
-        "picture tuna|tuna is neither a run folder nor a scene; did you mean pool/tuna or open-water/tuna?",
+        "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray, lake/ray or pool/ray?",
+        "picture tuna|tuna is neither a run folder nor a scene; did you mean lake/tuna, pool/tuna or open-water/tuna?",
         "picture gone.json|gone.json is neither a run folder nor a scene: there is no such file",
         "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
         "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
         "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
-        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/tuna "
-            + "or open-water/tuna?",
+        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/tuna, "
+            + "lake/tuna or open-water/tuna?",
         "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, "
-            + "endless/eel or open-water/eel?"})
+            + "lake/eel or endless/eel?"})
     void onlyWhatIsNearIsNamed(String arguments, String message) {
         StringWriter err = new StringWriter();
         CommandLine command = Main.commandLine().setOut(new PrintWriter(new StringWriter())).setErr(new PrintWriter(err, true));
