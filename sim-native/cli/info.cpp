@@ -102,7 +102,7 @@ ordered_json describe_scene(const Scene& scene) {
     if (const std::string warning = warning_of_across(water_across(model)); !warning.empty()) info["warning"] = warning;
     if (model.water_box) {
         const Eigen::Vector3i& cells = model.water_box->cells;
-        info["cells"] = std::to_string(cells.x()) + " x " + std::to_string(cells.y()) + " x " + std::to_string(cells.z());
+        info["cells"] = {cells.x(), cells.y(), cells.z()};
     }
     if (scene.creature) {
         if (const std::string bends = describe_bends(*scene.creature); !bends.empty()) info["bends"] = bends;

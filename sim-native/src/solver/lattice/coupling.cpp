@@ -50,8 +50,9 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
     }
     water_->advance(immersed_.cubes(places_, velocities_, *model_.water_box, h), h, pushes_);
     const std::vector<Eigen::Vector3d> given = immersed_.impulses(pushes_, *model_.water_box, h);
+    const double of_size = std::max(1.0, 2 * model_.water_box->cell / model_.body.spacing);
     for (std::size_t i = 0; i < given.size(); ++i) {
-        const double kept = std::max(1.0, displaced_ * model_.inverse_mass[i]);
+        const double kept = of_size * std::max(1.0, displaced_ * model_.inverse_mass[i]);
         impulses_[i] = (given[i] + kept * impulses_[i]) / (1 + kept);
     }
     time_ = time;
