@@ -219,6 +219,16 @@ TEST(LatticeWater, SaysWhenThereIsNoSuchGpu) {
     EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), -1), NoDevice);
 }
 
+TEST(LatticeWater, ACrushedBodyHoldsNoCells) {
+    Bar bar;
+    const auto water = Water::on_cpu(bar.box_, 1);
+    for (Eigen::Vector3d& place : bar.place_) place.x() = 12;
+    std::vector<Push> pushes;
+    water->advance(bar.cubes(), 1, pushes);
+    for (const Push& push : pushes) EXPECT_EQ(push.j[0], 0);
+    EXPECT_EQ(water->cell({12, 11, 11}).velocity.norm(), 0);
+}
+
 /// A sphere of cubes a cell wide, a fifth of a cell larger than 12 cells, in a periodic box of 48.
 class LatticeSphere : public ::testing::Test {
 protected:
