@@ -17,7 +17,7 @@ struct Cell {
 };
 
 /// Moments of a cell (physics/lattice.h) in equilibrium.
-void equilibrium(const Cell& cell, float (&moments)[17]);
+void equilibrium(const Cell& cell, float (&to)[17]);
 
 /// Water on a D3Q27 lattice, with bodies whose cells are told their velocity (physics/lattice.h).
 ///
