@@ -8,7 +8,7 @@ namespace natator::bench {
 namespace {
 
 /// Of the body's length: where the nose begins, in the usual box, and how far it goes until the box is moved along.
-constexpr double nose = 1.5, step = 0.2;
+constexpr double nose_at = 1.5, step = 0.2;
 constexpr double course_per_drift = 0.7;  ///< radians for a length
 constexpr double steering_time = 6;       ///< s
 
@@ -93,7 +93,7 @@ template <class Real>
 Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSetting& setting)
     : spacing_(spacing_of(setting)),
       count_((scene.length / 2 * scene.box / spacing_).array().round().matrix().template cast<int>() * 2),
-      start_(scene.box.x() / 2.3 * nose * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
+      start_(scene.box.x() / 2.3 * nose_at * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
       tank_(count_, setting, [&](Model& model) {
           model.parameters.gravity = {0, -scene.gravity, 0};
           held_ = hold([&](const Eigen::Vector3d& x) { return swimmer.holds(x - start_, scene.length, spacing_); }, model);

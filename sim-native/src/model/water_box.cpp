@@ -61,7 +61,7 @@ Eigen::Vector3d offset_in_cells(const Scene& scene) {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     if (scene.fluid->disorder == 0) return offset;
     std::mt19937_64 random(static_cast<std::uint64_t>(scene.fluid->disorder));
-    for (double& along : offset) along = scene.fluid->spacing * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    for (double& part : offset) part = scene.fluid->spacing * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
     return offset;
 }
 
