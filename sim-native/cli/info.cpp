@@ -98,8 +98,9 @@ ordered_json describe_scene(const Scene& scene) {
     if (!model.companions.empty()) info["companions"] = model.companions.size();
     if (!scene.obstacles.empty()) info["obstacles"] = scene.obstacles.size();
     info["bodyLength"] = model.body.length;
-    if (const double across = water_across(model); across > 0) info["across"] = across;
-    if (const std::string warning = warning_of_across(water_across(model)); !warning.empty()) info["warning"] = warning;
+    const double across = water_across(model);
+    if (across > 0) info["across"] = across;
+    if (const std::string warning = warning_of_across(across); !warning.empty()) info["warning"] = warning;
     if (model.water_box) {
         const Eigen::Vector3i& cells = model.water_box->cells;
         info["cells"] = {cells.x(), cells.y(), cells.z()};
