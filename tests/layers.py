@@ -8,7 +8,7 @@ from pathlib import Path
 FLOORS = ["base", "physics", "model", "scene", "solver", "run", "protocol", "bench", "cli"]
 # Of folders of src/, of public headers, and of what stands beside src/.
 FLOOR_OF = {
-    "src/physics": "physics", "src/mesh": "model", "src/gait": "model", "src/model": "model", "src/scene": "scene", "src/solver": "solver",
+    "src/base": "base", "src/physics": "physics", "src/mesh": "model", "src/gait": "model", "src/model": "model", "src/scene": "scene", "src/solver": "solver",
     "src/cost": "run", "src/converge": "run", "src/evaluate": "run", "src/live": "run", "src/measure": "run", "src/io": "protocol",
     "bench": "bench", "cli": "cli",
 }
@@ -22,25 +22,20 @@ PUBLIC = {
 }
 # What is known, and to become less: "LOWER > HIGHER" folder, or the folders that include each other.
 KNOWN = {
-    "src/cost > src/io", "src/converge > src/io", "src/evaluate > src/io", "src/live > src/io", "src/measure > src/io",
-    "src/gait > src/io", "src/mesh > src/io", "src/model > src/io", "src/scene > src/io", "src/solver > src/io",
-    "src/gait > src/solver", "src/model > src/scene", "src/scene > src/measure",
+    "src/gait > src/solver", "src/model > src/scene", "src/scene > src/io",
     "src/solver > src/measure", "src/solver > src/evaluate", "src/solver > include/natator",
-    "src/evaluate, src/gait, src/io, src/measure, src/mesh, src/model, src/scene, src/solver",
-    "src/solver/cpu, src/solver/cuda, src/solver/lattice",
+    "src/evaluate, src/io, src/model, src/scene", "src/measure, src/solver", "src/solver/cpu, src/solver/cuda, src/solver/lattice",
 }
 
 
 def folder_of(file):
-    """The longest that has a floor."""
-    return next(str(up) for up in file.parents if str(up) in FLOOR_OF or str(up) == "include/natator")
+    return next((str(up) for up in file.parents if str(up) in FLOOR_OF or str(up) == "include/natator"), "")
 
 
 def floor_of(file):
     folder = folder_of(file)
-    if folder != "include/natator":
-        return FLOORS.index(FLOOR_OF[folder])
-    return next((FLOORS.index(floor) for floor, names in PUBLIC.items() if file.stem in names.split()), None)
+    floor = FLOOR_OF.get(folder) or next((floor for floor, names in PUBLIC.items() if file.stem in names.split()), None)
+    return FLOORS.index(floor) if floor else None
 
 
 def included(root):

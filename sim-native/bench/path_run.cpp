@@ -5,12 +5,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/text.h"
 #include "evaluate/settle.h"
 #include "in_precision.h"
-#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/momentum.h"
 #include "natator/measure.h"
+#include "natator/momentum.h"
 
 namespace natator::bench {
 namespace {

@@ -2,11 +2,11 @@
 #include <memory>
 #include <sstream>
 
+#include "base/text.h"
 #include "commands.h"
 #include "commit.h"
 #include "evaluate/swim_record.h"
 #include "io/protocol.h"
-#include "io/strict_json.h"
 #include "json_argument.h"
 #include "natator/batch.h"
 #include "natator/error.h"

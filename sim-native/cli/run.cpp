@@ -6,10 +6,10 @@
 #include <optional>
 #include <sstream>
 
+#include "base/text.h"
 #include "commands.h"
 #include "gait_argument.h"
 #include "io/protocol.h"
-#include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"

@@ -1,6 +1,6 @@
 #include "level.h"
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator {

@@ -9,8 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "io/decimal_number.h"
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "solver/cpu/cell_grid.h"

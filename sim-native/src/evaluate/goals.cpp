@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "natator/pose.h"
 #include "scene/tank_ends.h"

@@ -9,9 +9,9 @@
 #include <system_error>
 #include <vector>
 
+#include "base/fnv1a.h"
+#include "base/whole_file.h"
 #include "byte_writer.h"
-#include "io/whole_file.h"
-#include "measure/fnv1a.h"
 #include "settled_state_key.h"
 
 namespace natator {

@@ -1,6 +1,7 @@
 #include "natator/actuate.h"
 
-#include "check_values.h"
+#include "base/check_values.h"
+#include "check_gait.h"
 #include "physics/muscle.h"
 #include "solver/check_model.h"
 

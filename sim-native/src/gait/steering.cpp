@@ -4,8 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "check_values.h"
-#include "io/strict_json.h"
+#include "base/check_values.h"
+#include "base/text.h"
+#include "check_gait.h"
 #include "natator/error.h"
 
 namespace natator {

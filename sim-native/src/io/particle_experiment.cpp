@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 
-#include "io/strict_json.h"
+#include "base/field.h"
+#include "base/text.h"
 #include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "scene/field.h"
 
 namespace natator {
 namespace {

@@ -1,7 +1,7 @@
 #include <charconv>
 #include <string>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/gpu_solver.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/field.h"
 #include "natator/evaluate.h"
-#include "scene/field.h"
 
 /// The pipe protocol: one request in, one result out, both JSON objects on one line (sim-native/protocol).
 namespace natator {

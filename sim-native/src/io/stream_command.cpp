@@ -1,6 +1,6 @@
+#include "base/field.h"
 #include "io/protocol.h"
 #include "io/stream.h"
-#include "scene/field.h"
 
 namespace natator {
 namespace {

@@ -2,10 +2,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "base/strict_json.h"
 #include "evaluate/conservation_errors.h"
 #include "io/protocol.h"
 #include "io/stream.h"
-#include "io/strict_json.h"
 #include "model/borders.h"
 #include "model/skin_weights.h"
 #include "natator/instruction_set.h"

@@ -1,4 +1,4 @@
-#include "io/whole_file.h"
+#include "base/whole_file.h"
 #include "natator/error.h"
 #include "natator/trajectory.h"
 

@@ -1,7 +1,7 @@
+#include "base/strict_json.h"
 #include "evaluate/conservation_errors.h"
 #include "evaluate/perturb.h"
 #include "evaluate/settled_start.h"
-#include "io/strict_json.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"

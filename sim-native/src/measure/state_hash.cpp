@@ -1,4 +1,4 @@
-#include "fnv1a.h"
+#include "base/fnv1a.h"
 #include "natator/measure.h"
 
 namespace natator {

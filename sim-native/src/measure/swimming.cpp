@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/plan.h"
 
 namespace natator {

@@ -8,8 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "io/decimal_number.h"
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "polygon_mesh.h"

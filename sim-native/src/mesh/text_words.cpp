@@ -4,8 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "io/decimal_number.h"
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "polygon_mesh.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "scene/readers.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "model/borders.h"
 #include "model/carried_weight.h"
 #include "physics/constants.h"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <sstream>
 
+#include "base/fnv1a.h"
+#include "base/text.h"
 #include "data_files.h"
-#include "io/strict_json.h"
-#include "measure/fnv1a.h"
 #include "mesh/check_mesh.h"
 #include "mesh/mesh_points.h"
 #include "mesh/mesh_slices.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "field.h"
+#include "base/field.h"
 #include "natator/scene.h"
 
 /// One reader per part of a scene. Each throws InputError and leaves what is absent at its default.

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/limits.h"
 #include "readers.h"
 #include "scene/scene_json.h"

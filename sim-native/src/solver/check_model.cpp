@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "gait/check_values.h"
-#include "io/strict_json.h"
+#include "base/check_values.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 

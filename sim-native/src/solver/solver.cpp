@@ -5,13 +5,13 @@
 #include <string>
 #include <variant>
 
+#include "base/check_values.h"
 #include "check_model.h"
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
-#include "gait/check_values.h"
 #include "lattice/coupling.h"
-#include "natator/actuate.h"
 #include "measure/law_name.h"
+#include "natator/actuate.h"
 #include "natator/steering.h"
 #include "step.h"
 

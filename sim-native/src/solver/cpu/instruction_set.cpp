@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/text.h"
 #include "conserving/water_kernels.h"
 #include "fluid_kernels.h"
-#include "io/strict_json.h"
 #include "motion_kernels.h"
 #include "natator/error.h"
 #include "neighbour_kernels.h"

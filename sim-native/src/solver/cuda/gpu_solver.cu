@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "batch_runner.h"
-#include "gait/check_values.h"
+#include "gait/check_gait.h"
 #include "large/large_runner.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"

@@ -1,20 +1,16 @@
 #pragma once
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 
+/// Numbers and text as messages show them, and as they are read.
 namespace natator {
 
-/// Parses JSON text. Refuses what the format's usual readers let pass in silence: a key given twice, and nesting deeper
-/// than 32. Throws InputError with one line: `source`, line and column, what was wrong.
-nlohmann::json parse_json(const std::string& text, const std::string& source);
-
-/// Reads a stream to its end. Throws InputError when it cannot be read or holds more than 16 MiB.
-std::string read_all(std::FILE* file, const std::string& source);
-
-/// Reads a JSON file. Throws InputError when it is absent, unreadable, too large (over 16 MiB) or not valid.
-nlohmann::json read_json_file(const std::string& path);
+/// The number that a text is as a whole: finite, in decimal digits with or without an exponent; none if it is anything else, such
+/// as 0x2, 1f, NaN, or a number with spaces.
+std::optional<double> decimal_number(std::string_view text);
 
 /// A number as it is shown in messages: the shortest text that reads back as it.
 std::string number_text(double value);
@@ -35,5 +31,8 @@ std::string quoted(const std::string& text);
 /// A message as it is printed: ends of lines are spaces, the same characters are escaped as in quoted text, nothing is
 /// shortened.
 std::string as_one_line(const std::string& text);
+
+/// Cuts text to `longest` bytes, and not in the middle of a UTF-8 character.
+std::string shortened(std::string text, std::size_t longest);
 
 }  // namespace natator

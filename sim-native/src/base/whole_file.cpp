@@ -1,4 +1,4 @@
-#include "io/whole_file.h"
+#include "whole_file.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "io/strict_json.h"
+#include "text.h"
 
 namespace natator {
 namespace {

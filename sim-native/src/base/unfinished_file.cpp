@@ -1,4 +1,4 @@
-#include "io/unfinished_file.h"
+#include "unfinished_file.h"
 
 #include <unistd.h>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/strict_json.h"
 #include "natator/error.h"
+#include "text.h"
 
 namespace natator::fields {
 namespace {

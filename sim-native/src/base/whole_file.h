@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "io/unfinished_file.h"
+#include "unfinished_file.h"
 
 namespace natator {
 
