@@ -8,7 +8,7 @@ from pathlib import Path
 FLOORS = ["base", "physics", "model", "scene", "solver", "run", "protocol", "bench", "cli"]
 # Of folders of src/, of public headers, and of what stands beside src/.
 FLOOR_OF = {
-    "src/base": "base", "src/physics": "physics", "src/mesh": "model", "src/gait": "model", "src/model": "model", "src/scene": "scene", "src/solver": "solver",
+    "src/base": "base", "src/physics": "physics", "src/model": "model", "src/scene": "scene", "src/solver": "solver",
     "src/cost": "run", "src/converge": "run", "src/evaluate": "run", "src/live": "run", "src/measure": "run", "src/io": "protocol",
     "bench": "bench", "cli": "cli",
 }
@@ -22,9 +22,8 @@ PUBLIC = {
 }
 # What is known, and to become less: "LOWER > HIGHER" folder, or the folders that include each other.
 KNOWN = {
-    "src/gait > src/solver", "src/model > src/scene", "src/scene > src/io",
     "src/solver > src/measure", "src/solver > src/evaluate", "src/solver > include/natator",
-    "src/evaluate, src/io, src/model, src/scene", "src/measure, src/solver", "src/solver/cpu, src/solver/cuda, src/solver/lattice",
+    "src/measure, src/solver", "src/solver/cpu, src/solver/cuda, src/solver/lattice",
 }
 
 

@@ -6,8 +6,8 @@
 #include "commands.h"
 #include "commit.h"
 #include "evaluate/swim_record.h"
-#include "io/protocol.h"
 #include "json_argument.h"
+#include "model/tank_ends.h"
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
@@ -18,8 +18,8 @@
 #include "natator/version.h"
 #include "natator/wave_gait.h"
 #include "physics/constants.h"
+#include "scene/gait_json.h"
 #include "scene/scene_json.h"
-#include "scene/tank_ends.h"
 
 namespace natator::cli {
 namespace {

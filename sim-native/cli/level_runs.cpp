@@ -14,6 +14,7 @@
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
 #include "natator/version.h"
+#include "scene/gait_json.h"
 #include "scene/merge_patches.h"
 #include "scene/scene_json.h"
 

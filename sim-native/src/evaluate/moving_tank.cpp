@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "base/text.h"
+#include "model/tank_ends.h"
 #include "natator/error.h"
 #include "natator/pose.h"
-#include "scene/tank_ends.h"
 
 namespace natator {
 namespace {

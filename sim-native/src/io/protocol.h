@@ -37,15 +37,6 @@ nlohmann::json request_id(const nlohmann::json& value);
 double read_perturbation_amplitude(const nlohmann::json& value, const fields::Place& place);
 std::uint64_t read_perturbation_seed(const nlohmann::json& value, const fields::Place& place);
 
-/// An array of numbers, one per actuator, as gaits and commands have them. Their number and range are not checked.
-std::vector<double> read_actuator_values(const nlohmann::json& value, const fields::Place& place);
-
-/// A gait as requests have it.
-nlohmann::ordered_json gait_json(const Gait& gait);
-
-/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `offset` and `power`. Checks types, not ranges (check_gait).
-Gait parse_gait(const nlohmann::json& value, const std::string& document);
-
 /// The result of an evaluation; unstable ones have fitness 0 and tell where they broke.
 nlohmann::ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation, Scheme scheme,
                                    Precision precision);

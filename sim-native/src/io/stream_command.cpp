@@ -1,6 +1,7 @@
 #include "base/field.h"
 #include "io/protocol.h"
 #include "io/stream.h"
+#include "scene/gait_json.h"
 
 namespace natator {
 namespace {

@@ -4,17 +4,17 @@
 
 #include "base/strict_json.h"
 #include "evaluate/conservation_errors.h"
-#include "io/protocol.h"
 #include "io/stream.h"
 #include "model/borders.h"
 #include "model/skin_weights.h"
+#include "model/tank_ends.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
 #include "natator/pose.h"
 #include "natator/version.h"
+#include "scene/gait_json.h"
 #include "scene/scene_json.h"
-#include "scene/tank_ends.h"
 
 namespace natator {
 namespace {

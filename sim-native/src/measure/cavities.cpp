@@ -2,11 +2,11 @@
 #include <cmath>
 #include <string>
 
+#include "model/check_model.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "natator/swimming.h"
 #include "physics/dfsph.h"
-#include "solver/check_model.h"
 
 namespace natator {
 

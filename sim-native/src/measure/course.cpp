@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "model/check_model.h"
 #include "natator/pose.h"
-#include "solver/check_model.h"
 
 namespace natator {
 

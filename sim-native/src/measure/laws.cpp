@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "law_name.h"
+#include "model/check_model.h"
 #include "physics/dfsph.h"
 #include "physics/laws.h"
-#include "solver/check_model.h"
 
 namespace natator {
 namespace {

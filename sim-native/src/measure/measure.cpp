@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "model/check_model.h"
 #include "physics/early_stop.h"
-#include "solver/check_model.h"
 
 namespace natator {
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "solver/check_model.h"
+#include "model/check_model.h"
 
 namespace natator {
 

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "model/borders.h"
+#include "model/check_model.h"
 #include "natator/error.h"
 #include "natator/pose.h"
 #include "physics/constants.h"
-#include "solver/check_model.h"
 
 namespace natator {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 #include "natator/error.h"
-#include "scene/readers.h"
+#include "solver_fields.h"
 
 namespace natator {
 namespace {

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "model/check_scene.h"
 #include "natator/limits.h"
 #include "readers.h"
 #include "scene/scene_json.h"

@@ -6,11 +6,11 @@
 #include <variant>
 
 #include "base/check_values.h"
-#include "check_model.h"
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "lattice/coupling.h"
 #include "measure/law_name.h"
+#include "model/check_model.h"
 #include "natator/actuate.h"
 #include "natator/steering.h"
 #include "step.h"

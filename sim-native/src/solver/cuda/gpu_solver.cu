@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "batch_runner.h"
-#include "gait/check_gait.h"
 #include "large/large_runner.h"
+#include "model/check_gait.h"
+#include "model/check_model.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
-#include "solver/check_model.h"
 #include "way.h"
 
 namespace natator {

@@ -3,11 +3,11 @@
 #include <sstream>
 
 #include "base/text.h"
-#include "model/borders.h"
-#include "model/carried_weight.h"
+#include "borders.h"
+#include "carried_weight.h"
+#include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
-#include "readers.h"
 
 namespace natator::fields {
 namespace {

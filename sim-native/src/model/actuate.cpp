@@ -2,8 +2,8 @@
 
 #include "base/check_values.h"
 #include "check_gait.h"
+#include "check_model.h"
 #include "physics/muscle.h"
-#include "solver/check_model.h"
 
 namespace natator {
 

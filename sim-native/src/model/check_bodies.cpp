@@ -1,7 +1,7 @@
 #include <sstream>
 
+#include "check_scene.h"
 #include "physics/constants.h"
-#include "readers.h"
 
 namespace natator::fields {
 namespace {
