@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "base/text.h"
-#include "evaluate/settle.h"
 #include "in_precision.h"
 #include "natator/error.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
+#include "run/settle.h"
 
 namespace natator::bench {
 namespace {

@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "commands.h"
 #include "commit.h"
-#include "evaluate/swim_record.h"
 #include "json_argument.h"
 #include "model/tank_ends.h"
 #include "natator/batch.h"
@@ -18,6 +17,7 @@
 #include "natator/version.h"
 #include "natator/wave_gait.h"
 #include "physics/constants.h"
+#include "run/swim_record.h"
 #include "scene/gait_json.h"
 #include "scene/scene_json.h"
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "bare_particles.h"
-#include "evaluate/settled_state_key.h"
 #include "io/stream.h"
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
@@ -15,6 +14,7 @@
 #include "natator/sense.h"
 #include "periodic_models.h"
 #include "refusal.h"
+#include "run/settled_state_key.h"
 
 namespace natator {
 namespace {

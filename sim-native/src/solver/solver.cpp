@@ -9,7 +9,7 @@
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "lattice/coupling.h"
-#include "measure/law_name.h"
+#include "law_name.h"
 #include "model/check_model.h"
 #include "natator/actuate.h"
 #include "natator/steering.h"

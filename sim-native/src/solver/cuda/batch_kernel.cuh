@@ -1,7 +1,7 @@
 #pragma once
 
 #include "state_team.cuh"
-#include "natator/evaluate.h"
+#include "natator/stop_reason.h"
 #include "physics/laws.h"
 
 namespace natator::cuda {

@@ -10,6 +10,7 @@
 #include "event.h"
 #include "natator/error.h"
 #include "natator/execution.h"
+#include "natator/solver.h"
 
 namespace natator::cuda {
 

@@ -7,7 +7,7 @@
 #include "model/check_gait.h"
 #include "model/check_model.h"
 #include "natator/actuate.h"
-#include "natator/batch.h"
+#include "natator/error.h"
 #include "way.h"
 
 namespace natator {

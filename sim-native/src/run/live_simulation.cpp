@@ -1,7 +1,5 @@
 #include "base/strict_json.h"
-#include "evaluate/conservation_errors.h"
-#include "evaluate/perturb.h"
-#include "evaluate/settled_start.h"
+#include "conservation_errors.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
@@ -12,9 +10,11 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/pose.h"
+#include "perturb.h"
 #include "physics/laws.h"
 #include "same_layout.h"
 #include "scene/merge_patches.h"
+#include "settled_start.h"
 
 namespace natator {
 namespace {

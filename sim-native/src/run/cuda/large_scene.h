@@ -15,15 +15,15 @@
 
 #include "busy_time.h"
 #include "company.h"
-#include "evaluate/companions.h"
-#include "evaluate/perturb.h"
-#include "evaluate/side_by_side.h"
-#include "evaluate/swim_record.h"
-#include "large_runner.h"
+#include "evaluation.h"
+#include "kept_starts.h"
 #include "made_once.h"
 #include "natator/laws.h"
-#include "solver/cuda/evaluation.h"
-#include "solver/cuda/kept_starts.h"
+#include "run/companions.h"
+#include "run/perturb.h"
+#include "run/side_by_side.h"
+#include "run/swim_record.h"
+#include "solver/cuda/large/large_runner.h"
 
 namespace natator::cuda {
 

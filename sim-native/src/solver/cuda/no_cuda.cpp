@@ -1,46 +1,22 @@
 // What a build without CUDA answers.
-#include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/gpu_solver.h"
+#include "no_cuda.h"
 #include "solver/cuda/large/fetch_roof.h"
-#include "solver/cuda/way.h"
-#include "solver/lattice/water.h"
 
 namespace natator {
-namespace {
 
-[[noreturn]] void refuse() {
+void refuse_without_cuda() {
     throw NoDevice("backend cuda: natator was built without CUDA; must be built with -DNATATOR_CUDA=ON");
-}
-
-}  // namespace
-
-std::vector<Device> cuda_devices() {
-    return {};
-}
-
-std::optional<std::string> gpu_refusal(const Scene&) {
-    return "built without CUDA";
-}
-
-std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, const BatchOptions&) {
-    refuse();
-}
-
-std::unique_ptr<lattice::Water> lattice::Water::on_gpu(const Box&, int) {
-    refuse();
 }
 
 namespace cuda {
 
 FetchRoof measure_fetch_roof(const Scene&, const std::vector<Gait>&, int, int) {
-    refuse();
+    refuse_without_cuda();
 }
 double measure_copy_bandwidth(int) {
-    refuse();
-}
-bool by_whole_gpu(const Scene&, const Model&, const BatchOptions&) {
-    refuse();
+    refuse_without_cuda();
 }
 
 }  // namespace cuda
@@ -49,7 +25,7 @@ template <class Real>
 class GpuSolver<Real>::Implementation {};
 template <class Real>
 GpuSolver<Real>::GpuSolver(const Model&, const GpuSolverOptions&) {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;
@@ -59,31 +35,31 @@ template <class Real>
 GpuSolver<Real>& GpuSolver<Real>::operator=(GpuSolver&&) noexcept = default;
 template <class Real>
 std::optional<Instability> GpuSolver<Real>::update(State<Real>&, double, int, StepObserver<Real>*) {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 double GpuSolver<Real>::muscle_work() const {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 std::vector<Real> GpuSolver<Real>::pressures() const {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 std::vector<Vector3<Real>> GpuSolver<Real>::forces() const {
-    refuse();
+    refuse_without_cuda();
 }
 template <class Real>
 std::vector<int> GpuSolver<Real>::neighbour_counts() const {
-    refuse();
+    refuse_without_cuda();
 }
 template class GpuSolver<float>;
 template class GpuSolver<double>;

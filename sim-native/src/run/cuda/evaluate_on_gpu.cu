@@ -2,16 +2,17 @@
 #include <cmath>
 #include <new>
 
-#include "evaluate/perturb.h"
-#include "evaluate/side_by_side.h"
+#include "by_whole_gpu.h"
+#include "evaluate_large.h"
 #include "evaluation.h"
 #include "kept_starts.h"
-#include "large/evaluate_large.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/laws.h"
 #include "natator/model_builder.h"
-#include "way.h"
+#include "run/perturb.h"
+#include "run/side_by_side.h"
+#include "solver/cuda/way.h"
 
 namespace natator {
 namespace cuda {

@@ -1,7 +1,8 @@
-#include "way.h"
+#include "by_whole_gpu.h"
 
 #include "natator/plan.h"
-#include "owned_array.h"
+#include "solver/cuda/owned_array.h"
+#include "solver/cuda/way.h"
 
 namespace natator::cuda {
 namespace {
@@ -16,10 +17,6 @@ bool has_room_by_blocks(const Model& model) {
 }
 
 }  // namespace
-
-bool goes_either_way(const Model& model) {
-    return model.scheme == Scheme::flex && model.particles() > most_particles_by_blocks_alone;
-}
 
 bool by_whole_gpu(const Scene& scene, const Model& model, const BatchOptions& options) {
     if (options.whole_gpu || model.scheme != Scheme::flex || !scene.goals.empty() || !scene.companions.empty()) return true;

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "base/text.h"
-#include "conserving/water_kernels.h"
-#include "fluid_kernels.h"
-#include "motion_kernels.h"
+#include "cpu/conserving/water_kernels.h"
+#include "cpu/fluid_kernels.h"
+#include "cpu/motion_kernels.h"
+#include "cpu/neighbour_kernels.h"
+#include "cpu/plane_kernels.h"
 #include "natator/error.h"
-#include "neighbour_kernels.h"
-#include "plane_kernels.h"
 #include "solver/lattice/kernels.h"
 
 namespace natator {

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "batch_runner.h"
-#include "evaluate/conservation_errors.h"
-#include "measure/law_name.h"
+#include "natator/evaluate.h"
 #include "natator/laws.h"
 #include "natator/measure.h"
+#include "run/conservation_errors.h"
+#include "solver/cuda/batch_runner.h"
+#include "solver/law_name.h"
 
 namespace natator::cuda {
 

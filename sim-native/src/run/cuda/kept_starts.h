@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "evaluate/settled_state_key.h"
 #include "natator/state.h"
+#include "run/settled_state_key.h"
 #include "solver/cuda/device_buffer.h"
 #include "solver/cuda/list_room.h"
 
