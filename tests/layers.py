@@ -1,52 +1,46 @@
 #!/usr/bin/env python3
-"""Checks who includes whom in sim-native. Its folders stand on floors, each on those below it: no file includes one of a higher floor, and no
-two folders of src/ include each other, unless one lies in the other. Prints one line per offence; exit code 1 if there is any."""
+"""Checks who includes whom in sim-native, or in the folder FOLDER. Its folders stand on floors: no file includes one of a higher floor. And
+no two folders of src/ include each other, be it by others, unless one lies in the other. Prints one line per offence, and ends with exit
+code 1 if there is any. usage: layers.py [FOLDER]"""
 import re
 import sys
 from pathlib import Path
 
-FLOORS = ["base", "physics", "model", "scene", "solver", "run", "protocol", "bench", "cli"]
-# Of folders of src/, of public headers, and of what stands beside src/.
-FLOOR_OF = {f"src/{floor}": floor for floor in FLOORS[:6]} | {"src/io": "protocol", "bench": "bench", "cli": "cli"}
+FLOORS = ["base", "physics", "model", "scene", "solver", "run", "protocol", "bench", "cli"]  # from below; the last two are beside src/
+# Of the public headers, which lie in one folder. natator.h is all of them.
 PUBLIC = {
     "base": "error limits version",
     "model": "actuate gait goal model model_builder parameters scene state steering water_box wave_gait",
     "scene": "load_scene",
     "solver": "execution gpu_solver instruction_set plan solver stop_reason",
-    "run": "batch cost course evaluate laws live measure momentum moving_tank pose sense settled_state_cache snapshot swimming trajectory",
-    "protocol": "natator",
+    "run": "batch cost course evaluate laws live measure momentum moving_tank natator pose sense settled_state_cache snapshot swimming trajectory",
 }
-# What is known, and to become less: "LOWER > HIGHER" folder, or the folders that include each other.
-KNOWN = {}
-
-
-def folder_of(file):
-    return next((str(up) for up in file.parents if str(up) in FLOOR_OF or str(up) == "include/natator"), "")
+MADE = "include/natator/version.h"  # by CMake
 
 
 def floor_of(file):
-    folder = folder_of(file)
-    floor = FLOOR_OF.get(folder) or next((floor for floor, names in PUBLIC.items() if file.stem in names.split()), None)
-    return FLOORS.index(floor) if floor else None
+    """The number of a file's floor; none if nobody has said it."""
+    floor = file.parts[1] if file.parts[0] == "src" else file.parts[0]
+    if floor == "include":
+        floor = next((floor for floor, names in PUBLIC.items() if file.stem in names.split()), None)
+    return FLOORS.index(floor) if floor in FLOORS else None
 
 
-def included(root):
-    """Pairs of files, those of a build left out: who includes whom, from where it stands or from a folder that compilers are given."""
-    for path in sorted(file for top in ("include", "src", "bench", "cli") for file in (root / top).rglob("*")):
+def inclusions(root):
+    """Pairs of files: who includes whom, as compilers find it."""
+    searched = [root / folder for folder in ("include", "src", "bench", "cli")]
+    for path in sorted(file for folder in searched for file in folder.rglob("*")):
         if path.suffix not in (".h", ".cpp", ".cu", ".cuh"):
             continue
         for name in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', path.read_text(), re.MULTILINE):
-            for where in (path.parent, root / "include", root / "src", root / "bench", root / "cli"):
-                if (where / name).is_file():
-                    yield path.relative_to(root), (where / name).resolve().relative_to(root)
-                    break
-            else:
-                if name == "natator/version.h":
-                    yield path.relative_to(root), Path("include") / name
+            found = next((folder / name for folder in [path.parent, *searched]
+                          if (folder / name).is_file() or folder / name == root / MADE), None)
+            if found:
+                yield path.relative_to(root), found.resolve().relative_to(root)
 
 
 def rings(edges):
-    """The sets of folders that include each other, by others too."""
+    """The sets of folders that include each other."""
     def reached(folder):
         found, ahead = set(), [folder]
         while ahead:
@@ -55,31 +49,27 @@ def rings(edges):
             ahead += new
         return found
 
-    of = {folder: reached(folder) for folder in edges}
-    return {frozenset(other for other in of[folder] if folder in of.get(other, ())) for folder in edges if folder in of[folder]}
+    by = {folder: reached(folder) for folder in edges}
+    return {frozenset(other for other in by[folder] if folder in by.get(other, ())) for folder in by if folder in by[folder]}
 
 
 def offences(root):
-    """What is wrong, as a name of its kind that KNOWN may hold, and a line that tells it."""
     edges = {}
-    for file, other in included(root):
-        if floor_of(file) is None or floor_of(other) is None:
-            yield "", f"{file if floor_of(file) is None else other}: has no floor; name it in tests/{Path(__file__).name}"
-        elif floor_of(other) > floor_of(file):
-            yield (f"{folder_of(file)} > {folder_of(other)}",
-                   f"{file}: includes {other}: {FLOORS[floor_of(other)]} is above {FLOORS[floor_of(file)]}")
+    for file, other in inclusions(root):
+        floors = floor_of(file), floor_of(other)
+        if None in floors:
+            yield f"{[file, other][floors.index(None)]}: is on no floor; its folder must be one of src/, or tests/layers.py name it"
+        elif floors[0] < floors[1]:
+            yield f"{file}: includes {other}; must include nothing of {FLOORS[floors[1]]}, which is above {FLOORS[floors[0]]}"
         one, two = file.parent, other.parent
         if one.parts[0] == two.parts[0] == "src" and one not in (two, *two.parents) and two not in one.parents:
             edges.setdefault(str(one), set()).add(str(two))
-    for ring in rings(edges):
-        names = ", ".join(sorted(ring))
-        yield names, f"{names}: include each other"
+    yield from (", ".join(sorted(ring)) + ": include each other" for ring in rings(edges))
 
 
 def main(root):
-    found = sorted(line for kind, line in offences(root.resolve()) if kind not in KNOWN)
-    for line in found:
-        print(line)
+    found = sorted(set(offences(root.resolve())))
+    print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 
 

@@ -6,10 +6,10 @@
 #include "base/text.h"
 #include "base/whole_file.h"
 #include "commands.h"
-#include "io/particle_experiment.h"
 #include "natator/error.h"
 #include "options.h"
 #include "output_file.h"
+#include "protocol/particle_experiment.h"
 
 namespace natator::cli {
 namespace {

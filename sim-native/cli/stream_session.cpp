@@ -6,8 +6,8 @@
 #include "base/strict_json.h"
 #include "base/text.h"
 #include "commands.h"
-#include "io/protocol.h"
 #include "natator/error.h"
+#include "protocol/protocol.h"
 
 namespace natator::cli {
 namespace {

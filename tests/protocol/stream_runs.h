@@ -7,7 +7,7 @@
 
 #include "base/fnv1a.h"
 #include "child_process.h"
-#include "io/protocol.h"
+#include "protocol/protocol.h"
 #include "stream_client.h"
 
 /// Streams that tests begin with, and what they take from them.

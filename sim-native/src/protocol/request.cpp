@@ -1,6 +1,6 @@
 #include "base/field.h"
-#include "io/protocol.h"
 #include "natator/error.h"
+#include "protocol/protocol.h"
 #include "scene/gait_json.h"
 
 namespace natator {

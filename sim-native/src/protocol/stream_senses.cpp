@@ -1,6 +1,6 @@
-#include "io/stream.h"
 #include "natator/measure.h"
 #include "natator/plan.h"
+#include "protocol/stream.h"
 
 namespace natator {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/protocol.h"
+#include "protocol/protocol.h"
 
 namespace natator {
 

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "base/strict_json.h"
-#include "io/stream.h"
 #include "model/borders.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
@@ -12,6 +11,7 @@
 #include "natator/momentum.h"
 #include "natator/pose.h"
 #include "natator/version.h"
+#include "protocol/stream.h"
 #include "run/conservation_errors.h"
 #include "scene/gait_json.h"
 #include "scene/scene_json.h"

@@ -1,6 +1,6 @@
 #include "base/field.h"
-#include "io/protocol.h"
-#include "io/stream.h"
+#include "protocol/protocol.h"
+#include "protocol/stream.h"
 #include "scene/gait_json.h"
 
 namespace natator {
