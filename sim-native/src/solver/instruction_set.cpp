@@ -5,13 +5,13 @@
 #include <string>
 
 #include "base/text.h"
-#include "cpu/conserving/water_kernels.h"
 #include "cpu/fluid_kernels.h"
 #include "cpu/motion_kernels.h"
 #include "cpu/neighbour_kernels.h"
 #include "cpu/plane_kernels.h"
 #include "natator/error.h"
 #include "solver/lattice/kernels.h"
+#include "water/cpu/water_kernels.h"
 
 namespace natator {
 

@@ -6,13 +6,13 @@
 #include <variant>
 
 #include "base/check_values.h"
-#include "cpu/conserving/conserving_stages.h"
-#include "cpu/flex/flex_stages.h"
+#include "flex/cpu/flex_stages.h"
 #include "lattice/coupling.h"
 #include "law_name.h"
 #include "model/check_model.h"
 #include "natator/actuate.h"
 #include "natator/steering.h"
+#include "solids/cpu/conserving_stages.h"
 #include "step.h"
 
 namespace natator {

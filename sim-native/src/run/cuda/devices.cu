@@ -2,7 +2,9 @@
 
 #include "natator/batch.h"
 #include "natator/model_builder.h"
-#include "solver/cuda/batch_runner.h"
+#include "solver/cuda/device.h"
+#include "solver/cuda/owned_array.h"
+#include "solver/cuda/refusal.h"
 
 namespace natator {
 

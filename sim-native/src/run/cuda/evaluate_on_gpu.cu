@@ -12,6 +12,8 @@
 #include "natator/model_builder.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
+#include "solver/cuda/device.h"
+#include "solver/cuda/refusal.h"
 #include "solver/cuda/way.h"
 
 namespace natator {

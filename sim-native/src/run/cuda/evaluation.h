@@ -4,7 +4,8 @@
 #include "natator/laws.h"
 #include "natator/measure.h"
 #include "run/conservation_errors.h"
-#include "solver/cuda/batch_runner.h"
+#include "solver/cuda/refusal.h"
+#include "solver/flex/cuda/batch_runner.h"
 #include "solver/law_name.h"
 
 namespace natator::cuda {

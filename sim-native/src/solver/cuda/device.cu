@@ -1,9 +1,12 @@
 #include <string>
 
-#include "batch_runner.h"
+#include "device.h"
+#include "model_view.h"
 #include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/solver.h"
+#include "owned_array.h"
+#include "refusal.h"
 
 namespace natator {
 namespace cuda {

@@ -10,8 +10,8 @@
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
-#include "solver/cpu/conserving/solids.h"
 #include "solver/cpu/substep.h"
+#include "solver/solids/cpu/solids.h"
 #include "way.h"
 
 namespace natator::cuda {
