@@ -42,19 +42,6 @@ void check_place(const Scene& scene, const Model& model, std::size_t number, con
 
 }  // namespace
 
-const char* to_string(Goal::Measure measure) {
-    switch (measure) {
-        case Measure::distance: return "distance";
-        case Measure::forward: return "forward";
-        case Measure::turn: return "turn";
-        case Measure::depth: return "depth";
-        case Measure::reach: return "reach";
-        case Measure::hold: return "hold";
-        case Measure::economy: return "economy";
-    }
-    return "";
-}
-
 GoalRecord::GoalRecord(const Scene& scene, const Model& model)
     : goals_(scene.goals), progress_(scene.goals.size()), duration_(scene.duration), body_length_(model.body.length) {
     if (goals_.empty()) return;
