@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "io/strict_json.h"
+#include "base/field.h"
+#include "base/text.h"
 #include "scene/data_files.h"
-#include "scene/field.h"
 
 namespace natator::bench {
 
