@@ -69,7 +69,7 @@ WHY = {
     "travelling-wave": {"": "larva"},
     "shedding-cylinder": {"": "vortex-street"},
 }
-PRINTED = ("fast", "modified")  # tables that README.md leaves out
+PRINTED = ("cases", "fast", "modified")  # tables that README.md leaves out
 # how a target is told: in parts of what should be
 IN_PARTS = ("drag", "torque", "terminal", "Strouhal", "pressure", "depth", "viscosity", "period")
 
@@ -180,6 +180,27 @@ def of_cases(rows):
                 yield f"| {label} | {name} | {exact(used)} | {target(used[0])} | " + " | ".join(cells) + " |"
 
 
+def of_figures(rows):
+    """Of each figure what it is at resolution 20, by 2 x 4, and at the finest resolution, by the finest steps there."""
+    yield "| case | figure | exact | target | 20: 2 × 4 | finest | reason |"
+    yield "| --- | --- | ---: | --- | ---: | --- | --- |"
+    for case, figures, resolutions in CASES:
+        for k, (quantity, name) in enumerate(figures.items()):
+            measured, finest = pick(rows, case=case, quantity=quantity, scheme="conserving"), str(max(resolutions))
+            coarse = pick(measured, resolution="20", setting="2x4")
+            coarse = pick(coarse, backend="cpu") or pick(coarse, backend="cuda")
+            at_finest = [(steps, pick(measured, resolution=finest, setting=steps, backend="cuda")) for steps in (resolutions[max(resolutions)], "2x4")]
+            steps, fine = next((steps, some) for steps, some in at_finest if some)
+            labels = [exact(coarse), exact(fine)], [target(coarse[0]), target(fine[0])]
+            if case == "travelling-wave":
+                speeds = pick(rows, case=case, quantity=quantity.replace("Strouhal", "Reynolds"), scheme="conserving", setting="2x4")
+                name += " at Re " + ", ".join(f"{statistics.mean(float(row['value']) for row in pick(speeds, resolution=at)):.0f}"
+                                              for at in ("20", finest))
+            cells = [cell(coarse), f"{cell(fine)} ({finest}; {in_words(steps)})"]
+            yield (f"| {case.replace('-', ' ') if k == 0 else ''} | {name} | " + " | ".join(", ".join(dict.fromkeys(both)) for both in labels)
+                   + " | " + " | ".join(cells) + f" | {why(case, quantity, [cell(coarse), cell(fine)])} |")
+
+
 def of_settings(rows, settings):
     """On the CPU at resolution 20, what the first of the settings has there."""
     yield "| | exact | " + " | ".join(map(in_words, settings)) + " |"
@@ -204,7 +225,8 @@ def of_depths(rows, settings, depths):
 def tables(rows):
     """By name."""
     substeps, modified = (4, 8, 12, 16, 24, 28, 32, 40, 48), ("1x2m", "1x4m", "2x2m")
-    return {"cases": of_cases(rows),
+    return {"figures": of_figures(rows),
+            "cases": of_cases(rows),
             "deep": of_depths(rows, [f"{count}x4" for count in substeps], (40, 48, 60, 80, 100)),
             "modified-deep": of_depths(rows, modified, (20, 28, 40, 60, 80, 100)),
             "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4")),
