@@ -9,7 +9,7 @@ from natator.simulator import Simulator, evaluate
 from natator.stream import Frame, Senses, Stream
 from natator.trajectory import Trajectory, record
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Trajectory",
