@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import natator
 import numpy as np
 from natator import InputError
 from natator.export import FORMATS, bodies, export
@@ -24,6 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 READERS = ROOT / "tests/readers"
 sys.path.insert(0, str(READERS))
 import check_export  # noqa: E402
+from wrong_program_test import changed  # noqa: E402
 
 TWO = {"frequency": 1.861, "amplitude": [0.973, 0.69], "phase": [0, 0.648]}
 THREE = {"frequency": 1.761, "amplitude": [0.863, 0.503, 0.271], "phase": [0, 0.176, 0.729]}
@@ -431,6 +433,31 @@ class ExportFolderTest(FolderTest):
         (self.folder / "swim.partial" / LOCK).write_text("")  # as a killed export leaves it
         self.write()
         self.assertEqual((self.names(), os.listdir(self.target)), (["swim"], [METADATA]))
+
+
+class WrongSceneTest(FolderTest):
+    def test_a_scene_that_is_none_is_refused_before_a_file_is_begun(self):
+        with natator.Stream("pool/ray", fields=("position", "velocity", "density")) as stream:
+            scene, frame = stream.scene, stream.frame
+        refused = 0
+        for name, wrong in changed({key: scene[key] for key in ("mass", "clusters", "skin", "muscles", "slices", "solidRestDistance",
+                                                                "fluidRestDistance", "companions")}):
+            with self.subTest(name):
+                said = mock.Mock(scene={**{key: scene[key] for key in scene.keys() - wrong.keys() - {name.removeprefix("no ")}}, **wrong},
+                                 frame=frame, no_simulator=lambda: natator.ProgramError("another"))
+                try:
+                    swim = bodies.Swim.of(said)
+                except natator.ProgramError:
+                    refused += 1
+                    continue
+                for format in ("npz", "ply", "glb"):
+                    writer = FORMATS[format](swim, self.folder)
+                    try:
+                        writer.frame(frame)
+                        writer.finish()
+                    finally:
+                        writer.close()
+        self.assertGreater(refused, 100)
 
 
 class SourceTest(FolderTest):

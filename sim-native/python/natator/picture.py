@@ -1,6 +1,7 @@
 """A swim at one time as a picture: the body's particles as spheres in clear water, with its tank and a scale."""
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 
@@ -31,17 +32,21 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     scene's. Returns the size and the time. Raises InputError, ProgramError, Unstable and OSError.
     """
     pyvista = package("pyvista", "pyvista", "a picture")
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news
+    if not Path(file).parent.is_dir():
+        raise InputError(f"{file} cannot be written: there is no folder {Path(file).parent}")
     if water:
         package("pysplashsurf", "pysplashsurf", "a picture of water")
     with Stream(scene, gait=gait, fields=("position",), **options) as stream:
-        stream.require_stable()
+        swim = Swim.of(stream, water)
         duration = stream.scene["duration"] if duration is None else duration
         time = at if at is not None else min(1, duration) if gait else 0
         if not 0 <= time <= duration:
             raise InputError(f"--at is {time}; expected a time of the swim, 0 to {duration} s")
         step = stream.scene["timeStep"]
         frame = list(frames(stream, time, max(1, round(time / step))))[-1] if time else stream.frame
-        swim = Swim(stream.scene, stream.frame.position, water)
     tank, shown = _framing(swim, frame.position)
     axes = _axes(*VIEWS[view])
     extent = np.ptp(np.array(list(itertools.product(*shown.T))) @ axes.T, axis=0)[:2].clip(1e-6)

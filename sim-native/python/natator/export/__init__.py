@@ -42,9 +42,8 @@ def export(scene, format, folder, gait=None, duration=None, every=1, fields=tupl
         package("pxr.Usd", "usd-core", f"--format {format}")
     fields = [field for field in WIDTHS if field == "position" or field in fields]
     with ExportFolder(folder, force) as target, Stream(scene, gait=gait, fields=fields, **options) as stream:
-        stream.require_stable()
         duration = stream.scene["duration"] if duration is None else duration
-        swim = Swim(stream.scene, stream.frame.position, water)
+        swim = Swim.of(stream, water)
         if water_surface and not len(swim.all_water):
             raise InputError(f"--water-surface: {scene} has no water; expected some")
         meshes = {"water_surface": WaterSurface(swim)} if water_surface else {}

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from natator.plain import is_number
+
 KINDS = ("water", "body", "other")
 #: of clusters, from the head on, again from the first after the last; linear red, green and blue
 PALETTE = np.array([(0.894, 0.510, 0.176), (0.839, 0.278, 0.302), (0.741, 0.290, 0.573), (0.451, 0.373, 0.725),
@@ -18,6 +20,15 @@ class Swim:
     what is exported; `triangles`: for each creature the corners of its surface, particles.
     """
 
+    @classmethod
+    def of(cls, stream, water=True):
+        """Of a fresh stream with positions. Raises Unstable, and ProgramError for a scene that is none."""
+        stream.require_stable()
+        try:
+            return cls(stream.scene, stream.frame.position, water)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+            raise stream.no_simulator() from None
+
     def __init__(self, scene, start, water=True):
         count, (first, fluid) = scene["particles"], scene["fluid"]
         self.scene = scene
@@ -33,24 +44,25 @@ class Swim:
             self.creature[companion["body"]] = i
         self.creature[scene["body"]] = 0
         self.mass = np.array([np.inf if mass is None else mass for mass in scene["mass"]], "f4")
+        if self.mass.shape != (count,) or not (is_number(scene["solidRestDistance"]) and is_number(scene["fluidRestDistance"])):
+            raise ValueError
         self.all_water = np.arange(first, first + fluid)
         self.water = self.all_water if water else np.empty(0, int)
         self.solids = np.flatnonzero(self.kind != 0)
         self.shown = np.arange(count) if water else self.solids
         slices = [scene["slices"], *(companion["slices"] for companion in scene.get("companions") or [])]
         self.triangles = [body_surface(one, start, ROW_GAP * scene["solidRestDistance"]) for one in slices]
-        self.skin = scene.get("skin")
+        self.skin = scene.get("skin") and _skin(scene["skin"], len(scene["body"]), len(self.clusters_of(0)))
         self.muscle_ends = np.array([(muscle["a"], muscle["b"]) for muscle in scene["muscles"]], int).reshape(-1, 2)
-        self.muscle_actuators = self.of_muscles("actuator", "i4")
+        self.muscle_actuators, self.muscle_lateral, self.muscle_rest_length = (
+            np.array([muscle[key] for muscle in scene["muscles"]], dtype)
+            for key, dtype in (("actuator", "i4"), ("lateral", "f8"), ("restLength", "f8")))
         self.title = "".join(letter if letter.isprintable() else "?" for letter in
                              f"{scene['scene']}, Natator {(scene.get('program') or {}).get('version', '')}")
 
-    def of_muscles(self, key, dtype):
-        return np.array([muscle[key] for muscle in self.scene["muscles"]], dtype)
-
     def contraction(self, frame):
         """How much shorter than at rest each muscle wants to be, as a share; negative = longer."""
-        return (-0.5 * self.of_muscles("lateral", float) * frame.drive[self.muscle_actuators]).astype("f4")
+        return (-0.5 * self.muscle_lateral * frame.drive[self.muscle_actuators]).astype("f4")
 
     def places_in(self, shown, particles):
         """Where in a sorted list of particles each of these is."""
@@ -71,6 +83,21 @@ class Swim:
     def surfaces(self):
         """Creatures that have a surface, by name."""
         return {f"Companion{i}" if i else "Body": i for i in range(len(self.triangles)) if self.has_surface(i)}
+
+
+def _skin(skin, particles, clusters):
+    """Its arrays. Raises ValueError and others if they do not fit a body of so many particles and clusters."""
+    arrays = {key: np.array(skin[key], dtype) for key, dtype in (
+        ("vertices", float), ("rest", float), ("share", float), ("triangles", int), ("cluster", int))}
+    vertices, rest, share, triangles, cluster = arrays.values()
+    count = len(vertices)
+    fits = (vertices.shape == (count, 3) and rest.shape == (particles, 3) and share.shape == cluster.shape == (count,)
+            and triangles.shape == (len(triangles), 3) and ((0 <= triangles) & (triangles < count)).all()
+            and ((0 <= cluster) & (cluster < clusters)).all() and ((0 <= share) & (share <= 1)).all()
+            and (share[cluster == clusters - 1] == 1).all() and np.isfinite(vertices).all() and np.isfinite(rest).all())
+    if not fits:
+        raise ValueError
+    return arrays
 
 
 def colours(clusters):
@@ -170,11 +197,9 @@ class Rig:
     def __init__(self, swim, creature, start):
         self._clusters = [np.array(cluster) for cluster in swim.clusters_of(creature)]
         if creature == 0 and swim.skin:
-            skin = swim.skin
+            self.vertices, rest, share, self.triangles, self.cluster = swim.skin.values()
             self._rest = np.zeros((swim.scene["particles"], 3))
-            self._rest[swim.scene["body"]] = skin["rest"]
-            self.vertices, self.triangles = np.array(skin["vertices"], float), np.array(skin["triangles"])
-            self.cluster, share = np.array(skin["cluster"]), np.array(skin["share"], float)
+            self._rest[swim.scene["body"]] = rest
             follows = np.zeros((len(self.vertices), len(self._clusters) + 1))
             each = np.arange(len(self.vertices))
             follows[each, self.cluster] = share

@@ -49,8 +49,8 @@ class Npz:
                 "cluster_creature": np.array([swim.creature[cluster[0]] if cluster else -1 for cluster in clusters], "<i4"),
                 "cluster": np.array([np.isin(shown, cluster) for cluster in clusters], bool).reshape(-1, len(shown)),
                 "muscle": swim.places_in(shown, swim.muscle_ends), "muscle_actuator": swim.muscle_actuators,
-                "muscle_lateral": swim.of_muscles("lateral", "<f4"),
-                "muscle_rest_length": swim.of_muscles("restLength", "<f4"), "surface": swim.surface_in(shown)}
+                "muscle_lateral": swim.muscle_lateral.astype("<f4"),
+                "muscle_rest_length": swim.muscle_rest_length.astype("<f4"), "surface": swim.surface_in(shown)}
 
     def close(self):
         for file in self._files.values():
