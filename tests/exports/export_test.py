@@ -23,7 +23,7 @@ from natator.source import merged, source
 
 ROOT = Path(__file__).resolve().parents[2]
 READERS = ROOT / "tests/readers"
-sys.path.insert(0, str(READERS))
+sys.path += [str(READERS), str(ROOT / "tests/python")]
 import check_export  # noqa: E402
 from wrong_program_test import changed  # noqa: E402
 
