@@ -1,6 +1,7 @@
 """Client of the Natator simulator: evaluations, trajectories as arrays, swimmers that a program drives.
 
-`natator.gym` has the Gymnasium environments; importing it registers them.
+`natator.gym` has the Gymnasium environments; importing it registers them. `natator.export` writes swims for other programs,
+`natator.picture` draws them; both are commands too: `python -m natator --help`.
 """
 
 from natator.errors import InputError, NatatorError, ProgramError, Unstable
