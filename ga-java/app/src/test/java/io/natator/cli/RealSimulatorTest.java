@@ -181,7 +181,7 @@ class RealSimulatorTest {
     @CsvSource(delimiter = '|', value = {
         "--duration 0.1 --optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",
         "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites.png|map of gaits: "})
-    void reportsDrawWhatIsMoreThanOneGait(String options, String picture, String line) {
+    void reportsDrawWhatIsMoreThanOneGait(String options, String picture, String line) throws IOException {
         Path run = folder.resolve("run");
         List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
                 "--output-dir", run.toString()));
@@ -189,6 +189,9 @@ class RealSimulatorTest {
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
         out.getBuffer().setLength(0);
 
+        StringWriter first = new StringWriter();
+        assertThat(Main.commandLine().setOut(new PrintWriter(first, true)).execute("show", run.toString(), "--generation", "0")).isZero();
+        assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), first.toString())).body()).isNull();
         assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
         assertThat(natator("report", run.toString())).as(err.toString()).isZero();
 
