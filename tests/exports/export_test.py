@@ -118,6 +118,17 @@ class ReadersTest(FolderTest):
             with self.subTest(format):
                 self.check("pool/creature-1", 0.1, format, dict(water_surface=True, every=5, fields=["position"]), gait=TWO)
 
+    def test_the_waters_surface_alone(self):
+        for format in ("vtp", "ply", "usdc"):
+            with self.subTest(format):
+                self.check("thesis/tank", 0.02, format, dict(water=False, water_surface=True))
+
+    def test_bodies_of_all_kinds(self):
+        for scene in ("pool/eel", "pool/tadpole", "pool/tuna", "pool/ray", "open-water/creature-3", "thesis/creature-1-vacuum"):
+            for format in ("vtp", "npz"):
+                with self.subTest(f"{scene} {format}"):
+                    self.check(scene, 0.02, format, dict(force=True))
+
     def test_a_skin_has_bones(self):
         self.check("pool/ray", 0.1, "glb", gait=FIVE)
         self.validate()
@@ -251,6 +262,8 @@ class CommandTest(FolderTest):
                 (f"{TANK} --format csv --water-surface", "--water-surface and --format csv: expected a format that holds meshes of many "
                  "shapes: vtp, ply, usd, usdc"),
                 ("bench/small-tank --format usd --water-surface --overrides {\"fluid\":null}", "has no water; expected some"),
+                ("lake/water --format npz", "lake/water has no particles to export; expected some"),
+                ("thesis/tank --format ply --no-water", "thesis/tank has no particles to export; expected some"),
                 ("thesis/tank --format glb", "--format glb: thesis/tank has no body with a surface; expected one"),
                 (f"{TANK} --format csv --fields velocity,velocity", "--fields is velocity,velocity: must be some of position, velocity, "
                  "density, each once"),

@@ -46,6 +46,8 @@ def export(scene, format, folder, gait=None, duration=None, every=1, fields=tupl
         swim = Swim.of(stream, water)
         if water_surface and not len(swim.all_water):
             raise InputError(f"--water-surface: {scene} has no water; expected some")
+        if not len(swim.shown) and not water_surface:
+            raise InputError(f"{scene} has no particles to export; expected some")
         meshes = {"water_surface": WaterSurface(swim)} if water_surface else {}
         writer, count = FORMATS[format](swim, target.path, **meshes), 0
         try:

@@ -14,7 +14,7 @@ class Ply:
     def frame(self, frame):
         swim, shown = self._swim, self._swim.shown
         columns = {name: column for field in swim.fields
-                   for name, column in zip(WIDTHS[field], getattr(frame, field)[shown].reshape(len(shown), -1).T)}
+                   for name, column in zip(WIDTHS[field], getattr(frame, field)[shown].reshape(len(shown), len(WIDTHS[field])).T)}
         columns |= {"mass": swim.mass[shown], "kind": swim.kind[shown], "cluster": swim.cluster[shown],
                     "creature": swim.creature[shown]}
         self._write(self._folder / f"swim_{frame.number:06d}.ply", frame, _rows(columns))

@@ -47,7 +47,7 @@ class Npz:
         return {"particle": shown.astype("<i4"), "mass": swim.mass[shown], "kind": swim.kind[shown],
                 "creature": swim.creature[shown],
                 "cluster_creature": np.array([swim.creature[cluster[0]] if cluster else -1 for cluster in clusters], "<i4"),
-                "cluster": np.array([np.isin(shown, cluster) for cluster in clusters], bool).reshape(-1, len(shown)),
+                "cluster": np.array([np.isin(shown, cluster) for cluster in clusters], bool).reshape(len(clusters), len(shown)),
                 "muscle": swim.places_in(shown, swim.muscle_ends), "muscle_actuator": swim.muscle_actuators,
                 "muscle_lateral": swim.muscle_lateral.astype("<f4"),
                 "muscle_rest_length": swim.muscle_rest_length.astype("<f4"), "surface": swim.surface_in(shown)}
@@ -73,7 +73,7 @@ class Csv:
     def frame(self, frame):
         shown = self._swim.shown
         columns = [column.astype(str) for field in self._swim.fields
-                   for column in getattr(frame, field)[shown].reshape(len(shown), -1).T]
+                   for column in getattr(frame, field)[shown].reshape(len(shown), len(WIDTHS[field])).T]
         head = f"{frame.number},{frame.time!r},"
         self._out.writelines(head + ",".join(row) + "\n" for row in zip(self._same, *columns))
 
