@@ -346,6 +346,12 @@ class CommandTest(FolderTest):
             self.assertIn("File too large", said)
             self.assertEqual(self.names(), [])
 
+    def test_an_output_that_cannot_be_written_is_told(self):
+        arguments = [sys.executable, "-m", "natator", "export", TANK, "--format", "csv", "--duration", "0.02", "--output-dir", self.target]
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(arguments, stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "python -m natator: standard output: No space left on device\n"))
+
     def test_the_name_of_a_scene_is_told_as_it_is(self):
         scene = self.folder / 'm\u00e9 "a"\u001b\U0001f41f.json'
         scene.write_text(json.dumps({"base": TANK}))

@@ -12,12 +12,14 @@ def run(parser, work):
     other errors of this package; 130 if interrupted. Nothing is wrong if nobody reads the output to its end."""
     try:
         work(parser.parse_args())
+        sys.stdout.flush()
     except NatatorError as error:
         parser.exit(2 if isinstance(error, InputError) else 1, f"{parser.prog}: {error}\n")
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        parser.exit(1, f"{parser.prog}: {error.filename or 'standard output'}: {error.strerror}\n")
+        if error.filename is None:  # standard output, to which no more is to be written at the end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(error, BrokenPipeError):
+            parser.exit(1, f"{parser.prog}: {error.filename or 'standard output'}: {error.strerror}\n")
     except KeyboardInterrupt:
         parser.exit(130)
 
