@@ -47,8 +47,7 @@ final class ReportCommand implements Callable<Integer> {
         OneLineErrors.warn(spec.commandLine(), run.damage());
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
         try {
-            Drawing.checked(() -> spec.commandLine().getOut().println(report.write(execution,
-                    DrawnSwim.portrait(directory, execution.simulator()))));
+            Drawing.checked(() -> spec.commandLine().getOut().println(report.write(execution)));
             if (report.difference() != null) {
                 spec.commandLine().getErr().println(report.difference());
             }

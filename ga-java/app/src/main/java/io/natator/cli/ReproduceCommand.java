@@ -166,9 +166,7 @@ final class ReproduceCommand implements Callable<Integer> {
                 }
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
-                Path simulator = execution.simulator();
-                out.println(study.report(plan, new ReproduceCommands(spec, directory).of(plan),
-                        study.portrayed().map(swim -> DrawnSwim.portrait(swim, simulator)).orElse(null)));
+                out.println(study.report(plan, new ReproduceCommands(spec, directory).of(plan)));
             }
         }
         if (compact && phase != Phase.EVOLVE) {

@@ -8,6 +8,7 @@ import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
+import io.natator.config.Json;
 import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
@@ -28,6 +29,7 @@ import java.util.stream.Collectors;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
@@ -42,9 +44,14 @@ final class ShowCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
+    @Option(names = "--generation", paramLabel = "N", description = "Only the best gait of the generations up to N, and its body, "
+            + "as JSON: --gait of other commands takes it.")
+    private Integer generation;
+
     @Override
     public Integer call() throws InterruptedException {
-        WholeOutput.print(spec.commandLine(), this::print);
+        WholeOutput.print(spec.commandLine(), generation == null ? this::print
+                : out -> out.println(Json.line(SwimSource.bestUntil(generation, StoredRun.in(folder))).strip()));
         return ExitCode.OK;
     }
 

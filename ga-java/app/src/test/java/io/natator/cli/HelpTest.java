@@ -110,9 +110,7 @@ class HelpTest {
         "reproduce --phase mesure|natator reproduce: Invalid value for option '--phase': expected evolve, measure, report, "
             + "repeat or all but was 'mesure'; did you mean measure? See natator reproduce --help",
         "reproduce --water FLEX,open-watr|natator reproduce: Invalid value for option '--water' (WATER): expected flex "
-            + "or open-water but was 'open-watr'; did you mean open-water? See natator reproduce --help",
-        "export thesis/tank --format npz --fields positio|natator export: Invalid value for option '--fields' (FIELD): "
-            + "expected position, velocity or density but was 'positio'; did you mean position? See natator export --help"})
+            + "or open-water but was 'open-watr'; did you mean open-water? See natator reproduce --help"})
     void whatWasProbablyMeantIsNamed(String arguments, String line) {
         assertThat(natator(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString().strip()).isEqualTo(line);

@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
+import java.awt.image.BufferedImage;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -12,6 +13,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
+import javax.imageio.ImageIO;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -51,6 +53,8 @@ class WholeReportTest {
     @Test
     void ofAWinnerThatGetsNowhereByAllItsControls() throws IOException {
         Commands.natator("check", "--simulator-path", SIMULATOR, "--starts", "2", run.toString());
+        ImageIO.write(new BufferedImage(9, 4, BufferedImage.TYPE_INT_RGB), "png",
+                Files.createDirectories(run.resolve("report")).resolve("swimmer.png").toFile());
 
         String page = report();
 

@@ -1,7 +1,6 @@
 package io.natator.report;
 
 import io.natator.verdict.Measure;
-import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -17,14 +16,6 @@ public final class FirstScreen {
             Measure.Outcome.NOT_MEASURED, "–");
 
     private FirstScreen() {
-    }
-
-    /** Draws the swimmer of a report. */
-    @FunctionalInterface
-    public interface Portrait {
-
-        /** Writes a PNG file. */
-        void draw(Path png) throws IOException, InterruptedException;
     }
 
     /**

@@ -15,6 +15,7 @@ import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
 import io.natator.file.GeneratedPage;
 import io.natator.file.OutputFolder;
+import io.natator.file.ShellWord;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
 import io.natator.kinematics.FishMode;
@@ -30,6 +31,7 @@ import io.natator.verdict.Refusals;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
 import java.io.IOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -69,12 +71,11 @@ public final class GaitReport {
      * Records the best gait on the processor, draws and writes.
      *
      * @param execution with a time limit
-     * @param portrait  draws the swimmer
      * @return the Markdown page
      * @throws IOException          if a file cannot be written
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public Path write(ExecutionSettings execution, FirstScreen.Portrait portrait) throws IOException, InterruptedException {
+    public Path write(ExecutionSettings execution) throws IOException, InterruptedException {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
@@ -85,8 +86,11 @@ public final class GaitReport {
         difference = difference(recording, execution);
         progress(page);
         Path swimmer = folder.resolve("swimmer.png");
-        portrait.draw(swimmer);
         FirstScreen.add(page, answer(), swimmer, "the swimmer in its tank", evidence());
+        if (!Files.exists(swimmer)) {
+            page.text("The swimmer is shown above if it is drawn before: `python -m natator picture " + ShellWord.of(run.directory())
+                    + " --from three-quarter -o " + ShellWord.of(swimmer) + "`.");
+        }
         course(page);
         motion(page, recording);
         flow(page, recording);

@@ -33,23 +33,19 @@ final class ThesisReport {
     private final int asked;
     private final Map<String, Recording> recordings;
     private final String command;
-    private final FirstScreen.Portrait portrait;
 
     /**
      * A report.
      *
      * @param asked     how many evolutions there are to be with these seeds
      * @param command   what the study is made by, line by line
-     * @param portrait  draws the swimmer of {@link StudyResults#portrayed}; null for none
      */
-    ThesisReport(StudyResults results, int asked, Map<String, Recording> recordings, String command,
-            FirstScreen.Portrait portrait) {
+    ThesisReport(StudyResults results, int asked, Map<String, Recording> recordings, String command) {
         this.directory = results.directory();
         this.results = results;
         this.asked = asked;
         this.recordings = recordings;
         this.command = command;
-        this.portrait = portrait;
     }
 
     Path write() throws InterruptedException {
@@ -86,9 +82,6 @@ final class ThesisReport {
     private void drawFirstScreen(ReportDocument page, Answers answers) throws IOException, InterruptedException {
         Path swimmer = directory.resolve("figures").resolve("swimmer.png");
         Files.createDirectories(swimmer.getParent());
-        if (portrait != null) {
-            portrait.draw(swimmer);
-        }
         Path chart = answers.draw(directory.resolve("figures").resolve("answers"));
         FirstScreen.add(page, answers.sentences(), swimmer, results.portrayed().map(subject -> "creature " + subject.creature()
                 + ", evolved in " + subject.water().words()).orElse("the swimmer"), answers.evidence());

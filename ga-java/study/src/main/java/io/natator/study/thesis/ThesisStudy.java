@@ -7,7 +7,6 @@ import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
 import io.natator.file.GeneratedPage;
-import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.RecordingFactory;
 import io.natator.simulator.Evaluator;
@@ -179,17 +178,11 @@ public final class ThesisStudy implements AutoCloseable {
      *
      * @param plan     the evolutions that were asked for
      * @param command  what the study is made by, line by line
-     * @param portrait draws the swimmer of {@link #portrayed}; null for none
      * @return the page
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public Path report(EvolutionPlan plan, String command, FirstScreen.Portrait portrait) throws InterruptedException {
-        return new ThesisReport(results, plan.begun().size(), recordings(), command, portrait).write();
-    }
-
-    /** What the report shows: the fastest that evolved in open water, in flex where nothing did; empty if nothing was measured. */
-    public Optional<SimulationRequest> portrayed() {
-        return results.portrayed().map(subject -> Condition.WATER.of(subject, duration));
+    public Path report(EvolutionPlan plan, String command) throws InterruptedException {
+        return new ThesisReport(results, plan.begun().size(), recordings(), command).write();
     }
 
     @Override

@@ -138,7 +138,7 @@ class ThesisStudyTest {
         Path page;
         try (ThesisStudy study = study()) {
             measure(study);
-            page = study.report(nothingEvolved(), "the command", null);
+            page = study.report(nothingEvolved(), "the command");
         }
 
         String text = Files.readString(page);
