@@ -4,6 +4,7 @@ import filecmp
 import pathlib
 import sys
 import tempfile
+from decimal import ROUND_HALF_UP, Decimal
 
 import matplotlib
 import numpy as np
@@ -56,8 +57,8 @@ def same(made, committed):
 
 
 def fixed(value, decimals):
-    """A number with so many decimals; what rounds to nothing has no sign."""
-    text = f"{value:.{decimals}f}"
+    """A number with so many decimals, halves away from 0; what rounds to nothing has no sign."""
+    text = f"{Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP):f}"
     return text if float(text) else text.lstrip("-")
 
 
@@ -71,6 +72,17 @@ def table(head, rows, aligned=None):
     """Rows of texts as a table of Markdown. aligned: a sign for each column, > to the right; by default the first to the left."""
     marks = ["---:" if sign == ">" else "---" for sign in aligned or "<" + ">" * (len(head) - 1)]
     return "".join("| " + " | ".join(row) + " |\n" for row in [head, marks, *rows])
+
+
+def filled(page, **parts):
+    """The text of a page with other parts, each between <!-- NAME --> and <!-- /NAME --> on lines of their own."""
+    text = page.read_text(encoding="utf-8")
+    for name, part in parts.items():
+        begin, end = f"<!-- {name} -->\n", f"<!-- /{name} -->\n"
+        if text.count(begin) != 1 or text.count(end) != 1:
+            raise ValueError(f"{page}: must have the lines {begin.strip()} and {end.strip()} once")
+        text = text[:text.index(begin)] + begin + part + text[text.index(end):]
+    return text
 
 
 class Chart:

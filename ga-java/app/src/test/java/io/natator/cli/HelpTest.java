@@ -61,7 +61,7 @@ class HelpTest {
         "evolve|Simulated time, to the nearest frame. Default: the preset's, else the scene's (4 for the thesis scenes).",
         "evolve|How to solve: flex, conserving or lattice. Default: the scene's.",
         "resume|a GPU where there is one). Default: the run's.", "check|a GPU where there is one). Default: the run's.",
-        "evaluate|a GPU where there is one). Default: cpu.", "compare-flex|a GPU where there is one). Default: cpu.",
+        "evaluate|a GPU where there is one). Default: cpu.",
         "compare|a GPU where there is one). Default: that of the runs, cpu if they have several.",
         "evaluate|Simulated time, to the nearest frame. Default: the scene's (4 for the thesis scenes).",
         "evaluate|How to solve: flex, conserving or lattice. Default: the scene's.",
