@@ -1,7 +1,5 @@
 """The pictures of the study, figures/*.png."""
 import csv
-import gzip
-import json
 
 import matplotlib
 import numpy as np
@@ -83,11 +81,6 @@ def parameters(study, water, folder):
     save(figure, folder, f"parameters-{water}")
 
 
-def read(file):
-    with gzip.open(file, "rt", encoding="utf-8") as text:
-        return json.load(text)
-
-
 def phases(times, frequency):
     """Frames of four phases of the last whole beat."""
     return [int(np.argmin(np.abs(times - max(0, times[-1] - (4 - phase) / (4 * frequency))))) for phase in range(4)]
@@ -163,14 +156,6 @@ def draw_flow(axis, field):
 def title(name):
     return f"Gait {name[7:]} of the thesis, flex" if name.startswith("thesis-") else \
         f"Best evolved, {name.replace('-flex', ', flex').replace('-open-water', ', open water')}"
-
-
-def recordings(study):
-    """Those that are there and are of what is drawn: with more seeds another run may be the best."""
-    for name, subject in study.drawn().items():
-        file = study.folder / "recordings" / f"{name}.json.gz"
-        if file.exists() and (found := read(file))["request"]["gait"] == subject.gait:
-            yield name, found
 
 
 def draw(study, found, anew):

@@ -56,7 +56,7 @@ def options(arguments):
 
 def report(study, check):
     """Writes page, tables and pictures; or names the files that would differ (pictures are not compared)."""
-    found = dict(figures.recordings(study))
+    found = {name: one for name, request in study.drawn().items() if (one := study.recording(name, request))}
     made = page.Page(study, {name: motion.wake(one["flow"][0]) for name, one in found.items() if one["flow"]})
     files = {study.folder / "tables" / f"{name}.csv": page.csv_text(rows) for name, rows in made.tables().items()}
     swimmer, portrayed = study.folder / "figures" / "swimmer.png", study.portrayed()
@@ -81,13 +81,17 @@ def main(arguments=None):
     study = measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size())
     if asked.run or asked.repeat or asked.dry_run:
         import run  # needs the simulator, as the page does not
-        work = run.Work(study, asked.backend, asked.workers, asked.runs_at_once)
-        if asked.repeat:
-            return work.repeat(asked.repeat, asked.repeat_seed, asked.water)
-        if asked.dry_run:
-            print(work.missing())
-            return 0
-        work.all()
+        try:
+            work = run.Work(study, asked.backend, asked.workers, asked.runs_at_once)
+            if asked.repeat:
+                return work.repeat(asked.repeat, asked.repeat_seed, asked.water)
+            if asked.dry_run:
+                print(work.missing())
+                return 0
+            work.all()
+        except (run.Failure, run.natator.InputError, run.natator.ProgramError) as error:
+            print(f"make.py: {error}", file=sys.stderr)
+            return 1
     return report(study, asked.check)
 
 

@@ -4,6 +4,7 @@ measurements.jsonl holds evaluations, processor.jsonl some of them again on the 
 motions.jsonl how recorded bodies move. A row answers a request, and stays: it names the program that made it."""
 import dataclasses
 import functools
+import gzip
 import json
 import math
 import statistics
@@ -96,18 +97,25 @@ class Study:
     def __init__(self, folder, size):
         self.folder, self.plan, self.size = folder, plan.Plan(size), size
         self.duration = size.duration or SECONDS
+        self.files, self.winners = {}, {}
         self.measurements, self.processor, self.convergence, self.motions = (
             Log(folder / f"{name}.jsonl") for name in ("measurements", "processor", "convergence", "motions"))
 
     # Evolutions and what they found.
 
     def finished(self):
-        """Evolutions of which the finalists are known."""
-        return [one for one in self.plan.evolutions if (one.folder(self.folder) / "finalists.json").exists()]
+        """Evolutions that have come to their end, and of which the finalists are known."""
+        return [one for one in self.plan.evolutions if self.read(one, "finalists.json")
+                and self.read(one, "checkpoint.json")["generation"] >= self.size.generations]
 
-    @functools.cache
     def read(self, evolution, name):
-        return json.loads((evolution.folder(self.folder) / name).read_text(encoding="utf-8"))
+        """A file of its run folder, or None. What is finished does not change."""
+        if (evolution, name) not in self.files:
+            file = evolution.folder(self.folder) / name
+            if not file.exists():
+                return None
+            self.files[evolution, name] = json.loads(file.read_text(encoding="utf-8"))
+        return self.files[evolution, name]
 
     def finalists(self, evolution):
         return [plan.Subject(evolution.creature, evolution.water, one["gait"], "evolved", evolution.seed)
@@ -115,10 +123,12 @@ class Study:
 
     def winner(self, evolution):
         """The finalist that goes furthest by the mean of fresh runs less its standard error; None until all are measured."""
-        finalists = self.finalists(evolution)
-        if all(self.has(self.plan.finalist(one)) for one in finalists):
-            return max(finalists, key=self.sure)
-        return None
+        if evolution not in self.winners:
+            finalists = self.finalists(evolution)
+            if not all(self.has(self.plan.finalist(one)) for one in finalists):
+                return None
+            self.winners[evolution] = max(finalists, key=self.sure)
+        return self.winners[evolution]
 
     def sure(self, finalist):
         results = self.results(self.plan.finalist(finalist))
@@ -146,8 +156,8 @@ class Study:
 
     def studied(self, water):
         """Gaits with which parameters are studied."""
-        published = next(one for one in plan.GAITS if one["name"] == plan.STUDIED)
-        return [plan.subject_of(published, water)] + [one for creature in self.plan.potent() if (one := self.best(creature, water))]
+        published = [plan.subject_of(one, water) for one in plan.GAITS if one["name"] == plan.STUDIED and one["creature"] in self.size.creatures]
+        return published + [one for creature in self.plan.potent() if (one := self.best(creature, water))]
 
     def experiments(self):
         """All that is known by now to be measured; what is found adds to it."""
@@ -164,9 +174,22 @@ class Study:
         return [one for _, one in self.swims()] + [self.plan.of(one, "inverse-mass") for one in self.plan.published("flex")]
 
     def drawn(self):
-        """What is drawn, by the name of its recording."""
+        """What is drawn, as requests of runs that nothing ends early, by the name of its recording."""
         drawn = {f"thesis-{one['name']}": plan.subject_of(one, "flex") for one in plan.GAITS if one["creature"] in self.size.creatures}
-        return {**drawn, **{f"creature-{one.creature}-{water}": one for water in WATERS for one in self.bests(water)}}
+        drawn |= {f"creature-{one.creature}-{water}": one for water in WATERS for one in self.bests(water)}
+        return {name: plan.merged(self.plan.of(one, "water").request, plan.stopping(False)) for name, one in drawn.items()}
+
+    def recording_file(self, name):
+        return self.folder / "recordings" / f"{name}.json.gz"
+
+    def recording(self, name, request):
+        """That of just this request, or None: with more seeds another run may be the best."""
+        file = self.recording_file(name)
+        if file.exists():
+            with gzip.open(file, "rt", encoding="utf-8") as text:
+                found = json.load(text)
+            return found if canonical(found["request"]) == canonical(request) else None
+        return None
 
     # Runs and means.
 

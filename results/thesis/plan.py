@@ -52,10 +52,12 @@ class Size:
     runs: int = 8  # of a gait in its water
     recorded: int = 3
     parameters: tuple = tuple(PARAMETERS)
+    finer: tuple = WATERS  # in which what evolved is run at half the spacing
 
 
 # Small enough for a test: everything happens, nothing is learned.
-QUICK = Size(creatures=(1,), seeds=1, generations=1, population=4, duration=0.05, runs=2, recorded=1, parameters=("substeps", "damping"))
+QUICK = Size(creatures=(1,), seeds=1, generations=1, population=4, duration=0.05, runs=2, recorded=1, parameters=("damping",),
+             finer=("flex",))
 
 
 @dataclasses.dataclass(frozen=True)
