@@ -16,7 +16,7 @@ import picocli.CommandLine.Spec;
             CheckCommand.class, ConvergeCommand.class,
             CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
             ReportCommand.class, ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
-            NewCommand.class, ReproduceCommand.class, PlotCommand.class, ClusterEfficiencyCommand.class},
+            NewCommand.class, PlotCommand.class, ClusterEfficiencyCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
