@@ -1,6 +1,9 @@
 """What the pages' make.py share: their command line, numbers in words, statistics, tables and charts."""
 import argparse
 import filecmp
+import functools
+import itertools
+import math
 import pathlib
 import sys
 import tempfile
@@ -8,6 +11,7 @@ from decimal import ROUND_HALF_UP, Decimal
 
 import matplotlib
 import numpy as np
+from scipy import stats
 
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402  (after the choice of what draws)
@@ -18,9 +22,9 @@ OTHER = "#404040"
 DIFFERENT = 0.002  # share of a picture's values: libraries of other versions smooth edges otherwise
 
 
-def main(make, run=None):
+def main(make, run=None, any_folder=False):
     """The command line of a page: make(folder) writes what is made of the page's data into a folder; run(), where there is one, simulates what
-    the data lack."""
+    the data lack. With any_folder these are make(folder, data) and run(data), of the data of any folder."""
     page = pathlib.Path(sys.argv[0]).resolve().parent
     parser = argparse.ArgumentParser(prog=f"results/redo.sh {page.name}", description=sys.modules["__main__"].__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -28,6 +32,10 @@ def main(make, run=None):
     way.add_argument("--check", action="store_true", help="write nothing; exit code 1 if the committed files are other ones")
     if run:
         way.add_argument("--run", action="store_true", help="simulate first what the data lack")
+    if any_folder:
+        parser.add_argument("folder", nargs="?", type=pathlib.Path, default=page, help="of another study's data; default: the page's own")
+        page = parser.parse_args().folder.resolve()
+        make, run = functools.partial(make, data=page), functools.partial(run, page)
     options = parser.parse_args()
     try:
         if options.check:
@@ -36,7 +44,7 @@ def main(make, run=None):
                 made = sorted(pathlib.Path(folder).iterdir())
                 others = [file.name for file in made if not same(file, page / file.name)]
             for name in others:
-                print(f"{page.relative_to(ROOT)}/{name}: is not what make.py makes of the data; run: results/redo.sh {page.name}", file=sys.stderr)
+                print(f"{page / name}: is not what make.py makes of the data; run: results/redo.sh {page.name}", file=sys.stderr)
             print(f"{page.name}: {len(made)} files made again, {len(others)} differ")
             sys.exit(bool(others))
         if run and options.run:
@@ -66,6 +74,82 @@ def with_error(value, error, decimals):
     """A number ± its error, with up to two more decimals where the error would round to nothing."""
     shown = next((d for d in range(decimals, decimals + 3) if abs(error) >= 0.5 * 10**-d), decimals)
     return f"{fixed(value, shown)} ± {fixed(error, shown)}"
+
+
+class Random:
+    """The numbers of java.util.Random with the same seed, by which earlier versions drew."""
+
+    def __init__(self, seed):
+        self.state = (seed ^ 0x5DEECE66D) & (2**48 - 1)
+
+    def next(self, count):
+        """So many of its states, 48 bits each."""
+        factor, summand, states = 0x5DEECE66D, 11, np.array([self.state], np.uint64)
+        while len(states) <= count:  # the second half by the step over the first
+            states = np.concatenate([states, states * np.uint64(factor) + np.uint64(summand)])
+            factor, summand = factor * factor % 2**48, summand * (factor + 1) % 2**48
+        states &= np.uint64(2**48 - 1)
+        self.state = int(states[count])
+        return states[1:count + 1]
+
+    def ints(self, count, bound):
+        """So many from 0 to below a bound."""
+        states = self.next(count)
+        return ((states >> np.uint64(16)) & np.uint64(bound - 1) if bound & (bound - 1) == 0 else (states >> np.uint64(17)) % np.uint64(bound)).astype(int)
+
+
+def median_interval(*samples):
+    """A median, or the difference of two, with its 95 % bootstrap interval: percentiles of the medians of 10 000 samples that are drawn from the
+    sorted sample with replacement (Efron 1979). NaN where a sample has a single value. Returns (median, low, high)."""
+    samples = [np.sort(np.asarray(sample, float)) for sample in samples]
+    sizes = [len(sample) for sample in samples]
+    if min(sizes) > 1:
+        if len(set(sizes)) == 1:
+            draws = Random(20190101).ints(10_000 * sum(sizes), sizes[0])
+        else:
+            states = Random(20190101)
+            draws = np.concatenate([states.ints(size, size) for _ in range(10_000) for size in sizes])
+        parts = np.split(draws.reshape(10_000, -1), np.cumsum(sizes)[:-1], axis=1)
+        medians = [np.median(sample[part], axis=1) for sample, part in zip(samples, parts, strict=True)]
+        low, high = np.quantile(medians[0] - (medians[1] if len(medians) > 1 else 0), [0.025, 0.975], method="median_unbiased")
+    else:
+        low = high = math.nan
+    centre = [float(np.median(sample)) for sample in samples]
+    return centre[0] - sum(centre[1:]), float(low), float(high)
+
+
+def interval_text(interval, decimals, factor=1):
+    """0.81 [0.70, 0.93]"""
+    median, low, high = (fixed(factor * value, decimals) if value == value else None for value in interval)
+    return median if low is None else f"{median} [{low}, {high}]"
+
+
+def pairs(samples):
+    """All pairs of samples by name: a row (dict) each with the difference of medians, Mann and Whitney's p (1947), that corrected by Holm (1979)
+    for all pairs, Vargha and Delaney's A (2000), Cliff's delta (1993) and a verdict in words, no more than test and interval support."""
+    rows = []
+    for (first, one), (second, other) in itertools.combinations([(name, sample) for name, sample in samples.items() if len(sample)], 2):
+        exact = len(set(one) | set(other)) == len(one) + len(other) and max(len(one), len(other)) <= 50
+        u, p = stats.mannwhitneyu(one, other, method="exact" if exact else "asymptotic")
+        difference, low, high = median_interval(one, other)
+        a = float(u) / (len(one) * len(other))
+        rows.append({"first": first, "second": second, "difference": difference, "low": low, "high": high, "p": 1.0 if p != p else min(1.0, float(p)),
+                     "a": a, "cliffs_delta": 2 * a - 1, "least": min(1, 2 / math.comb(len(one) + len(other), len(one)))})
+    greatest = 0
+    for rank, row in enumerate(sorted(rows, key=lambda row: row["p"])):
+        row["p_holm"] = greatest = max(greatest, min(1.0, (len(rows) - rank) * row["p"]))
+    for row in rows:
+        why = f" (p {chance(row['p_holm'])}, A = {fixed(row['a'], 2)})"
+        names = (row["first"], row["second"]) if row["difference"] > 0 else (row["second"], row["first"])
+        seen = row["p_holm"] < 0.05 and (row["low"] > 0 or row["high"] < 0)
+        row["verdict"] = (f"{names[0]} further than {names[1]}{why}" if seen
+                          else "no difference seen" + why if len(rows) * row["least"] < 0.05 else "too few to tell")
+    return rows
+
+
+def chance(p):
+    """With its sign of relation: = 0.03, < 0.001."""
+    return "< 0.001" if p < 0.001 else "= " + fixed(p, 3 if p < 0.1 else 2)
 
 
 def table(head, rows, aligned=None):

@@ -53,13 +53,7 @@ final class EvolvePhase {
     /** Evaluations that are still to be done, as far as can be known. */
     private static long left(List<EvolvedRun> runs) {
         return runs.stream().filter(run -> !run.plan().isFinished())
-                .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
-    }
-
-    private static long expected(EvolutionSettings settings) {
-        return Math.round(settings.starts() * settings.population()
-                * (1 + ProgressEstimate.CHILDREN_PER_SELECTED * settings.generations()))
-                + (long) settings.repeats() * (settings.generations() + 1);
+                .mapToLong(run -> Math.max(0, ProgressEstimate.evaluations(run.plan().settings()) - run.plan().recorded())).sum();
     }
 
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */

@@ -14,7 +14,7 @@ import picocli.CommandLine.Spec;
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
             CheckCommand.class, ConvergeCommand.class,
-            CompareCommand.class, CompareOptimizersCommand.class,
+            CompareCommand.class,
             ReportCommand.class, ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
             NewCommand.class, ReproduceCommand.class, ClusterEfficiencyCommand.class},
         mixinStandardHelpOptions = true,

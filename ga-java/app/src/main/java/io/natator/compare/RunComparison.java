@@ -1,13 +1,16 @@
-package io.natator.study.optimizer;
+package io.natator.compare;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.Spread;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
 import io.natator.config.Numbers;
+import io.natator.evolution.Individual;
 import io.natator.run.FreshStarts;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationResult;
-import io.natator.study.statistics.MedianInterval;
-import io.natator.study.statistics.PairTest;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -27,6 +30,7 @@ public final class RunComparison {
 
     private final List<RunSummary> runs;
     private final int starts;
+    private final List<Double> shares;
     private final List<Map<List<Double>, List<SimulationResult>>> swims = new ArrayList<>();
 
     /**
@@ -34,10 +38,12 @@ public final class RunComparison {
      *
      * @param folders of the runs, at least two
      * @param starts  fresh starts of each gait
+     * @param early   whether the best gaits at a tenth, a quarter and half of the budgets are run too
      */
-    public RunComparison(List<Path> folders, int starts) {
-        this.runs = folders.stream().map(folder -> RunSummary.of("", folder)).toList();
+    public RunComparison(List<Path> folders, int starts, boolean early) {
+        this.runs = folders.stream().map(RunSummary::of).toList();
         this.starts = starts;
+        this.shares = early ? EqualBudget.SHARES : List.of(1.0);
     }
 
     /** How many swims that takes. */
@@ -59,7 +65,39 @@ public final class RunComparison {
     }
 
     private List<List<Double>> genomes(RunSummary run) {
-        return EqualBudget.leaders(run, runs, List.of(1.0));
+        return EqualBudget.leaders(run, runs, shares);
+    }
+
+    /**
+     * The runs as lines of JSON, once the gaits were run: what they are compared by, and in {@code again} what each gait's swims
+     * were worth.
+     *
+     * @param rankStarts fresh starts from which all gaits of each last generation are run too, for {@code last}; 0 for none
+     */
+    public List<String> json(int rankStarts, Evaluator evaluator, Path simulator) throws InterruptedException {
+        List<String> lines = new ArrayList<>();
+        for (int i = 0; i < runs.size(); i++) {
+            RunSummary run = runs.get(i);
+            ObjectNode line = (ObjectNode) Json.tree(run);
+            ArrayNode again = line.putArray("again");
+            swims.get(i).forEach((genes, results) -> again.addObject().putPOJO("genes", genes).putPOJO("runs", scores(results)));
+            if (rankStarts > 0) {
+                List<Individual> last = StoredRun.state(Path.of(run.run())).population().stream()
+                        .collect(Collectors.toMap(Individual::genes, one -> one, (one, same) -> one, LinkedHashMap::new)).values().stream().toList();
+                List<List<SimulationResult>> found = new FreshStarts(run.settings(), evaluator, simulator)
+                        .each(last.stream().map(Individual::genes).toList(), rankStarts);
+                ArrayNode ranked = line.putArray("last");
+                for (int k = 0; k < last.size(); k++) {
+                    ranked.addObject().put("selected", last.get(k).score()).putPOJO("runs", scores(found.get(k)));
+                }
+            }
+            lines.add(Json.line(line));
+        }
+        return lines;
+    }
+
+    private static List<Double> scores(List<SimulationResult> results) {
+        return results.stream().map(SimulationResult::score).toList();
     }
 
     /** Tables as text, once the gaits were run. */

@@ -1,4 +1,4 @@
-package io.natator.study.optimizer;
+package io.natator.compare;
 
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;

@@ -1,4 +1,4 @@
-package io.natator.study.statistics;
+package io.natator.compare;
 
 import java.util.Comparator;
 import java.util.List;

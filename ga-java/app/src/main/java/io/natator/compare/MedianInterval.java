@@ -1,4 +1,4 @@
-package io.natator.study.statistics;
+package io.natator.compare;
 
 import io.natator.config.Numbers;
 import java.util.Random;

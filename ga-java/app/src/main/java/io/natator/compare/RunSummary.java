@@ -1,35 +1,30 @@
-package io.natator.study.optimizer;
+package io.natator.compare;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
-import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Leader;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Arrays;
 import java.util.List;
 
 /**
- * What is kept of a finished run when its folder is not; a line of {@code SCENE.jsonl}.
+ * What runs are compared by; part of a line of {@code compare --json}.
  *
- * @param optimizer    label of the variant
+ * @param run          its folder
  * @param settings     all that determines the run
  * @param environment  where it was carried out, as {@code environment.json}, without the settings
  * @param statistics   what it did not have to simulate, as {@code savings.json}; null if that was not recorded
  * @param best         its best gait, or null if there is none
  * @param generations  figures of each
- * @param improvements where the best gait so far, or its fitness, changed; null where only the generations are known
+ * @param improvements where the best gait so far, or its fitness, changed
  */
-record RunSummary(@JsonProperty(required = true) String optimizer,
-        @JsonProperty(required = true) EvolutionSettings settings, JsonNode environment, JsonNode statistics,
-        BestGait best, @JsonProperty(required = true) List<GenerationSummary> generations,
-        List<Improvement> improvements) {
+record RunSummary(String run, EvolutionSettings settings, JsonNode environment, JsonNode statistics, BestGait best,
+        List<GenerationSummary> generations, List<Improvement> improvements) {
 
     /**
      * An evaluation that changed which gait is the best or how good it is; for the worse, where it was that gait's own, from
@@ -37,16 +32,15 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
      *
      * @param evaluation its number, from 0
      * @param fitness    what the best is worth from then on, never negative
-     * @param simulated  time simulated until then in all evaluations, in seconds; null in old studies
-     * @param genes      of the best; null where it is the same as before, and in old studies
+     * @param simulated  time simulated until then in all evaluations, in seconds
+     * @param genes      of the best; null where it is the same as before
      */
     @JsonInclude(JsonInclude.Include.NON_NULL)
-    record Improvement(@JsonProperty(required = true) int evaluation, @JsonProperty(required = true) double fitness,
-            Double simulated, List<Double> genes) {
+    record Improvement(int evaluation, double fitness, double simulated, List<Double> genes) {
     }
 
     /** Of the run in a folder, finished or not. */
-    static RunSummary of(String optimizer, Path directory) {
+    static RunSummary of(Path directory) {
         StoredRun run = StoredRun.in(directory);
         List<Improvement> improvements = new ArrayList<>();
         List<Double> before = null;
@@ -59,29 +53,13 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         if (environment instanceof ObjectNode all) {
             all.remove("settings");  // which stand beside it
         }
-        return new RunSummary(optimizer, run.settings(), environment,
+        return new RunSummary(directory.toString(), run.settings(), environment,
                 run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(), improvements);
     }
 
     /** How many evaluations it took. */
     int evaluations() {
         return generations.stream().mapToInt(GenerationSummary::evaluations).sum();
-    }
-
-    /**
-     * Best fitness after each evaluation: until the last by all that was known of all gaits, then what the run's winner was worth.
-     * A run itself forgets gaits that were among the best only for a while, and may end with another one.
-     */
-    double[] curve() {
-        double[] curve = new double[evaluations()];
-        for (int i = 0; i < improvements.size(); i++) {
-            int end = i + 1 < improvements.size() ? improvements.get(i + 1).evaluation() : curve.length;
-            Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
-        }
-        if (curve.length > 0 && best != null && best.selected() != null) {
-            curve[curve.length - 1] = best.selected();
-        }
-        return curve;
     }
 
     /** Time simulated in all evaluations, in seconds; NaN if that is not known. */
@@ -102,29 +80,12 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         }
         List<Double> genes = null;
         for (Improvement one : improvements) {
-            Double spent = budget == EqualBudget.EVALUATIONS ? Double.valueOf(one.evaluation() + 1.0) : one.simulated();
-            if (spent == null || spent > place) {
+            double spent = budget == EqualBudget.EVALUATIONS ? one.evaluation() + 1.0 : one.simulated();
+            if (spent > place) {
                 break;
             }
             genes = one.genes() != null ? one.genes() : genes;
         }
         return genes;
-    }
-
-    /** What the best gait was worth when it was chosen. */
-    double selected() {
-        double[] curve = curve();
-        return curve.length == 0 ? 0 : curve[curve.length - 1];
-    }
-
-    /** What the best gait does from fresh starts; null in old studies. */
-    FreshRuns fresh() {
-        return best == null ? null : best.fresh();
-    }
-
-    /** What the best gait does in vacuum, in scene units; NaN if that is not known. */
-    double vacuumDistance() {
-        return best == null || best.vacuum() == null || best.vacuum().distance() == null ? Double.NaN
-                : best.vacuum().distance();
     }
 }

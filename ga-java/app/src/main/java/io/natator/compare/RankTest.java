@@ -1,4 +1,4 @@
-package io.natator.study.statistics;
+package io.natator.compare;
 
 import org.apache.commons.numbers.combinatorics.BinomialCoefficientDouble;
 import org.apache.commons.statistics.inference.MannWhitneyUTest;
