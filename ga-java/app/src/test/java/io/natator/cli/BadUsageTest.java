@@ -31,17 +31,16 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
-        "compare-optimizers --output-dir NEVER --creatures 1,2,1|--creatures has 1 twice; expected each once",
-        "compare-optimizers --output-dir NEVER --scene pool/eel --creatures 1|--creatures goes without --scene; leave one of them out",
-        "compare-optimizers --output-dir NEVER --scene NEVER.json|expected a named scene or an existing file",
-        "compare-optimizers --output-dir NEVER --optimizers random,cma-es,RANDOM|--optimizers has random twice; expected each once",
         "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
         "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
-        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
-        "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
-        "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
-        "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})
+        "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+        "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
+        "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
+        "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+        "evolve --seeds 2|--seeds goes with --output-dir; give both",
+        "evolve --output-dir NEVER --seeds 2 --dry-run|--seeds goes without --dry-run; leave one of them out",
+        "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
     void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
         assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(1);
@@ -194,20 +193,13 @@ class BadUsageTest extends FakeSimulatorTest {
     }
 
     @Test
-    void studiesAndReportsOverwriteNobodysPage() throws IOException {
+    void reportsOverwriteNobodysPage() throws IOException {
         assertThat(evolve("run")).isZero();
         Path mine = Files.writeString(Files.createDirectory(folder.resolve("mine")).resolve("README.md"), "my notes");
-        for (String[] command : new String[][] {{"report", folder.resolve("run").toString()}, {"compare-optimizers"}}) {
-            err.getBuffer().setLength(0);
-            List<String> arguments = new ArrayList<>(List.of(command));
-            arguments.addAll(List.of("--output-dir", folder.resolve("mine").toString()));
-            assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-            assertThat(err.toString()).contains("has a README.md that natator did not write").hasLineCount(1);
-        }
-        assertThat(mine).hasContent("my notes");
         err.getBuffer().setLength(0);
-        assertThat(natator("compare-optimizers", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).contains("is the folder of a run").hasLineCount(1);
+        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", folder.resolve("mine").toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("has a README.md that natator did not write").hasLineCount(1);
+        assertThat(mine).hasContent("my notes");
     }
 
     @Test

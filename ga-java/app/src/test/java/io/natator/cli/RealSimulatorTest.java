@@ -268,7 +268,7 @@ class RealSimulatorTest {
 
     /** With one joint there is no muscle between two. */
     @ParameterizedTest
-    @ValueSource(strings = {"evolve --creature 1", "evolve --creature 2", "compare-optimizers --creatures 1,2"})
+    @ValueSource(strings = {"evolve --creature 1", "evolve --creature 2"})
     void aCreatureThatCannotMoveIsNotEvolved(String command) {
         Path output = folder.resolve("output");
         List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
