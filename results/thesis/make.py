@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The thesis done again: python3 results/thesis/make.py [--run] [--check | --repeat N] [--quick] [--output-dir DIR]
+"""The thesis done again: results/redo.sh thesis [--run] [--check | --repeat N] [--quick] [--output-dir DIR]
 
 Makes page, tables and pictures from the rows of DIR, results/thesis itself by default. With --run it first evolves and measures what is missing there;
 killed, the same command goes on. --quick is a study so small that it takes a minute and finds nothing, in a DIR of its own.
@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent.parent / "sim-native" / "python")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent.parent / "sim-native" / "python")]
 
 import figures  # noqa: E402
 import measured  # noqa: E402
@@ -44,7 +44,6 @@ def options(arguments):
     given.add_argument("--output-dir", type=pathlib.Path, default=HERE, metavar="DIR")
     given.add_argument("--backend", choices=("cpu", "cuda"), default="cpu")
     given.add_argument("--workers", type=count, metavar="N", help="evaluations at the same time; default all processors")
-    given.add_argument("--runs-at-once", type=count, default=2, metavar="N", help="evolutions at the same time; default 2")
     asked = given.parse_args(arguments)
     if asked.quick and asked.output_dir == HERE:
         given.error("--quick needs --output-dir; expected a folder of its own")
@@ -78,11 +77,11 @@ def report(study, check):
 
 def main(arguments=None):
     asked = options(arguments)
-    study = measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size())
+    found = measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size())
     if asked.run or asked.repeat or asked.dry_run:
         import run  # needs the simulator, as the page does not
         try:
-            work = run.Work(study, asked.backend, asked.workers, asked.runs_at_once)
+            work = run.Work(found, asked.backend, asked.workers)
             if asked.repeat:
                 return work.repeat(asked.repeat, asked.repeat_seed, asked.water)
             if asked.dry_run:
@@ -92,7 +91,7 @@ def main(arguments=None):
         except (run.Failure, run.natator.InputError, run.natator.ProgramError) as error:
             print(f"make.py: {error}", file=sys.stderr)
             return 1
-    return report(study, asked.check)
+    return report(found, asked.check)
 
 
 if __name__ == "__main__":

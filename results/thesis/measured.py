@@ -12,6 +12,7 @@ import statistics
 from scipy import stats
 
 import plan
+import study
 from plan import SECONDS, SUBSTEPS, WATERS
 
 FISH = ("anguilliform", "carangiform", "thunniform")
@@ -291,24 +292,16 @@ def mostly_stopped(results):
 
 
 def fixed(value, digits=2):
-    """So many decimals; what rounds to nothing has no sign."""
-    if not math.isfinite(value):
-        return "–"
-    text = f"{value:.{digits}f}"
-    return text if float(text) else text.lstrip("-")
-
-
-def error_text(error, digits=2):
-    """An error bar; up to two more decimals where it would round to nothing, since 0 says that a number is exact."""
-    return f"± {fixed(error, decimals(error, digits))}"
-
-
-def decimals(error, digits):
-    return next((enough for enough in range(digits, digits + 3) if abs(error) >= 0.5 * 10 ** -enough), digits)
+    return study.fixed(value, digits) if math.isfinite(value) else "–"
 
 
 def with_error(value, error, digits=2):
-    return f"{fixed(value, decimals(error, digits))} {error_text(error, digits)}" if math.isfinite(value) else "–"
+    return study.with_error(value, error, digits) if math.isfinite(value) else "–"
+
+
+def error_text(error):
+    """An error bar alone."""
+    return with_error(0, error).split(" ", 1)[1]
 
 
 def percent(share):

@@ -8,6 +8,7 @@ import statistics
 import claims
 import measured
 import plan
+import study
 from measured import FISH, Sample, error_text, fixed, percent, with_error
 from plan import GAITS, WATERS
 
@@ -22,10 +23,10 @@ def text(sample, digits=4):
 
 
 class Page:
-    def __init__(self, study, vorticity):
-        self.study, self.plan = study, study.plan
-        self.claims = list(claims.every(study, vorticity))
-        self.gaits = [one for one in GAITS if one["creature"] in study.size.creatures]
+    def __init__(self, found, vorticity):
+        self.study, self.plan = found, found.plan
+        self.claims = list(claims.every(found, vorticity))
+        self.gaits = [one for one in GAITS if one["creature"] in found.size.creatures]
 
     # Tables: a heading and rows of text.
 
@@ -349,8 +350,7 @@ def spread(numbers):
 def markdown(rows):
     if len(rows) < 2:
         return "Nothing is measured yet."
-    lines = [f"| {' | '.join(row)} |" for row in rows]
-    return "\n".join([lines[0], "|" + " --- |" * len(rows[0]), *lines[1:]])
+    return study.table(rows[0], rows[1:], "<" * len(rows[0])).rstrip("\n")
 
 
 def csv_text(rows):

@@ -163,13 +163,13 @@ class Evolution:
         return study / "runs" / f"creature-{self.creature}" / self.water / f"seed-{self.seed}"
 
     def arguments(self):
-        """Of natator evolve. Creature 2 swims furthest and swings widest: its tank is narrower, so that what touches no wall there keeps clear of
+        """Of natator evolve, with all seeds. Creature 2 swims furthest and swings widest: its tank is narrower, so that what touches no wall there keeps clear of
         them in the scene as it is. In open water a second costs some twenty times as much as in the thesis' tank; so evolutions are smaller."""
         population, duration, overrides = (150, None, None) if self.water == "flex" else \
             (60, 2.5, search(4.5, 1, 1.2)) if self.creature == 2 else (60, 1.75, search(4, 1, 1.6))
         duration = self.size.duration or duration
-        return ["--preset", "thesis", "--scene", scene(self.creature, self.water), "--scheme", SCHEME[self.water], "--seed", str(self.seed),
-                "--starts", "2", "--population", str(self.size.population or population), "--generations", str(self.size.generations),
+        return ["--preset", "thesis", "--scene", scene(self.creature, self.water), "--scheme", SCHEME[self.water], "--seed", "1",
+                "--seeds", str(self.size.seeds), "--starts", "2", "--population", str(self.size.population or population), "--generations", str(self.size.generations),
                 *(["--duration", str(duration)] if duration else []), *(["--overrides", json.dumps(overrides)] if overrides else [])]
 
 

@@ -21,7 +21,6 @@ import measured
 import motion
 import plan
 
-ROOT = plan.HERE.parent.parent
 FINALISTS = 8
 KEPT = ("status", "distance", "stopped", "simulated", "frames", "scheme", "precision", "hash", "unstable", "error", "swimming", "work", "course", "goals")
 UNSTABLE = 3  # exit code of a run that has an answer nevertheless
@@ -75,12 +74,12 @@ def joined(before, since):
 
 
 class Work:
-    def __init__(self, study, backend, workers, at_once):
-        self.study, self.backend, self.at_once = study, backend, at_once
+    def __init__(self, study, backend, workers):
+        self.study, self.backend = study, backend
         self.workers = workers or len(os.sched_getaffinity(0))
         self.simulator = simulator_path()
         self.program = hashlib.sha256(pathlib.Path(self.simulator).read_bytes()).hexdigest()
-        self.natator = [os.environ.get("JAVA", "java"), "-jar", ROOT / "ga-java/target/natator.jar"]
+        self.natator = ["java", "-jar", plan.HERE.parent.parent / "ga-java/target/natator.jar"]
 
     def all(self):
         self.study.folder.mkdir(parents=True, exist_ok=True)
@@ -108,18 +107,17 @@ class Work:
     # Evolutions.
 
     def evolve(self):
-        self.in_threads(self.evolve_one, self.unfinished(), "evolutions to finish", self.at_once)
+        """All seeds of a creature in a water at once."""
+        left = self.unfinished()
+        if left:
+            self.say(len(left), "evolutions to finish")
+        options = ["--simulator-path", self.simulator, "--workers", self.workers]
+        for one in {(one.creature, one.water): one for one in left}.values():
+            call([*self.natator, "evolve", *one.arguments(), "--backend", self.backend, "--output-dir", one.folder(self.study.folder).parent, *options])
+        for one in left:
+            self.keep_finalists(one.folder(self.study.folder))
+            call([*self.natator, "resume", one.folder(self.study.folder), "--compact", *options])
         self.study.files.clear()
-
-    def evolve_one(self, evolution):
-        folder, options = evolution.folder(self.study.folder), ["--simulator-path", self.simulator, "--workers", self.workers]
-        if (folder / "config.json").exists():
-            call([*self.natator, "resume", folder, "--generations", evolution.size.generations, *options])
-        else:
-            folder.parent.mkdir(parents=True, exist_ok=True)
-            call([*self.natator, "evolve", *evolution.arguments(), "--backend", self.backend, "--output-dir", folder, *options])
-        self.keep_finalists(folder)
-        call([*self.natator, "resume", folder, "--compact", *options])
 
     def keep_finalists(self, folder):
         """The best gaits, since the evaluations that they are taken from are too large to be kept."""
@@ -233,11 +231,11 @@ class Work:
                   plan.SCHEME[one.water], "--at", self.study.duration / 2, "--from", "three-quarter", "--output", file, "--simulator-path", self.simulator])
             (self.study.folder / "gait.json").unlink()
 
-    def in_threads(self, work, asked, what, at_once=None):
+    def in_threads(self, work, asked, what):
         """Some at a time; the first failure ends it, when those under way are done."""
         if asked:
             self.say(len(asked), what)
-        with concurrent.futures.ThreadPoolExecutor(at_once or self.workers) as threads:
+        with concurrent.futures.ThreadPoolExecutor(self.workers) as threads:
             under_way = [threads.submit(work, one) for one in asked]
             try:
                 for one in concurrent.futures.as_completed(under_way):
