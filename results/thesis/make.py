@@ -17,6 +17,7 @@ import measured  # noqa: E402
 import motion  # noqa: E402
 import page  # noqa: E402
 import plan  # noqa: E402
+import run  # noqa: E402
 
 
 class Options(argparse.ArgumentParser):
@@ -77,20 +78,22 @@ def report(study, check):
 
 def main(arguments=None):
     asked = options(arguments)
-    found = measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size())
+    try:
+        return made(asked, measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size()))
+    except (OSError, ValueError, KeyError, run.Failure, run.natator.ProgramError) as error:
+        print(f"make.py: {error if str(error) else type(error).__name__}", file=sys.stderr)
+        return 1
+
+
+def made(asked, found):
     if asked.run or asked.repeat or asked.dry_run:
-        import run  # needs the simulator, as the page does not
-        try:
-            work = run.Work(found, asked.backend, asked.workers)
-            if asked.repeat:
-                return work.repeat(asked.repeat, asked.repeat_seed, asked.water)
-            if asked.dry_run:
-                print(work.missing())
-                return 0
-            work.all()
-        except (run.Failure, run.natator.InputError, run.natator.ProgramError) as error:
-            print(f"make.py: {error}", file=sys.stderr)
-            return 1
+        work = run.Work(found, asked.backend, asked.workers)
+        if asked.repeat:
+            return work.repeat(asked.repeat, asked.repeat_seed, asked.water)
+        if asked.dry_run:
+            print(work.missing())
+            return 0
+        work.all()
     return report(found, asked.check)
 
 

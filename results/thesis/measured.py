@@ -35,9 +35,12 @@ class Log:
             whole = text[:text.rfind(b"\n") + 1]
             if whole != text:
                 file.write_bytes(whole)
-            for line in whole.splitlines():
-                row = json.loads(line)
-                self.rows[canonical(row["request"])] = row
+            for number, line in enumerate(whole.splitlines(), 1):
+                try:
+                    row = json.loads(line)
+                    self.rows[canonical(row["request"])] = row
+                except (ValueError, TypeError, KeyError) as error:
+                    raise ValueError(f"{file}: line {number}: {error}; expected a row with its request, as JSON") from error
 
     def add(self, row):
         with open(self.file, "a", encoding="utf-8") as lines:

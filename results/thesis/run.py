@@ -190,7 +190,7 @@ class Work:
         def measure(request):
             times, particles, fluid, body, _ = self.path(request)
             under = motion.share_below(fluid[:, :3], body[:, :3])
-            self.study.motions.add({"program": self.program, "request": request, **motion.moved(times, particles, request["gait"]["frequency"], under)})
+            return {"program": self.program, "request": request, **motion.moved(times, particles, request["gait"]["frequency"], under)}
 
         def draw(drawn):
             name, request = drawn
@@ -201,7 +201,7 @@ class Work:
                   {"program": self.program, "request": request, "spine": {"times": times.tolist(), "centres": motion.slices(particles).round(6).tolist()},
                    "centres": particles.mean(axis=1).round(6).tolist(), "attitude": angles, "flow": flow}, gzip.open)
 
-        self.in_threads(measure, self.study.motions.missing(self.to_record()), "motions to record")
+        self.in_threads(measure, self.study.motions.missing(self.to_record()), "motions to record", self.study.motions.add)
         self.in_threads(draw, list(self.undrawn().items()), "recordings to draw")
 
     def path(self, request):
@@ -231,15 +231,15 @@ class Work:
                   plan.SCHEME[one.water], "--at", self.study.duration / 2, "--from", "three-quarter", "--output", file, "--simulator-path", self.simulator])
             (self.study.folder / "gait.json").unlink()
 
-    def in_threads(self, work, asked, what):
-        """Some at a time; the first failure ends it, when those under way are done."""
+    def in_threads(self, work, asked, what, done=lambda _: None):
+        """Some at a time, each then handed to `done` here; the first failure ends it, when those under way are done."""
         if asked:
             self.say(len(asked), what)
         with concurrent.futures.ThreadPoolExecutor(self.workers) as threads:
             under_way = [threads.submit(work, one) for one in asked]
             try:
                 for one in concurrent.futures.as_completed(under_way):
-                    one.result()
+                    done(one.result())
             except BaseException:
                 threads.shutdown(cancel_futures=True)
                 raise
