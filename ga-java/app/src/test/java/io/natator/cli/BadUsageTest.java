@@ -31,9 +31,6 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "reproduce --output-dir NEVER --creature 2,x|--creature is x; expected a whole number",
-        "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",
-        "reproduce --output-dir NEVER --water flex,open-water,flex|--water has flex twice; expected each once",
         "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
         "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
         "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",

@@ -104,10 +104,6 @@ class HelpTest {
         "swim|natator: 'swim' is no command; see natator --help",
         "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
         "view --zzz|natator view: --zzz is no option of this command; see natator view --help",
-        "reproduce --phase mesure|natator reproduce: Invalid value for option '--phase': expected evolve, measure, report, "
-            + "repeat or all but was 'mesure'; did you mean measure? See natator reproduce --help",
-        "reproduce --water FLEX,open-watr|natator reproduce: Invalid value for option '--water' (WATER): expected flex "
-            + "or open-water but was 'open-watr'; did you mean open-water? See natator reproduce --help",
         "export thesis/tank --format npz --fields positio|natator export: Invalid value for option '--fields' (FIELD): "
             + "expected position, velocity or density but was 'positio'; did you mean position? See natator export --help"})
     void whatWasProbablyMeantIsNamed(String arguments, String line) {
