@@ -73,6 +73,24 @@ class WholeReportTest {
         }
     }
 
+    /** A thesis' creature: pictures of its motion and its water, and what it is like; also while the run goes on. */
+    @Test
+    void ofACreatureOfTheThesis() throws IOException {
+        Path second = folder.resolve("second");
+        Commands.natator("evolve", "--simulator-path", SIMULATOR, "--scene", "thesis/creature-2", "--population", "4", "--generations", "0",
+                "--duration", "0.05", "--output-dir", second.toString());
+        Commands.natator("report", "--simulator-path", SIMULATOR, second.toString());
+
+        assertThat(Files.readString(second.resolve("report/README.md"))).contains("# thesis/creature-2, seed 1",
+                "![rotation over time](rotation.png)", "flow-side.png", "| e against anguilliform fish (α, β) | 0.").doesNotContain("NaN", "not finished");
+
+        Path config = second.resolve("config.json");
+        Files.writeString(config, Files.readString(config).replaceFirst("\"generations\" : 0", "\"generations\" : 3"));
+        Commands.natator("report", "--simulator-path", SIMULATOR, second.toString());
+        assertThat(Files.readString(second.resolve("report/README.md")))
+                .startsWith("# thesis/creature-2, seed 1\n\n**This run is not finished.** Done are generation 0 of 3 and ");
+    }
+
     @Test
     void ofAWinnerThatFellApart() throws IOException {
         Path file = run.resolve("best.json");

@@ -4,7 +4,6 @@ import java.awt.BasicStroke;
 import java.awt.Color;
 import java.awt.Graphics2D;
 import java.awt.image.BufferedImage;
-import java.util.List;
 import java.util.function.Consumer;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
@@ -72,17 +71,6 @@ public final class Charts {
         }
     }
 
-    /** Gives the places 1, 2, … of the horizontal axis names instead of numbers. */
-    public static void name(XYChart chart, List<String> names) {
-        chart.getStyler().setXAxisMin(0.0).setXAxisMax(names.size() + 1.0);
-        chart.setCustomXAxisTickLabelsFormatter(x -> {
-            int place = (int) Math.rint(x);
-            // Equal labels make the axis look for other places, so what is to be blank is so in many ways.
-            return Math.abs(x - place) < 1e-6 && place >= 1 && place <= names.size() ? names.get(place - 1)
-                    : " ".repeat(1 + (int) Math.rint(10 * Math.abs(x)));
-        });
-    }
-
     /** One of eight colours. */
     public static Color colour(int number) {
         return COLOURS[number % COLOURS.length];
@@ -111,20 +99,6 @@ public final class Charts {
         XYSeries series = add(chart, name, x, y, number, 2f);
         series.setMarker(marker(number)).setMarkerColor(colour(number));
         return series;
-    }
-
-    /** Adds a line with markers, and one standard deviation to either side. */
-    public static void addWithSpread(XYChart chart, String name, double[] x, double[] y, double[] deviation,
-            int number) {
-        XYSeries series = chart.addSeries(name, x, y, deviation);
-        series.setMarker(marker(number)).setMarkerColor(colour(number)).setLineColor(colour(number))
-                .setLineStyle(stroke(number, 2f));
-    }
-
-    /** Adds points with their standard deviations, and no line. */
-    public static void addPoints(XYChart chart, String name, double[] x, double[] y, double[] deviation, int number) {
-        addWithSpread(chart, name, x, y, deviation, number);
-        chart.getSeriesMap().get(name).setXYSeriesRenderStyle(XYSeries.XYSeriesRenderStyle.Scatter);
     }
 
     private static Marker marker(int number) {
