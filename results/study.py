@@ -92,6 +92,11 @@ class Random:
         self.state = int(states[count])
         return states[1:count + 1]
 
+    def double(self):
+        """One from 0 to below 1."""
+        high, low = self.next(2)
+        return float((int(high) >> 22 << 27) + (int(low) >> 21)) * 2.0**-53
+
     def ints(self, count, bound):
         """So many from 0 to below a bound."""
         states = self.next(count)

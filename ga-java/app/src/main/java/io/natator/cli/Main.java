@@ -16,7 +16,7 @@ import picocli.CommandLine.Spec;
             CheckCommand.class, ConvergeCommand.class,
             CompareCommand.class,
             ReportCommand.class, ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
-            NewCommand.class, ClusterEfficiencyCommand.class},
+            NewCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

@@ -319,13 +319,6 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(out.toString()).isEmpty();
     }
 
-    @Test
-    void timesOfEvaluationsThatFailAreNotTaken() {
-        assertThat(natator("cluster-efficiency", "--scene", "fault/exit", "--output-dir", folder.resolve("times").toString())).isEqualTo(1);
-        assertThat(err.toString()).startsWith("natator cluster-efficiency: an evaluation failed: ").contains("out of luck").hasLineCount(1);
-        assertThat(folder.resolve("times")).isEmptyDirectory();
-    }
-
     /** Whatever is asked of it: that a program does not work is no fault of the scene. */
     @ParameterizedTest
     @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "export --format csv", "picture",
