@@ -1,2 +1,0 @@
-/** Studies of what the simulator and the optimizers give. */
-package io.natator.study;
