@@ -85,7 +85,7 @@ def main(arguments=None):
         extent = {name: value for name in ("seeds", "generations") if (value := getattr(asked, name))}
         return made(asked, measured.Study(asked.output_dir, dataclasses.replace(plan.QUICK if asked.quick else plan.Size(), **extent)))
     except (OSError, ValueError, KeyError, run.Failure, run.natator.ProgramError) as error:
-        print(f"make.py: {error if str(error) else type(error).__name__}", file=sys.stderr)
+        print(f"make.py: {type(error).__name__ + ': ' if isinstance(error, KeyError) else ''}{error}", file=sys.stderr)
         return 1
 
 
