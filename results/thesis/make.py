@@ -6,6 +6,7 @@ killed, the same command goes on. --quick is a study so small that it takes a mi
 
 Exit codes: 0 done, 1 something failed or differs, 2 bad usage."""
 import argparse
+import dataclasses
 import pathlib
 import sys
 
@@ -41,6 +42,8 @@ def options(arguments):
     given.add_argument("--repeat-seed", type=int, default=1, help="by which chance they are drawn; default 1")
     given.add_argument("--water", choices=plan.WATERS, help="of which water; default both")
     given.add_argument("--dry-run", action="store_true", help="say what is missing, and do nothing")
+    given.add_argument("--seeds", type=count, metavar="N", help="evolutions of each creature in each water; default 5")
+    given.add_argument("--generations", type=count, metavar="N", help="of each evolution; one of fewer goes on; default 100")
     given.add_argument("--quick", action="store_true", help="a tiny study; needs --output-dir")
     given.add_argument("--output-dir", type=pathlib.Path, default=HERE, metavar="DIR")
     given.add_argument("--backend", choices=("cpu", "cuda"), default="cpu")
@@ -79,9 +82,10 @@ def report(study, check):
 def main(arguments=None):
     asked = options(arguments)
     try:
-        return made(asked, measured.Study(asked.output_dir, plan.QUICK if asked.quick else plan.Size()))
+        extent = {name: value for name in ("seeds", "generations") if (value := getattr(asked, name))}
+        return made(asked, measured.Study(asked.output_dir, dataclasses.replace(plan.QUICK if asked.quick else plan.Size(), **extent)))
     except (OSError, ValueError, KeyError, run.Failure, run.natator.ProgramError) as error:
-        print(f"make.py: {error if str(error) else type(error).__name__}", file=sys.stderr)
+        print(f"make.py: {type(error).__name__ + ': ' if isinstance(error, KeyError) else ''}{error}", file=sys.stderr)
         return 1
 
 

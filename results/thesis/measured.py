@@ -8,6 +8,7 @@ import gzip
 import json
 import math
 import statistics
+import zlib
 
 from scipy import stats
 
@@ -25,6 +26,29 @@ def canonical(value):
     return tuple(map(canonical, value)) if isinstance(value, list) else float(value) if type(value) is int else value
 
 
+# What files must hold: parts that the page rests on.
+ASKED = "program request.scene request.gait.frequency request.scheme request.overrides "
+NEEDED = {"measurements.jsonl": ASKED + "backend result.status result.stopped", "processor.jsonl": ASKED + "backend result.status result.stopped result.hash",
+          "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll largestYaw heights measuredPart",
+          "finalists.json": "gaits", "checkpoint.json": "generation", "config.json": "population generations",
+          "json.gz": "request spine.times spine.centres centres attitude flow"}
+
+
+def checked(text, where, needed):
+    """JSON with all that is needed; ValueError that says where what is missing."""
+    try:
+        value = json.loads(text)
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}; expected JSON") from error
+    for name in needed.split() + (["result.distance", "result.simulated"] if '"status":"ok"' in str(text) else []):
+        part = value
+        for key in name.split("."):
+            if not isinstance(part, dict) or part.get(key) is None:
+                raise ValueError(f"{where}: has no {name}")
+            part = part[key]
+    return value
+
+
 class Log:
     """Rows of a file of JSON lines, by the request that each answers; a line that was cut off as it was written is dropped."""
 
@@ -36,11 +60,8 @@ class Log:
             if whole != text:
                 file.write_bytes(whole)
             for number, line in enumerate(whole.splitlines(), 1):
-                try:
-                    row = json.loads(line)
-                    self.rows[canonical(row["request"])] = row
-                except (ValueError, TypeError, KeyError) as error:
-                    raise ValueError(f"{file}: line {number}: {error}; expected a row with its request, as JSON") from error
+                row = checked(line, f"{file}: line {number}", NEEDED.get(file.name, "request"))
+                self.rows[canonical(row["request"])] = row
 
     def add(self, row):
         with open(self.file, "a", encoding="utf-8") as lines:
@@ -109,16 +130,14 @@ class Study:
 
     def finished(self):
         """Evolutions that have come to their end, and of which the finalists are known."""
-        return [one for one in self.plan.evolutions if self.read(one, "finalists.json")
+        return [one for one in self.plan.evolutions if (one.folder(self.folder) / "finalists.json").exists()
                 and self.read(one, "checkpoint.json")["generation"] >= self.size.generations]
 
     def read(self, evolution, name):
-        """A file of its run folder, or None. What is finished does not change."""
+        """A file of its run folder. What is finished does not change."""
         if (evolution, name) not in self.files:
             file = evolution.folder(self.folder) / name
-            if not file.exists():
-                return None
-            self.files[evolution, name] = json.loads(file.read_text(encoding="utf-8"))
+            self.files[evolution, name] = checked(file.read_bytes(), file, NEEDED[name])
         return self.files[evolution, name]
 
     def finalists(self, evolution):
@@ -189,11 +208,13 @@ class Study:
     def recording(self, name, request):
         """That of just this request, or None: with more seeds another run may be the best."""
         file = self.recording_file(name)
-        if file.exists():
-            with gzip.open(file, "rt", encoding="utf-8") as text:
-                found = json.load(text)
-            return found if canonical(found["request"]) == canonical(request) else None
-        return None
+        if not file.exists():
+            return None
+        try:
+            found = checked(gzip.decompress(file.read_bytes()), file, NEEDED["json.gz"])
+        except (EOFError, zlib.error) as error:
+            raise ValueError(f"{file}: {error}; expected compressed JSON") from error
+        return found if canonical(found["request"]) == canonical(request) else None
 
     # Runs and means.
 

@@ -34,7 +34,8 @@ def call(command, accepted=(0,)):
     """Standard output of a program; Failure with its last line where it fails."""
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8")
     if done.returncode not in accepted:
-        raise Failure(f"{pathlib.Path(command[0]).name} {command[1]} failed: {(done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]}")
+        said = (done.stderr.strip() or done.stdout.strip() or "it said nothing").splitlines()[-1]
+        raise Failure(f"{' '.join(map(str, command[:4]))} … ended with exit code {done.returncode}: {said}")
     return done.stdout
 
 

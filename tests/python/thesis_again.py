@@ -67,8 +67,8 @@ def small(folder):
     has(redo(*study, "--check", code=1), "README.md is not what the rows give")
     (folder / "processor.jsonl").write_text(rows["processor.jsonl"].replace('"hash":"', '"hash":"0'), encoding="utf-8")
     has(redo(*study, "--repeat", 2, code=1), "differs: {", "0 of 2 runs end with the same bits")
-    (folder / "motions.jsonl").write_text(rows["motions.jsonl"].replace('"speed":', "", 1), encoding="utf-8")
-    has(redo(*study, code=1), "motions.jsonl: line 1: ")
+    (folder / "motions.jsonl").write_text(rows["motions.jsonl"].replace('"fits":', '"fit":', 1), encoding="utf-8")
+    has(redo(*study, code=1), "motions.jsonl: line 1: has no fits")
 
 
 def main():

@@ -214,9 +214,13 @@ class ResumeCommandTest extends FakeSimulatorTest {
     @Test
     void aCompactRunStaysAsItIs() throws IOException {
         assertThat(evolve("run")).isZero();
-        CompactRun.compact(folder.resolve("run"));
-        Map<String, String> before = files();
         String run = folder.resolve("run").toString();
+        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        assertThat(folder.resolve("run/evaluations.jsonl")).doesNotExist();
+        Map<String, String> before = files();
+
+        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        assertThat(files()).isEqualTo(before);
 
         assertThat(natator("resume", run)).as(err.toString()).isZero();
         assertThat(files()).isEqualTo(before);
