@@ -174,6 +174,18 @@ def filled(page, **parts):
     return text
 
 
+def plain(value):
+    """A number of an axis: 0.001, 10 000."""
+    return f"{value:,.0f}".replace(",", "\u2009") if value >= 10 else f"{value:g}"
+
+
+class MinorLabels(ticker.LogFormatter):
+    """Says which minor ticks of a short logarithmic axis have labels; these are plain numbers."""
+
+    def __call__(self, value, pos=None):
+        return super().__call__(value, pos) and plain(value)
+
+
 class Chart:
     """A picture with one pair of axes: draw on `axes`, then save."""
 
@@ -182,8 +194,8 @@ class Chart:
         self.axes.set(title=title, xlabel=x, ylabel=y, **({"xscale": "log", "yscale": "log"} if log else {}))
         self.axes.grid(linewidth=0.5, alpha=0.5, which="both" if log else "major")
         for axis in (self.axes.xaxis, self.axes.yaxis) if log else ():
-            axis.set_major_formatter(lambda value, _: f"{value:g}")
-            axis.set_minor_formatter(ticker.LogFormatter(minor_thresholds=(2, 0.4)))
+            axis.set_major_formatter(lambda value, _: plain(value))
+            axis.set_minor_formatter(MinorLabels(minor_thresholds=(2, 0.4)))
 
     def save(self, file, legend="beside"):
         """legend: beside the axes, below them, or where matplotlib has it inside."""
