@@ -37,7 +37,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
         assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
-        assertThat(environment.get("version").asText()).isEqualTo("0.2.0");
+        assertThat(environment.get("version").asText()).isEqualTo("0.1.0");
         assertThat(environment.get("commit").asText()).isEqualTo("0123456789ab");
         assertThat(environment.get("instructionSet").asText()).isEqualTo("any");
         assertThat(best.get("bodyLength").asDouble()).isEqualTo(1.2);
