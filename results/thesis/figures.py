@@ -5,7 +5,7 @@ import matplotlib
 import numpy as np
 
 import claims
-import motion
+from natator import motion
 import plan
 from page import WORDS
 from plan import WATERS

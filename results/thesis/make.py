@@ -15,7 +15,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent.parent / "sim-nativ
 
 import figures  # noqa: E402
 import measured  # noqa: E402
-import motion  # noqa: E402
+from natator import motion  # noqa: E402
 import page  # noqa: E402
 import plan  # noqa: E402
 import run  # noqa: E402

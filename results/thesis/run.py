@@ -19,7 +19,7 @@ import numpy as np
 from natator.program import simulator_path
 
 import measured
-import motion
+from natator import motion
 import plan
 
 FINALISTS = 8

@@ -20,7 +20,7 @@ sys.path += [str(ROOT / "results"), str(PAGE)]
 
 import claims  # noqa: E402
 import measured  # noqa: E402
-import motion  # noqa: E402
+from natator import motion  # noqa: E402
 import plan  # noqa: E402
 import run  # noqa: E402
 from claims import FAILS, HOLDS, OPEN, Trend  # noqa: E402

@@ -4,21 +4,17 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
-import io.natator.picture.From;
 import io.natator.picture.PictureOptions;
 import io.natator.picture.SwimPicture;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayRecorder;
-import io.natator.report.FirstScreen;
 import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationRequest;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import javax.imageio.ImageIO;
 
@@ -29,8 +25,6 @@ import javax.imageio.ImageIO;
  * @param time    in seconds
  */
 record DrawnSwim(BufferedImage picture, double time) {
-
-    private static final PictureOptions PORTRAIT = new PictureOptions(From.THREE_QUARTER, 900, 400, true);
 
     /**
      * Simulates a swim up to a time and draws it.
@@ -55,18 +49,6 @@ record DrawnSwim(BufferedImage picture, double time) {
                         .with(scheme != null ? scheme : swimmer.scheme(), null).withEvery(Math.max(1, frames)));
         StreamFrame frame = swim.frames().get(swim.frames().size() - 1);
         return new DrawnSwim(SwimPicture.draw(swim.scene(), frame, options), frame.time());
-    }
-
-    /** The best gait of a run folder as a report shows it. */
-    static FirstScreen.Portrait portrait(Path run, Path simulator) {
-        return png -> Files.write(png, of(SwimSource.of(run.toString(), null, null), null, null, null, PORTRAIT, simulator).png());
-    }
-
-    /** What a request simulates, as a report shows it. */
-    static FirstScreen.Portrait portrait(SimulationRequest request, Path simulator) {
-        SwimSource swim = new SwimSource(null, null, SceneOptions.scene("scene", request.scene()), request.overrides(), request.gait(), request.scheme(),
-                request.duration(), null);
-        return png -> Files.write(png, of(swim, null, null, null, PORTRAIT, simulator).png());
     }
 
     /** The picture as a PNG file's content. */

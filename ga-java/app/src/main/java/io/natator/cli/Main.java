@@ -15,7 +15,7 @@ import picocli.CommandLine.Spec;
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
             CheckCommand.class, ConvergeCommand.class,
             CompareCommand.class,
-            ReportCommand.class, ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
+            ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
             NewCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,

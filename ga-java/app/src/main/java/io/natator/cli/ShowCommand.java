@@ -5,6 +5,7 @@ import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
+import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
@@ -28,6 +29,7 @@ import java.util.stream.Collectors;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
@@ -42,6 +44,10 @@ final class ShowCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--json", description = "As a line of JSON for programs: what python -m natator report draws.")
+    private boolean json;
+
     @Override
     public Integer call() throws InterruptedException {
         WholeOutput.print(spec.commandLine(), this::print);
@@ -50,7 +56,12 @@ final class ShowCommand implements Callable<Integer> {
 
     private void print(PrintWriter out) {
         StoredRun run = StoredRun.in(folder);
+        RunDocument document = json ? new RunDocument(run) : null;
         OneLineErrors.warn(spec.commandLine(), run.damage());
+        if (document != null) {
+            out.println(document.json());
+            return;
+        }
         Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         Convergence convergence = run.best() == null ? null : Convergence.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
@@ -65,7 +76,7 @@ final class ShowCommand implements Callable<Integer> {
             }
             printFront(run, out);
             if (run.elites() != null) {
-                out.printf("map of gaits: the best of %s; natator view --run %s swims them, natator report draws them%n",
+                out.printf("map of gaits: the best of %s; natator view --run %s swims them, python -m natator report draws them%n",
                         Numbers.count(run.elites().moving().size(), "kind"), ShellWord.of(run.directory()));
             }
             printSavings(run, out);

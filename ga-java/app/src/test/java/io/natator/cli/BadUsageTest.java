@@ -193,48 +193,29 @@ class BadUsageTest extends FakeSimulatorTest {
     }
 
     @Test
-    void reportsOverwriteNobodysPage() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path mine = Files.writeString(Files.createDirectory(folder.resolve("mine")).resolve("README.md"), "my notes");
-        err.getBuffer().setLength(0);
-        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", folder.resolve("mine").toString())).isEqualTo(2);
-        assertThat(err.toString()).contains("has a README.md that natator did not write").hasLineCount(1);
-        assertThat(mine).hasContent("my notes");
-    }
-
-    @Test
-    void aReportHasItsFolderBeforeItSimulates() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path file = Files.writeString(folder.resolve("file"), "");
-        err.getBuffer().setLength(0);
-
-        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", file.resolve("a").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator report: output folder " + file.resolve("a") + " cannot be made: "
-                + file + " is a file, not a folder\n");
-    }
-
-    @Test
-    void aReportNeedsACheckpoint() throws IOException {
+    void aDocumentOfARunNeedsACheckpoint() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.delete(folder.resolve("run/checkpoint.json"));
         err.getBuffer().setLength(0);
 
-        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
+        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
     /** What else is wrong with the run does not matter then. To finish what is finished would not help. */
     @ParameterizedTest
-    @ValueSource(strings = {"report", "check"})
+    @ValueSource(strings = {"show --json", "check"})
     void withoutABestGaitIsOneLine(String command) throws IOException {
         assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
         assertThat(out.toString()).contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
         forget();
 
-        assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
+        List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
+        arguments.add(folder.resolve("run").toString());
+        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
+        assertThat(err.toString()).isEqualTo("natator " + arguments.get(0) + ": " + folder.resolve("run")
                 + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
                 + "where they were unstable with more solver.substeps in --overrides\n");
     }
@@ -247,9 +228,9 @@ class BadUsageTest extends FakeSimulatorTest {
         }
         forget();
 
-        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
+        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
     }
 
     @ParameterizedTest
@@ -258,7 +239,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "evolve --seed=EMPTY|natator evolve: --seed is empty",
         "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
         "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
-        "show EMPTY|natator show: RUN is empty", "report EMPTY|natator report: RUN is empty",
+        "show EMPTY|natator show: RUN is empty",
         "compare a EMPTY|natator compare: RUN is empty",
         "resume EMPTY|natator resume: RUN is empty"})
     void anEmptyValueIsOneLine(String arguments, String message) {

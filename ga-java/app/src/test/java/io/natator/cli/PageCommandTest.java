@@ -70,7 +70,7 @@ class PageCommandTest {
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
         String[][] again = {
             {"page", run.toString(), "--no-water", "--force", "--output", folder.resolve("page.html").toString()},
-            {"export", run.toString(), "--format", "csv", "--no-water", "--force"}, {"report", run.toString()}};
+            {"export", run.toString(), "--format", "csv", "--no-water", "--force"}};
         for (String[] command : again) {
             assertThat(natator(command)).as(err.toString()).isZero();
         }
@@ -81,9 +81,8 @@ class PageCommandTest {
         for (String[] command : again) {
             assertThat(natator(command)).as(err.toString()).isZero();
         }
-        assertThat(err.toString().lines()).hasSize(3).allSatisfy(line -> assertThat(line).startsWith(
+        assertThat(err.toString().lines()).hasSize(2).allSatisfy(line -> assertThat(line).startsWith(
                 run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
-        assertThat(run.resolve("report/README.md")).content().contains("fresh starts", "stored 0.5521");
     }
 
     @Test

@@ -270,18 +270,6 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
     }
 
-    /** A kill may come between the last generation and the drawing. */
-    @Test
-    void aFinishedRunWithoutItsCurveGetsIt() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path curve = folder.resolve("run/plots/fitness.png");
-        Files.delete(curve);
-
-        assertThat(natator("evolve", "--resume", folder.resolve("run").toString())).as(err.toString()).isZero();
-
-        assertThat(curve).isNotEmptyFile();
-    }
-
     /** A file's scene may be edited: its name says nothing of that. */
     @Test
     void aSceneThatWasChangedIsRefused() throws IOException {

@@ -1,8 +1,6 @@
-package io.natator.report;
+package io.natator.flow;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.flow.Snapshot;
-import io.natator.flow.WaterLevel;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.TrajectoryRecorder;
 import java.io.IOException;

@@ -1,0 +1,5 @@
+"""python -m natator report RUN"""
+
+from natator.report import main
+
+main()
