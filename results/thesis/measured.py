@@ -50,21 +50,24 @@ def checked(text, where, needed):
 
 
 class Log:
-    """Rows of a file of JSON lines, by the request that each answers; a line that was cut off as it was written is dropped."""
+    """Rows of a file of JSON lines, by the request that each answers; a line that was cut off as it was written counts for nothing, and goes
+    with the next row."""
 
     def __init__(self, file):
-        self.file, self.rows = file, {}
+        self.file, self.rows, self.cut = file, {}, None
         if file.exists():
             text = file.read_bytes()
             whole = text[:text.rfind(b"\n") + 1]
-            if whole != text:
-                file.write_bytes(whole)
+            self.cut = len(whole) if whole != text else None
             for number, line in enumerate(whole.splitlines(), 1):
                 row = checked(line, f"{file}: line {number}", NEEDED.get(file.name, "request"))
                 self.rows[canonical(row["request"])] = row
 
     def add(self, row):
         with open(self.file, "a", encoding="utf-8") as lines:
+            if self.cut is not None:
+                lines.truncate(self.cut)
+                self.cut = None
             lines.write(json.dumps(row, separators=(",", ":"), ensure_ascii=False) + "\n")
         self.rows[canonical(row["request"])] = row
 

@@ -2,6 +2,7 @@
 converge` and `run`. What is done stays, row by row, so that a study that was killed goes on where it was."""
 import collections
 import concurrent.futures
+import fcntl
 import gzip
 import hashlib
 import json
@@ -83,13 +84,15 @@ class Work:
         self.natator = ["java", "-jar", plan.HERE.parent.parent / "ga-java/target/natator.jar"]
 
     def all(self):
+        """In the order in which one thing makes the next known; by one program at a time in a folder."""
         self.study.folder.mkdir(parents=True, exist_ok=True)
-        self.evolve()
-        self.measure()
-        self.finer()
-        self.on_processor()
-        self.record()
-        self.portray()
+        with open(self.study.measurements.file, "a", encoding="utf-8") as held:
+            try:
+                fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise Failure(f"{held.name} is in use by another run") from error
+            for work in (self.evolve, self.measure, self.finer, self.on_processor, self.record, self.portray):
+                work()
 
     def say(self, count, what):
         print(f"{count} {what}", file=sys.stderr, flush=True)

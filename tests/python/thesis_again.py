@@ -5,6 +5,7 @@ A study of one creature and a few frames is made in a folder of its own, cut as 
 run again. Exit code 1 where it fails; a minute on two idle cores.
 """
 import datetime
+import fcntl
 import pathlib
 import re
 import shutil
@@ -62,6 +63,9 @@ def small(folder):
         expect((folder / name).read_text(encoding="utf-8") == text, f"a study that was cut and gone on with has other {name}")
     expect((run / "best.json").stat().st_mtime_ns == before, "a finished evolution was evolved again")
     has(redo(*study, "--check"), " files are what the rows give")
+    with open(folder / "measurements.jsonl", encoding="utf-8") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        has(redo(*study, "--run", code=1), "is in use by another run")
     # A row that says something else is seen, and so is a run that ends otherwise.
     (folder / "measurements.jsonl").write_text(re.sub('"distance":-?', '"distance":1', rows["measurements.jsonl"]), encoding="utf-8")
     has(redo(*study, "--check", code=1), "README.md is not what the rows give")

@@ -72,6 +72,7 @@ class Numbers(unittest.TestCase):
             whole = file.read_text()
             file.write_text(whole[:-5])
             again = measured.Log(file)
+            self.assertEqual(whole[:-5], file.read_text(), "reading changes nothing, as another program may be writing")
             self.assertEqual([asked[1]], again.missing([*asked, {**asked[1], "start": 2.0}]))
             again.add({"request": asked[1], "result": {}})
             self.assertEqual(whole, file.read_text())
