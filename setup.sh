@@ -11,7 +11,7 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium and pycma, from PyPI into .readers (1 GB); the validator of glTF, where npm
-            is; and valgrind, in which they run the program on a processor without AVX-512
+            is; libegl1 and libgl1, which draw; and valgrind, which runs the program as on a processor without AVX-512
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
 TEXT
 }
@@ -136,6 +136,9 @@ find_missing() {
     done
     $with_browser && ! browser_works && missing+=(chromium)
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
+    for library in libegl1 libgl1; do
+        $with_readers && ! installed "$library" && missing+=("$library")
+    done
     $with_tidy && ! command -v clang-tidy >/dev/null && missing+=(clang-tidy)
     $with_tidy && ! command -v clang++ >/dev/null && missing+=(clang)
     nvcc_missing=false

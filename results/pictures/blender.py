@@ -2,7 +2,7 @@
 
     blender.py WATER/swim.usdc BODY/swim.glb TIME PICTURE.png
 
-WATER is `natator export --format usdc --water-surface`, BODY is `--format glb` of the same swim; TIME is in s. Runs where
+WATER is `python -m natator export --format usdc --water-surface`, BODY is `--format glb` of the same swim; TIME is in s. Runs where
 `pip install bpy` is, without a display, or in Blender: blender --background --python blender.py -- ARGUMENTS.
 Writes PICTURE.blend beside the picture, to go on with by hand.
 """

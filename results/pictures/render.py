@@ -1,4 +1,4 @@
-"""Draws one frame of `natator export --format vtp`: water as spheres coloured by speed, the body by cluster.
+"""Draws one frame of `python -m natator export --format vtp`: water as spheres coloured by speed, the body by cluster.
 
     render.py FOLDER TIME PICTURE.png
 

@@ -1,4 +1,4 @@
-"""Draws times of `natator export --format usd` below each other: the mesh that the body was made of, as it moves.
+"""Draws times of `python -m natator export --format usd` below each other: the mesh that the body was made of, as it moves.
 
     render_skin.py FOLDER/swim.usda PICTURE.png TIMECODE...
 

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
-# Draws scenes and bundled bodies with natator picture, each with a gait of its own: results/pictures/scene-*.png.
+# Draws scenes and bundled bodies with python -m natator picture, each with a gait of its own: results/pictures/scene-*.png.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 bin=build/release/bin
+export PYTHONPATH=sim-native/python
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-draw() {  # name, scene, gait or - for a wave by the scene's muscles, options of natator picture
+draw() {  # name, scene, gait or - for a wave by the scene's muscles, options of the command
     local name=$1 scene=$2 gait=$3
     shift 3
     if [[ $gait == - ]]; then
         gait=$work/$name.json
         "$bin/natator-sim" info "$scene" --gait-template >"$gait"
     fi
-    "$bin/natator" picture "$scene" --gait "$gait" --size 900x520 "$@" -o "results/pictures/scene-$name.png"
+    .readers/bin/python -m natator picture "$scene" --gait "$gait" --size 900x520 "$@" -o "results/pictures/scene-$name.png"
 }
 
 gaits=sim-native/examples/gaits

@@ -1,4 +1,4 @@
-"""Draws `natator export --format npz --no-water` as a film: the body from above and from the side, each to scale.
+"""Draws `python -m natator export --format npz --no-water` as a film: the body from above and from the side, each to scale.
 
     film.py FOLDER PICTURE.png
 

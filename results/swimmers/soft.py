@@ -4,13 +4,12 @@ answers, `soft.py table FILE` shows those. Each gait beats at f and is a wave of
 import json
 import sys
 
-GAITS = {
-    "creature-2": (8, [(2, 0.07, 0.42, 0.35), (2, 0.07, 0.42, 0.56), (2, 0.07, 0.42, 1.0), (2, 0.1, 0.6, 0.35), (1.5, 0.1, 0.6, 0.7), (2.5, 0.07, 0.4, 0.35)]),
-    "eel": (8, [(2, 0.07, 0.42, 0.35), (2, 0.07, 0.42, 0.7), (2, 0.1, 0.6, 0.35), (1.5, 0.1, 0.6, 0.7), (2.5, 0.07, 0.4, 0.35), (2, 0.3, 0.3, 0.5)]),
-    "fry": (7, [(2, 0.3, 0.3, 0.5), (2, 0.03, 0.3, 0.5), (2, 0.05, 0.5, 0.8), (2, 0.3, 0.3, 0.8), (2, 0.15, 0.15, 0.5), (3, 0.03, 0.3, 0.8)]),
-}
-LEVELS = {"cells": (1, 24), "half the step": (1, 48), "cells / 1.5": (1.5, 36), "cells / 2": (2, 48)}
-STARTS = 2
+THICK = [(2, 0.07, 0.42, 0.35), (2, 0.07, 0.42, 0.56), (2, 0.07, 0.42, 1.0), (2, 0.1, 0.6, 0.35), (1.5, 0.1, 0.6, 0.7), (2.5, 0.07, 0.4, 0.35)]
+FISH = [(2, *drive, waves) for drive in ((0.3, 0.3), (0.03, 0.3), (0.05, 0.5), (0.15, 0.15), (0.1, 0.2)) for waves in (0.5, 0.65, 0.8)]
+FISH += [(3, 0.03, 0.3, waves) for waves in (0.5, 0.65, 0.8)]
+BODIES = {"creature-2": (8, 0.025, THICK), "eel": (8, 0.025, THICK), "fry": (7, 0.01875, FISH)}  # actuators, cells, gaits
+LEVELS = {"cells": (1, 1, 2), "half the step": (1, 2, 2), "cells / 2": (2, 2, 1)}  # cells and steps, of a cell, so many times as fine; starts
+BOX = (3.0, 1.35, 1.35)
 
 
 def gait(actuators, f, first, last, waves):
@@ -18,22 +17,25 @@ def gait(actuators, f, first, last, waves):
     return {"frequency": f, "amplitude": [round(first + (last - first) * s, 4) for s in along], "phase": [round(-waves * s % 1, 6) for s in along]}
 
 
-def level(finer, substeps):
-    cell = 0.0375 / finer
+def lake(cell, substeps):
+    length, height, width = BOX
     return {"duration": 2, "stopping": {"noProgressAfter": 0, "planeContact": False}, "solver": {"substeps": substeps},
-            "fluid": {"count": [round(n * finer) for n in (120, 48, 48)], "spacing": cell, "origin": [cell / 2] * 3, "mass": {"bottom": 1000 * cell ** 3}}}
+            "movingTank": {"along": "x", "step": 0.15}, "creature": {"rearCentre": [length / 4, height / 2, width / 2]},
+            "planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
+            "fluid": {"count": [round(side / cell) for side in BOX], "spacing": cell, "origin": [cell / 2] * 3, "mass": {"bottom": 1000 * cell ** 3}}}
 
 
 def number(body, gait_number, name, start):
-    return 1000 * list(GAITS).index(body) + 100 * gait_number + 10 * list(LEVELS).index(name) + start
+    return 1000 * list(BODIES).index(body) + 50 * gait_number + 10 * list(LEVELS).index(name) + start
 
 
 def requests():
-    for body, (actuators, gaits) in GAITS.items():
-        for name, how in LEVELS.items():
+    for body, (actuators, cell, gaits) in BODIES.items():
+        for name, (finer, steps, starts) in LEVELS.items():
             for k, one in enumerate(gaits):
-                for start in range(1, STARTS + 1):
-                    yield {"id": number(body, k, name, start), "scene": f"lake/{body}", "overrides": level(*how), "gait": gait(actuators, *one), "start": start}
+                for start in range(1, starts + 1):
+                    yield {"id": number(body, k, name, start), "scene": f"lake/{body}", "overrides": lake(cell / finer, round(0.9 / cell) * steps),
+                           "gait": gait(actuators, *one), "start": start}
 
 
 def keep():
@@ -45,20 +47,28 @@ def keep():
 
 def table(path):
     results = {one["id"]: one for one in map(json.loads, open(path))}
-    print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | Reynolds, Strouhal |\n| --- " + "| ---: " * (len(LEVELS) + 1) + "|")
-    for body, (_, gaits) in GAITS.items():
+    print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | change at half the cells, the step | Reynolds, Strouhal |\n| --- " + "| ---: " * (len(LEVELS) + 2) + "|")
+    for body, (_, _, gaits) in BODIES.items():
+        changes = []
         for k, one in enumerate(gaits):
-            cells = []
-            for name in LEVELS:
-                found = [results.get(number(body, k, name, start), {}) for start in range(1, STARTS + 1)]
+            means, cells = {}, []
+            for name, (_, _, starts) in LEVELS.items():
+                found = [results.get(number(body, k, name, start), {}) for start in range(1, starts + 1)]
                 way = [r["distance"] for r in found if r.get("status") == "ok"]
-                cells.append(f"{sum(way) / len(way):.3f} ± {(max(way) - min(way)) / 2:.3f}" if len(way) == STARTS else "unstable")
-            print(f"| {body}, " + ", ".join(map(str, one)) + " | " + " | ".join(cells) + f" | {found[0]['reynolds']:.0f}, {found[0]['strouhal']:.2g} |")
+                means[name] = sum(way) / len(way) if len(way) == starts else None
+                spread = f" ± {(max(way) - min(way)) / 2:.3f}" if starts > 1 and means[name] is not None else ""
+                cells.append("unstable" if means[name] is None else f"{means[name]:.3f}{spread}")
+            base = means["cells"]
+            changes.append([means[name] / base - 1 if base and means[name] is not None else float("inf") for name in ("cells / 2", "half the step")])
+            print(f"| {body}, " + ", ".join(map(str, one)) + " | " + " | ".join(cells) + " | {:+.0%}, {:+.0%} | ".format(*changes[-1])
+                  + f"{found[0].get('reynolds') or 0:.0f}, {found[0].get('strouhal') or 0:.2g} |")
+        print(f"{body}: of {len(gaits)} gaits {sum(abs(c[0]) <= 0.05 for c in changes)} within 5 % at half the cells, "
+              f"{sum(abs(c[1]) <= 0.03 for c in changes)} within 3 % at half the step", file=sys.stderr)
 
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["requests"]:
-        for one in requests():
+        for one in sorted(requests(), key=lambda one: -one["overrides"]["fluid"]["count"][0]):
             print(json.dumps(one))
     elif sys.argv[1:] == ["keep"]:
         keep()

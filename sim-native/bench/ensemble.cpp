@@ -3,8 +3,8 @@
 #include <charconv>
 #include <map>
 
-#include "converge/estimate.h"
 #include "natator/evaluate.h"
+#include "run/converge/estimate.h"
 #include "scene/scene_json.h"
 
 namespace natator::bench {

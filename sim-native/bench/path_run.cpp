@@ -5,12 +5,12 @@
 #include <cmath>
 #include <sstream>
 
-#include "evaluate/settle.h"
+#include "base/text.h"
 #include "in_precision.h"
-#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/momentum.h"
 #include "natator/measure.h"
+#include "natator/momentum.h"
+#include "run/settle.h"
 
 namespace natator::bench {
 namespace {

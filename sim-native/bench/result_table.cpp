@@ -6,8 +6,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "io/strict_json.h"
-#include "io/whole_file.h"
+#include "base/text.h"
+#include "base/whole_file.h"
 #include "natator/error.h"
 
 namespace natator::bench {

@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "bench_scenes.h"
-#include "evaluate/settle.h"
 #include "machine.h"
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
 #include "natator/solver.h"
 #include "roof_kernels.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/cell_grid.h"

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "evaluate/settle.h"
 #include "in_precision.h"
 #include "natator/model_builder.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
 

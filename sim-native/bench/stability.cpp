@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluate/conservation_errors.h"
-#include "evaluate/settle.h"
 #include "in_precision.h"
 #include "natator/model_builder.h"
 #include "natator/moving_tank.h"
 #include "natator/pose.h"
 #include "physics/laws.h"
+#include "run/conservation_errors.h"
+#include "run/settle.h"
 
 namespace natator::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "scene/scene_json.h"
 

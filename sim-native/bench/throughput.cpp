@@ -10,12 +10,12 @@
 #include <variant>
 
 #include "bench_scenes.h"
-#include "evaluate/settle.h"
 #include "in_precision.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
+#include "run/cuda/by_whole_gpu.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
-#include "solver/cuda/way.h"
 #include "timed_batch.h"
 
 namespace natator::bench {

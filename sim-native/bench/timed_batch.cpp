@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "measure/fnv1a.h"
+#include "base/fnv1a.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "speed.h"

@@ -1,8 +1,8 @@
 #include "gait_argument.h"
 
-#include "io/protocol.h"
 #include "json_argument.h"
 #include "natator/error.h"
+#include "scene/gait_json.h"
 
 namespace natator::cli {
 

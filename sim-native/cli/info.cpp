@@ -2,12 +2,11 @@
 #include <memory>
 #include <sstream>
 
+#include "base/text.h"
 #include "commands.h"
 #include "commit.h"
-#include "evaluate/swim_record.h"
-#include "io/protocol.h"
-#include "io/strict_json.h"
 #include "json_argument.h"
+#include "model/tank_ends.h"
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
@@ -18,8 +17,9 @@
 #include "natator/version.h"
 #include "natator/wave_gait.h"
 #include "physics/constants.h"
+#include "run/swim_record.h"
+#include "scene/gait_json.h"
 #include "scene/scene_json.h"
-#include "scene/tank_ends.h"
 
 namespace natator::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "backend.h"
-#include "io/protocol.h"
 #include "natator/settled_state_cache.h"
+#include "protocol/protocol.h"
 
 namespace natator::cli {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "io/strict_json.h"
+#include "base/strict_json.h"
 
 namespace natator::cli {
 

@@ -3,17 +3,18 @@
 #include <functional>
 #include <iostream>
 
+#include "base/field.h"
+#include "base/fnv1a.h"
+#include "base/text.h"
 #include "commit.h"
-#include "evaluate/perturb.h"
-#include "io/strict_json.h"
-#include "measure/fnv1a.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
 #include "natator/version.h"
-#include "scene/field.h"
+#include "run/perturb.h"
+#include "scene/gait_json.h"
 #include "scene/merge_patches.h"
 #include "scene/scene_json.h"
 

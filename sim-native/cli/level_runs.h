@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converge/estimate.h"
-#include "converge/level.h"
 #include "job.h"
 #include "options.h"
+#include "run/converge/estimate.h"
+#include "run/converge/level.h"
 #include "run_record.h"
 
 namespace natator::cli {

@@ -7,8 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "io/decimal_number.h"
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator::cli {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "io/whole_file.h"
+#include "base/whole_file.h"
 
 namespace natator::cli {
 

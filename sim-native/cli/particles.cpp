@@ -1,14 +1,15 @@
 #include <memory>
 
 #include "backend.h"
+#include "base/field.h"
+#include "base/strict_json.h"
+#include "base/text.h"
+#include "base/whole_file.h"
 #include "commands.h"
-#include "io/particle_experiment.h"
-#include "io/strict_json.h"
-#include "io/whole_file.h"
 #include "natator/error.h"
 #include "options.h"
 #include "output_file.h"
-#include "scene/field.h"
+#include "protocol/particle_experiment.h"
 
 namespace natator::cli {
 namespace {

@@ -13,11 +13,11 @@
 #include <system_error>
 #include <vector>
 
-#include "io/strict_json.h"
-#include "io/unfinished_file.h"
+#include "base/field.h"
+#include "base/text.h"
+#include "base/unfinished_file.h"
 #include "natator/error.h"
 #include "options.h"
-#include "scene/field.h"
 
 namespace natator::cli {
 namespace {

@@ -6,10 +6,9 @@
 #include <optional>
 #include <sstream>
 
+#include "base/text.h"
 #include "commands.h"
 #include "gait_argument.h"
-#include "io/protocol.h"
-#include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"
@@ -18,6 +17,7 @@
 #include "natator/trajectory.h"
 #include "options.h"
 #include "output_file.h"
+#include "protocol/protocol.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator::cli {

@@ -7,15 +7,15 @@
 #include <optional>
 #include <tuple>
 
+#include "base/field.h"
+#include "base/strict_json.h"
 #include "commands.h"
-#include "evaluate/side_by_side.h"
-#include "io/strict_json.h"
 #include "job.h"
 #include "line_queue.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "options.h"
-#include "scene/field.h"
+#include "run/side_by_side.h"
 
 namespace natator::cli {
 namespace {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
+#include "base/text.h"
 #include "commands.h"
 #include "gait_argument.h"
-#include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"

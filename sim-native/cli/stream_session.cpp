@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/strict_json.h"
+#include "base/text.h"
 #include "commands.h"
-#include "io/protocol.h"
-#include "io/strict_json.h"
 #include "natator/error.h"
+#include "protocol/protocol.h"
 
 namespace natator::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "io/stream.h"
 #include "line_queue.h"
 #include "natator/live.h"
 #include "pace.h"
+#include "protocol/stream.h"
 
 namespace natator::cli {
 

@@ -3,12 +3,12 @@
 #include <iostream>
 #include <thread>
 
-#include "evaluate/settle.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
 #include "natator/gpu_solver.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
+#include "run/settle.h"
 
 namespace natator::test {
 namespace {

@@ -5,15 +5,15 @@
 #include <string>
 
 #include "../native/bare_particles.h"
-#include "evaluate/settle.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
 #include "natator/gpu_solver.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
+#include "run/cuda/by_whole_gpu.h"
+#include "run/settle.h"
 #include "solver/cuda/large/fetch_roof.h"
-#include "solver/cuda/way.h"
 
 namespace natator::test {
 namespace {

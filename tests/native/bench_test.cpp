@@ -10,9 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "converge/estimate.h"
 #include "ensemble.h"
-#include "evaluate/settle.h"
 #include "front_error.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
@@ -21,6 +19,8 @@
 #include "physics/constants.h"
 #include "precision.h"
 #include "references.h"
+#include "run/converge/estimate.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 #include "speed.h"
 #include "stability.h"

@@ -1,5 +1,5 @@
 // How long streams side by side are busy: the time of a batch's kernels.
-#include "solver/cuda/large/busy_time.h"
+#include "run/cuda/busy_time.h"
 
 #include <gtest/gtest.h>
 

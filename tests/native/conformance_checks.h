@@ -10,7 +10,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "io/particle_experiment.h"
+#include "protocol/particle_experiment.h"
 
 /// Scheme flex against black-box measurements of NVIDIA Flex 1.2.0 (tests/conformance/README.md), on either backend.
 namespace natator::test {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "converge/estimate.h"
 #include "natator/error.h"
-#include "converge/level.h"
+#include "run/converge/estimate.h"
+#include "run/converge/level.h"
 
 namespace natator {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "evaluate/perturb.h"
-#include "evaluate/settle.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
+#include "run/perturb.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "evaluate/goals.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
+#include "run/goals.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "evaluate/settle.h"
 #include "law_models.h"
 #include "natator/evaluate.h"
 #include "natator/laws.h"
 #include "natator/live.h"
 #include "natator/model_builder.h"
 #include "physics/laws.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "energy.h"
-#include "evaluate/settle.h"
 #include "law_models.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
 #include "natator/solver.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 
 namespace natator::test {

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "evaluate/settle.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/live.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
+#include "run/settle.h"
 #include "scene/scene_json.h"
 
 namespace natator {

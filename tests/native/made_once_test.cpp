@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/cuda/large/made_once.h"
+#include "run/cuda/made_once.h"
 
 namespace natator::cuda {
 namespace {

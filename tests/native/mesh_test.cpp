@@ -13,9 +13,9 @@
 #include <set>
 #include <sstream>
 
-#include "mesh/check_mesh.h"
-#include "mesh/mesh_slices.h"
-#include "mesh/triangle_mesh.h"
+#include "model/mesh/check_mesh.h"
+#include "model/mesh/mesh_slices.h"
+#include "model/mesh/triangle_mesh.h"
 #include "model/skin_weights.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"

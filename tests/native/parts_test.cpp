@@ -1,5 +1,5 @@
 // Members of a batch on a GPU that are computed in parts, by streams side by side.
-#include "solver/cuda/large/parts.h"
+#include "run/cuda/parts.h"
 
 #include <gtest/gtest.h>
 

@@ -6,15 +6,15 @@
 #include <numbers>
 
 #include "bare_particles.h"
-#include "evaluate/settled_state_key.h"
-#include "io/stream.h"
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
 #include "natator/live.h"
 #include "natator/measure.h"
 #include "natator/sense.h"
 #include "periodic_models.h"
+#include "protocol/stream.h"
 #include "refusal.h"
+#include "run/settled_state_key.h"
 
 namespace natator {
 namespace {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "converge/level.h"
+#include "model/water_volumes.h"
 #include "natator/model_builder.h"
 #include "natator/solver.h"
 #include "natator/swimming.h"
+#include "run/converge/level.h"
 #include "scene/scene_json.h"
-#include "model/water_volumes.h"
 
 namespace natator {
 namespace {

@@ -7,11 +7,11 @@
 #include <random>
 
 #include "solver/cpu/aligned.h"
-#include "solver/cpu/conserving/water_kernels.h"
 #include "solver/cpu/fluid_kernels.h"
 #include "solver/cpu/motion_kernels.h"
 #include "solver/cpu/neighbour_kernels.h"
 #include "solver/cpu/plane_kernels.h"
+#include "solver/water/cpu/water_kernels.h"
 
 namespace natator::cpu {
 namespace {

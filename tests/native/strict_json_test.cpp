@@ -1,7 +1,8 @@
 // JSON that a lenient reader would misunderstand in silence.
 #include <gtest/gtest.h>
 
-#include "io/strict_json.h"
+#include "base/strict_json.h"
+#include "base/text.h"
 #include "refusal_of.h"
 
 namespace natator {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/fnv1a.h"
 #include "child_process.h"
-#include "io/protocol.h"
-#include "measure/fnv1a.h"
+#include "protocol/protocol.h"
 #include "stream_client.h"
 
 /// Streams that tests begin with, and what they take from them.

@@ -4,10 +4,13 @@ import contextlib
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 import unittest
 from pathlib import Path
+
+from natator import __main__
 
 PACKAGE = Path(__file__).resolve().parents[2] / "sim-native/python"
 README = (PACKAGE / "README.md").read_text()
@@ -31,6 +34,16 @@ class DocumentsTest(unittest.TestCase):
                                   env=dict(os.environ))
             self.assertEqual(done.returncode, 0, command + done.stderr)
             self.assertGreater(len(done.stdout.splitlines()), 2, command)
+
+    def test_every_command_is_understood(self):
+        root, parser = PACKAGE.parents[1], __main__.parser()
+        lines = [(page, line) for page in [root / "README.md", *(root / "results").rglob("*.md"), *(root / "ga-java/docs").glob("*.md"),
+                                           *(root / "sim-native").rglob("*.md")]
+                 for line in re.findall(r"^python -m natator (.*)$", page.read_text(), re.MULTILINE)]
+        self.assertGreaterEqual(len(lines), 10)
+        for page, line in lines:
+            with self.subTest(f"{page}: {line}"):
+                parser.parse_args(shlex.split(line, comments=True))
 
     def test_examples_refuse_in_one_line(self):
         for command, message in [

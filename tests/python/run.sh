@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the Python client as its users do, into a folder of its own, and runs its tests: run.sh PYTHON SIMULATOR FOLDER
+# Installs the Python client as its users do, into a folder of its own, and runs its tests: run.sh PYTHON SIMULATOR FOLDER [TESTS]
 set -euo pipefail
-readonly python=$1 simulator=$2 folder=$3
+readonly python=$1 simulator=$2 folder=$3 tests=${4:-python}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 if [[ ! -x $python ]]; then
@@ -12,4 +12,4 @@ rm -rf "$folder"
 "$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --no-build-isolation \
     --target "$folder" "$root/sim-native/python"
 export PYTHONPATH=$folder PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator
-exec "$python" -W error -m unittest discover --start-directory "$root/tests/python" --pattern '*_test.py'
+exec "$python" -W error -m unittest discover --start-directory "$root/tests/$tests" --pattern '*_test.py'

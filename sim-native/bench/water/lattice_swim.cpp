@@ -43,6 +43,7 @@ LatticeSwim::LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int res
                 if (swimmer.holds(place, scene.length, 0, larger * cell)) places.push_back(nose + place);
             }
     }
+    for (const Eigen::Vector3d& place : places) normals_.push_back(swimmer.normal(place - nose, scene.length, larger * cell));
     immersed_.emplace(places, std::vector<int>(places.size(), 0), cell, 1.2);
     body_.emplace(swimmer, scene, nose, std::move(places), step_, kept_on_lattice);
     run_.particles = box_.cells.prod();
@@ -52,12 +53,19 @@ bool LatticeSwim::frame() {
     const auto begin = std::chrono::steady_clock::now();
     body_->begin_frame();
     const std::vector<Eigen::Vector3d>& velocities = body_->set_off(step_);
-    water_->advance(immersed_->cubes(body_->places(), velocities, box_, step_), step_, pushes_);
+    const std::vector<lattice::Cube> cubes = immersed_->cubes(body_->places(), velocities, box_, step_);
+    water_->advance(cubes, step_, pushes_);
     std::vector<Eigen::Vector3d> forces = immersed_->impulses(pushes_, box_, step_);
     for (Eigen::Vector3d& force : forces) force /= step_;
     for (std::size_t i = 0; i < forces.size() && !run_.instability; ++i)
         if (!forces[i].allFinite()) run_.instability = Instability{static_cast<int>(i), "lattice", body_->time()};
     if (run_.instability) return false;
+    pressure_ = 0;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+        using Rows = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
+        const Eigen::Vector3d normal = (Eigen::Map<const Rows>(cubes[i].to_rest).transpose().cast<double>() * normals_[i]).stableNormalized();
+        pressure_ += normal.dot(forces[i]) * normal.x();
+    }
     body_->arrive(forces, step_);
     if (const double by = body_->end_frame(box_.cell, far); by != 0)
         water_->shift({static_cast<int>(std::lround(by / box_.cell)), 0, 0});

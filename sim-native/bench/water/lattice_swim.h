@@ -20,6 +20,9 @@ public:
     double spacing() const { return box_.cell; }  ///< a cell of water has mass 1
     /// False if something is not finite.
     bool frame();
+    /// Of the last frame's force on the body along x what acts along the surface's normal, mass length/s^2: by the outline's, which goes with
+    /// the body as its places do.
+    double pressure() const { return pressure_; }
     WaterRun run() const { return run_; }  ///< its particles: the lattice's cells
 
 private:
@@ -28,6 +31,8 @@ private:
     std::unique_ptr<lattice::Water> water_;
     std::optional<lattice::Immersed> immersed_;
     std::optional<SwimBody> body_;
+    std::vector<Eigen::Vector3d> normals_;  ///< of the straight body
+    double pressure_ = 0;
     std::vector<lattice::Push> pushes_;
     WaterRun run_;
 };

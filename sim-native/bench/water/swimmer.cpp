@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "io/strict_json.h"
+#include "base/field.h"
+#include "base/text.h"
 #include "scene/data_files.h"
-#include "scene/field.h"
 
 namespace natator::bench {
 
@@ -52,6 +52,21 @@ Profile read_profile(const json& value, const Place& place) {
     const fields::Range range{-1000, 1000};
     if (value.is_array() && !value.empty() && value[0].is_number()) return {read_row(value, place, value.size(), range), {}};
     return column(read_table(value, place, 1, range), 1);
+}
+
+/// Rows of 18: the orders in x, y and z, then by what three the term is multiplied at each of five functions of time.
+Deformation read_deformation(const json& value, const Place& place) {
+    if (!value.is_array() || value.empty()) fields::refuse(place, value, "an array of rows of 18 numbers");
+    Deformation deformation;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const std::vector<double> row = read_row(value[i], place.item(i), 18, {-1e6, 1e6});
+        for (int a = 0; a < 3; ++a)
+            if (row[a] < 0 || row[a] > 20 || row[a] != std::floor(row[a])) fields::refuse(place.item(i).item(a), value[i][a], "a whole number in [0, 20]");
+        Deformation::Term term{Eigen::Vector3d(row[0], row[1], row[2]).cast<int>(), {}};
+        for (std::size_t k = 3; k < 18; k += 3) term.by.emplace_back(row[k], row[k + 1], row[k + 2]);
+        deformation.terms.push_back(term);
+    }
+    return deformation;
 }
 
 SwimTarget read_target(const json& value, const Place& place, const SwimCase& of) {
@@ -97,7 +112,7 @@ SwimTarget read_target(const json& value, const Place& place, const SwimCase& of
 
 const std::vector<std::string>& swim_quantities() {
     static const std::vector<std::string> names{"speed", "spread", "lateral", "slip", "tail_beat", "strouhal", "reynolds",
-                                                "swimming_number", "amplitude", "force", "power"};
+                                                "swimming_number", "amplitude", "force", "power", "pressure", "thrust"};
     return names;
 }
 
@@ -138,7 +153,50 @@ bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest, do
     return std::hypot(x.z() / width, x.y() / height) <= 1;
 }
 
+Eigen::Vector3d Swimmer::normal(const Eigen::Vector3d& x, double length, double wider) const {
+    const auto out = [&](double along, double y, double z) {  // 1 on the surface
+        const double s = std::clamp(-along / length, 0.0, 1.0), width = half_width.at(s) * length + wider;
+        if (slab) return std::abs(z) / width;
+        const double height = half_height.at(s) * length + wider;
+        return square ? std::max(std::abs(z) / width, std::abs(y) / height) : std::hypot(z / width, y / height);
+    };
+    const double d = 1e-4 * length;
+    const Eigen::Vector3d gradient(out(x.x() + d, x.y(), x.z()) - out(x.x() - d, x.y(), x.z()), out(x.x(), x.y() + d, x.z()) - out(x.x(), x.y() - d, x.z()),
+                                   out(x.x(), x.y(), x.z() + d) - out(x.x(), x.y(), x.z() - d));
+    return gradient.norm() > 0 ? gradient.normalized().eval() : gradient;
+}
+
+std::vector<Eigen::Vector3d> Deformation::of(const std::vector<Eigen::Vector3d>& places, double beats) const {
+    const double once = turn * beats, time[] = {1, std::cos(once), std::sin(once), std::cos(2 * once), std::sin(2 * once)};
+    std::vector<Eigen::Vector3d> now;  // by term
+    int most = 0;
+    for (const Term& term : terms) {
+        Eigen::Vector3d& sum = now.emplace_back(Eigen::Vector3d::Zero());
+        for (std::size_t k = 0; k < term.by.size(); ++k) sum += time[k] * term.by[k];
+        most = std::max(most, term.order.maxCoeff());
+    }
+    std::vector<Eigen::Vector3d> result, powers(most + 1, Eigen::Vector3d::Ones());
+    for (const Eigen::Vector3d& place : places) {
+        const double along = 1 + 2 * place.x();
+        for (int i = 1; i <= most; ++i) powers[i] = powers[i - 1].cwiseProduct(place);
+        for (int i = 1; i <= most; ++i) powers[i].x() = i == 1 ? along : 2 * along * powers[i - 1].x() - powers[i - 2].x();
+        Eigen::Vector3d& sum = result.emplace_back(Eigen::Vector3d::Zero());
+        for (std::size_t k = 0; k < terms.size(); ++k) {
+            const Eigen::Vector3i& order = terms[k].order;
+            sum += powers[order.x()].x() * powers[order.y()].y() * powers[order.z()].z() * now[k];
+        }
+    }
+    return result;
+}
+
 std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const {
+    if (!deformation.terms.empty()) {
+        std::vector<Eigen::Vector3d> places;
+        for (const Eigen::Vector3d& at : straight) places.push_back(at / length);
+        const std::vector<Eigen::Vector3d> moved = deformation.of(places, beats);
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] = straight[i] + length * grown(beats) * moved[i];
+        return places;
+    }
     const double ds = 1.0 / parts;
     std::vector<double> angle(parts + 1), x(parts + 1), z(parts + 1);  // of the midline, by its parts' ends; of the length
     // dz is the sine of the angle times the way along the midline, and its tangent times that along the axis: both keep z and the length.
@@ -170,19 +228,7 @@ std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& s
     return places;
 }
 
-Swimmer swimmer_from_json(const json& document, const std::string& name) {
-    const Place top{name, ""};
-    Swimmer swimmer;
-    fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
-                                 {"source", "outline", "midline", "towed", "variants", "targets"}, swimmer);
-    for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
-    std::string source;
-    fields::read(document["source"], top.key("source"), {}, source);
-    const auto outline = read_table(fields::required(document, top, "outline"), top.key("outline"), swimmer.slab ? 1 : 2, {0, 1});
-    swimmer.half_width = column(outline, 1);
-    if (!swimmer.slab) swimmer.half_height = column(outline, 2);
-    const json& midline = fields::required(document, top, "midline");
-    const Place place = top.key("midline");
+void read_midline(const json& midline, const Place& place, Swimmer& swimmer) {
     fields::read_object<Swimmer>(midline, place, {{"scale", &Swimmer::scale, {0, 10}}, {"waves", &Swimmer::waves, {-10, 10}}},
                                  {"by", "amplitude", "phase", "ramp"}, swimmer);
     using Wave = Swimmer::Wave;
@@ -195,16 +241,33 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
     if (midline.contains("ramp"))
         swimmer.ramp = fields::read_choice<std::string>(midline["ramp"], place.key("ramp"),
                                                         {{"cosine", "cosine"}, {"sine", "sine"}, {"tanh", "tanh"}});
-    if (document.contains("towed")) {
-        double speed = 0;
-        fields::read(document["towed"], top.key("towed"), {0, 10, false, "lengths/beat"}, speed);
-        swimmer.towed = speed;
-    }
     const double ds = 1.0 / parts;
     for (int t = 0; t < 50 && swimmer.wave == Wave::displacement; ++t)
         for (int k = 0; k <= parts; ++k)
             if (!(std::abs(swimmer.slope(k * ds, ds, 9 + t / 50.0)) < 1))
                 fields::refuse(place, "rises by more than its length at s = " + number_text(k * ds) + "; must rise less");
+}
+
+Swimmer swimmer_from_json(const json& document, const std::string& name) {
+    const Place top{name, ""};
+    Swimmer swimmer;
+    fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
+                                 {"source", "outline", "midline", "deformation", "towed", "variants", "targets"}, swimmer);
+    for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
+    std::string source;
+    fields::read(document["source"], top.key("source"), {}, source);
+    const auto outline = read_table(fields::required(document, top, "outline"), top.key("outline"), swimmer.slab ? 1 : 2, {0, 1});
+    swimmer.half_width = column(outline, 1);
+    if (!swimmer.slab) swimmer.half_height = column(outline, 2);
+    if (document.contains("deformation"))
+        swimmer.deformation = read_deformation(document["deformation"], top.key("deformation"));
+    else
+        read_midline(fields::required(document, top, "midline"), top.key("midline"), swimmer);
+    if (document.contains("towed")) {
+        double speed = 0;
+        fields::read(document["towed"], top.key("towed"), {0, 10, false, "lengths/beat"}, speed);
+        swimmer.towed = speed;
+    }
     return swimmer;
 }
 

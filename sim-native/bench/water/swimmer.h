@@ -7,6 +7,10 @@
 
 #include <Eigen/Dense>
 
+namespace natator::fields {
+struct Place;
+}
+
 namespace natator::bench {
 
 /// A number along the body, by the distance from the nose in parts of the length: a polynomial, or a table with straight lines
@@ -17,6 +21,18 @@ struct Profile {
 
     double at(double s) const;
     bool given() const { return !polynomial.empty() || !table.empty(); }
+};
+
+/// A displacement of a body's places that repeats each beat, in lengths, by the place x, y, z from the nose of the straight body.
+struct Deformation {
+    /// T_i(1 + 2x) y^j z^k, Chebyshev's of the first kind, and what it is multiplied with: constant, cos and sin of once, cos and sin of twice a beat.
+    struct Term {
+        Eigen::Vector3i order;
+        std::vector<Eigen::Vector3d> by;
+    };
+    std::vector<Term> terms;
+
+    std::vector<Eigen::Vector3d> of(const std::vector<Eigen::Vector3d>& places, double beats) const;
 };
 
 /// A body whose shape is given as a function of time. Straight it lies along x, the nose at the origin and the tail at -length; it
@@ -33,12 +49,16 @@ struct Swimmer {
     double scale = 1;  ///< of the amplitude
     double waves = 1;  ///< along the body: amplitude * sin 2 pi (t - waves s)
     Profile phase;     ///< if given, in place of waves s, beats
+    Deformation deformation;  ///< if given, in place of the midline
     std::string ramp = "cosine";  ///< how it grows: "cosine" and "sine" in the first beat, "tanh" as tanh pi t
     double viscosity = 0.001;     ///< length^2/beat
     std::optional<double> towed;  ///< at this speed, length/beat; else it moves freely
 
     /// Whether the straight body of this length holds this place. Its sections' half axes are longer by `wider`, then nowhere less than `thinnest`.
     bool holds(const Eigen::Vector3d& x, double length, double thinnest, double wider = 0) const;
+    /// Outward from its surface where this place of the straight body is on it, of length 1; else from a body of the same form that is
+    /// smaller there. 0 on the midline. Of the outline in `holds`.
+    Eigen::Vector3d normal(const Eigen::Vector3d& x, double length, double wider) const;
     /// Where places of the straight body are after so many beats.
     std::vector<Eigen::Vector3d> bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const;
 
@@ -46,7 +66,7 @@ private:
     double grown(double beats) const;
     double bending(double s, double beats) const;
     double slope(double s, double ds, double beats) const;
-    friend Swimmer swimmer_from_json(const nlohmann::json& document, const std::string& name);
+    friend void read_midline(const nlohmann::json& midline, const fields::Place& place, Swimmer& swimmer);
 };
 
 /// What is measured of a swimmer, and what targets are of.

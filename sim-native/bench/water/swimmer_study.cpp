@@ -26,6 +26,7 @@ struct Pool {
 /// What a beat gave, in lengths and beats.
 struct Beat {
     double speed = 0, lateral = 0, force = 0, power = 0;
+    double pressure = 0, thrust = 0;  ///< on a lattice
 };
 
 struct Swum {
@@ -53,13 +54,20 @@ void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, doubl
                 return;
             }
             sum.force += body.force() / frames / mass * beat * beat / length;
+            if constexpr (requires { swim.pressure(); }) {
+                const double unit = frames * mass * length / (beat * beat);
+                sum.pressure += swim.pressure() / unit;
+                sum.thrust += (std::max(0.0, swim.pressure()) + std::max(0.0, body.force() - swim.pressure())) / unit;
+            }
             sum.power += body.power() / frames / mass * std::pow(beat, 3) / (length * length);
             if (k < study.beats - study.counted) continue;
             counted.centre.push_back(body.centre());
             counted.tail.push_back(body.tail());
         }
         const Eigen::Vector3d way = (body.centre() - from) / length;
-        swum.beats.push_back({way.x(), way.z(), sum.force, sum.power});
+        sum.speed = way.x();
+        sum.lateral = way.z();
+        swum.beats.push_back(sum);
     }
     swum.run = swim.run();
     swum.tail_beat = counted.beat(Eigen::Vector3d::UnitZ()) / length;
@@ -92,6 +100,10 @@ Swum swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Po
     swum.steps = swim.body().frames_per_beat();
     follow(swim, swimmer, scene, 1.0 / resolution, study, swum);
     return swum;
+}
+
+bool only_on_lattice(const std::string& quantity) {
+    return quantity == "pressure" || quantity == "thrust";
 }
 
 /// The columns that tell a row from others, empty where its water has no such thing.
@@ -129,7 +141,9 @@ Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
             {"swimming_number", std::numbers::pi * swum.tail_beat / swimmer.viscosity},
             {"amplitude", swimmer.scale},
             {"force", mean(&Beat::force)},
-            {"power", mean(&Beat::power)}};
+            {"power", mean(&Beat::power)},
+            {"pressure", mean(&Beat::pressure)},
+            {"thrust", mean(&Beat::thrust)}};
 }
 
 Row judged(double value, const SwimTarget& target) {
@@ -160,7 +174,7 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
     if (ok) figures = figures_of(swum, swimmer, study.counted);
     Row row = joined_rows(key, {ok ? "ok" : swum.viscous ? "too viscous" : "unstable", measured_text(widest * pool.water.resolution), std::to_string(swum.steps),
                                 number_text(swimmer.viscosity)});
-    for (const std::string& name : swim_quantities()) row.push_back(ok ? measured_text(figures[name]) : "");
+    for (const std::string& name : swim_quantities()) row.push_back(ok && (pool.mach || !only_on_lattice(name)) ? measured_text(figures[name]) : "");
     row = joined_rows(row, {std::to_string(swum.run.particles), measured_text(swum.run.seconds)});
     const auto target = std::ranges::find_if(one.targets, [&](const SwimTarget& of) {
         return of.over.empty() && of.zero_of.empty() && (of.variant.empty() || of.variant == variant.first);

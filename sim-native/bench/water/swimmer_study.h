@@ -30,8 +30,9 @@ struct SwimmerStudy {
 /// (particles or cells across the body where it is widest, as the file has it); steps (substeps, or steps of the lattice, in a beat); swim_quantities(): speed (lengths/beat, mean of the
 /// counted beats, forwards), spread (their standard deviation), lateral (speed to the side), slip (speed over that of the wave),
 /// tail_beat (from side to side, lengths), strouhal, reynolds, swimming_number (pi tail_beat times length over viscosity), amplitude
-/// (the scale), force (forwards) and power (given to the water), in densities of water, lengths and beats, of a slab for a length of
-/// span; then particles (or cells); run_time (s); reference, deviation (of it), met, confirmed: of the first target of this variant's alone.
+/// (the scale), force (forwards), power (given to the water), pressure (the part of the force along the surface's normal; the rest is friction) and thrust (mean of
+/// what of pressure and friction is above 0: Borazjani, Sotiropoulos 2008; both on a lattice only), in densities of water, lengths and beats, of a slab
+/// for a length of span; then particles (or cells); run_time (s); reference, deviation (of it), met, confirmed: of the first target of this variant's alone.
 Row swimmer_columns();
 inline constexpr std::size_t swimmer_key_columns = 15;
 

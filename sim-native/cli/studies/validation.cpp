@@ -3,7 +3,7 @@
 
 #include "../commands.h"
 #include "../options.h"
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "study_options.h"
 #include "validation.h"

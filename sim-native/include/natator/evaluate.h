@@ -14,15 +14,13 @@
 #include "natator/scene.h"
 #include "natator/snapshot.h"
 #include "natator/solver.h"
+#include "natator/stop_reason.h"
 #include "natator/swimming.h"
 
 namespace natator {
 
 /// What States are computed in: float, or double for reference runs.
 enum class Precision { single_precision, double_precision };
-
-/// Why an evaluation ended.
-enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
 /// Name in requests and results: "flex", "conserving", "lattice".
 const char* to_string(Scheme scheme);

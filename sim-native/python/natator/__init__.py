@@ -1,6 +1,7 @@
 """Client of the Natator simulator: evaluations, trajectories as arrays, swimmers that a program drives.
 
-`natator.gym` has the Gymnasium environments; importing it registers them.
+`natator.gym` has the Gymnasium environments; importing it registers them. `natator.export` writes swims for other programs,
+`natator.picture` draws them; both are commands too: `python -m natator --help`.
 """
 
 from natator.errors import InputError, NatatorError, ProgramError, Unstable
@@ -9,7 +10,7 @@ from natator.simulator import Simulator, evaluate
 from natator.stream import Frame, Senses, Stream
 from natator.trajectory import Trajectory, record
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Trajectory",

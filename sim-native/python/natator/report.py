@@ -1,7 +1,6 @@
 """The report of a run folder: its answer, its pictures and numbers on one page. Needs matplotlib (pip install 'natator[report]') and the program
 natator, from $NATATOR, the PATH or the checkout."""
 
-import argparse
 import base64
 import csv
 import html
@@ -14,8 +13,8 @@ import tempfile
 
 import numpy as np
 
-from natator import motion, script
-from natator.errors import InputError, ProgramError
+from natator import motion, picture
+from natator.errors import InputError, NatatorError, ProgramError
 from natator.program import simulator_path
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # told apart also by the colour blind
@@ -36,16 +35,6 @@ pre{{background:#f4f4f4;padding:.6em;overflow:auto}}</style></head><body>
 """
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="python -m natator", description="Natator from Python.")
-    commands = parser.add_subparsers(required=True)
-    report = commands.add_parser("report", description="Runs a run's best gait once more, draws how it swims and says what fish it is like: a page "
-                                 "report.html and its pictures.")
-    report.add_argument("run", type=pathlib.Path, metavar="RUN", help="a run folder of natator evolve")
-    report.add_argument("--output-dir", type=pathlib.Path, metavar="DIR", help="default: RUN/report")
-    script.run(parser, lambda options: print(write(options.run, options.output_dir)))
-
-
 def write(run, folder=None):
     """Writes the report of a run folder into a folder, by default RUN/report; returns the path of report.html. Raises InputError for what is no run
     folder or has no best gait, and ProgramError."""
@@ -61,12 +50,12 @@ def write(run, folder=None):
     except OSError as error:
         raise InputError(f"output folder {folder} cannot be made: {error.strerror}") from error
     swim = Recorded(words["request"])
-    call([natator_path(), "picture", run, "--from", "three-quarter", "--size", "900x400", "--simulator-path", simulator_path(), "-o", folder / "swimmer.png"])
     page = Page(words["title"], folder)
     if words["unfinished"]:
         page.text(words["unfinished"])
     page.text(" ".join([*words["answer"], *difference(run, swim)]))
-    page.picture("swimmer", "the swimmer in its tank")
+    if portrait(words["request"], folder / "swimmer.png"):
+        page.picture("swimmer", "the swimmer in its tank")
     page.table(["measure", "value", "of a swimmer", "outcome"], words["measures"])
     page.text("After ± stands a standard deviation.")
     page.heading("Course of the run")
@@ -135,6 +124,16 @@ class Recorded:
         self.angles = motion.attitude(self.particles)
         self.swimming = motion.Swimming(motion.unrolled(motion.slices(self.particles), self.angles[:, 0]))
         self.flow = [motion.flow(float(half), fluid[:, :3], fluid[:, 3:], body[:, :3], view) for view in ("ABOVE", "SIDE")] if len(fluid) else []
+
+
+def portrait(request, file):
+    """Draws the swimmer in its tank; whether what that needs is installed."""
+    try:
+        picture.picture(request["scene"], str(file), request["gait"], view="three-quarter", size=(900, 400), duration=request.get("duration"),
+                        overrides=request.get("overrides"), scheme=request.get("scheme"))
+    except (ImportError, NatatorError):
+        return False
+    return True
 
 
 def difference(run, swim):

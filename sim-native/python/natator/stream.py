@@ -256,6 +256,10 @@ class Stream:
         if self._unstable:
             raise Unstable(*self._unstable)
 
+    def no_simulator(self):
+        """The error of a program that answers as none of ours does, which is ended."""
+        return self._program.no_simulator()
+
     def _senses(self, answer):
         self.require_stable()
         try:

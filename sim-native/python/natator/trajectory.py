@@ -27,19 +27,32 @@ class Trajectory:
 def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **options):
     """Swims for `duration` seconds and keeps every `every`th frame. `options`: those of Stream. Raises InputError and
     Unstable. It does not end early as an evaluation may."""
-    if number("duration", duration) < 0:
-        raise InputError(f"duration = {duration}: must be at least 0 s")
-    whole("every", every, 1)
     with Stream(scene, gait=gait, fields=fields or ("position",), **options) as stream:
-        longest = MOST_STEPS * stream.scene["timeStep"]
-        if duration > longest:
-            raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MOST_STEPS} time steps")
-        frames = [stream.frame]
-        for _ in range(int(duration / stream.scene["timeStep"] + 0.5) // every):
-            for left in range(every, 0, -1000):
-                stream.step(min(left, 1000))
-            frames.append(stream.frame)
-        return _joined(frames, stream.scene)
+        return _joined(list(frames(stream, duration, every)), stream.scene)
+
+
+def frames(stream, duration, every=1, least=0):
+    """The frame of a fresh stream and every `every`th of those after it, until `duration` seconds, to the nearest frame, are over,
+    `least` at least; each is simulated while the one before it is used. Raises InputError and Unstable."""
+    if number("duration", duration) < 0 or least and not duration:
+        raise InputError(f"duration = {duration}: must be {'above' if least else 'at least'} 0 s")
+    whole("every", every, 1)
+    stream.require_stable()
+    longest = MOST_STEPS * stream.scene["timeStep"]
+    if duration > longest:
+        raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MOST_STEPS} time steps")
+    steps = [min(left, 1000) for left in range(every, 0, -1000)]
+    frame, count = stream.frame, max(least, int(duration / stream.scene["timeStep"] + 0.5)) // every
+    for _ in range(count):
+        for step in steps:
+            stream.send({"do": "credit"})
+            stream.send({"do": "step", "frames": step})
+        yield frame
+        for _ in 2 * steps:
+            stream.receive()
+            stream.require_stable()
+        frame = stream.frame
+    yield frame
 
 
 def _joined(frames, scene):

@@ -7,7 +7,7 @@
 #include "borders.h"
 #include "natator/error.h"
 #include "physics/dfsph.h"
-#include "scene/tank_ends.h"
+#include "tank_ends.h"
 #include "water_volumes.h"
 
 namespace natator {

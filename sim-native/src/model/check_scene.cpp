@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
-#include "scene/readers.h"
+#include "solver_fields.h"
 
 namespace natator {
 namespace {

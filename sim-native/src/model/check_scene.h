@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/field.h"
 #include "natator/scene.h"
 
 namespace natator {
@@ -10,3 +11,15 @@ namespace natator {
 void check_scene(const Scene& scene);
 
 }  // namespace natator
+
+namespace natator::fields {
+
+/// Throws InputError unless the plane's normal has length 1 and its offset is a number.
+void check_plane(const Plane& plane, const Place& place);
+/// Throws InputError if scheme `conserving` cannot compute the water of a scene: with this viscosity at this time step, beside
+/// planes that meet like these, and by its modified pressure in this tank.
+void check_water(const Scene& scene, const Place& place);
+/// Throws InputError if a body's particles are nearer to each other than lengths that the scheme does not tell from none.
+void check_bodies(const Scene& scene, const Place& place);
+
+}  // namespace natator::fields

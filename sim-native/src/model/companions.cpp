@@ -5,7 +5,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator {

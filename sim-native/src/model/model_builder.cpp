@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/text.h"
 #include "body.h"
 #include "check_scene.h"
 #include "companions.h"
 #include "disorder_fluid.h"
 #include "fit_to_water.h"
 #include "fluid_block.h"
-#include "io/strict_json.h"
 #include "muscles.h"
 #include "natator/actuate.h"
 #include "natator/error.h"

@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
-#include "scene/tank_ends.h"
+#include "tank_ends.h"
 #include "water_volumes.h"
 
 namespace natator {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator {

@@ -1,4 +1,4 @@
-#include "io/protocol.h"
+#include "gait_json.h"
 #include "readers.h"
 
 namespace natator::fields {

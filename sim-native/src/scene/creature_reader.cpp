@@ -1,5 +1,4 @@
 #include "curve.h"
-#include "io/strict_json.h"
 #include "readers.h"
 
 namespace natator::fields {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 
 namespace natator::fields {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "field.h"
+#include "base/field.h"
 
 namespace natator::fields {
 

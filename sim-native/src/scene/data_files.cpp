@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "field.h"
-#include "io/strict_json.h"
+#include "base/field.h"
+#include "base/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 
 namespace natator {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/strict_json.h"
+#include "base/text.h"
 #include "readers.h"
 
 namespace natator::fields {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <sstream>
 
+#include "base/fnv1a.h"
+#include "base/text.h"
 #include "data_files.h"
-#include "io/strict_json.h"
-#include "measure/fnv1a.h"
-#include "mesh/check_mesh.h"
-#include "mesh/mesh_points.h"
-#include "mesh/mesh_slices.h"
+#include "model/mesh/check_mesh.h"
+#include "model/mesh/mesh_points.h"
+#include "model/mesh/mesh_slices.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "readers.h"

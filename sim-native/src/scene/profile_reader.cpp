@@ -3,8 +3,8 @@
 #include <optional>
 #include <sstream>
 
+#include "base/text.h"
 #include "curve.h"
-#include "io/strict_json.h"
 #include "profile_slices.h"
 #include "readers.h"
 

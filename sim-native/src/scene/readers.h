@@ -4,23 +4,13 @@
 #include <string_view>
 #include <vector>
 
-#include "field.h"
+#include "base/field.h"
 #include "natator/scene.h"
 
 /// One reader per part of a scene. Each throws InputError and leaves what is absent at its default.
 namespace natator::fields {
 
 SolverParameters read_solver(const json& value, const Place& place);
-/// Throws InputError unless parameters that a program has made are some that read_solver could give; a limit on speed or
-/// acceleration may be infinite.
-void check_solver(SolverParameters solver, const Place& place);
-/// Throws InputError unless the plane's normal has length 1 and its offset is a number.
-void check_plane(const Plane& plane, const Place& place);
-/// Throws InputError if scheme `conserving` cannot compute the water of a scene: with this viscosity at this time step, beside
-/// planes that meet like these, and by its modified pressure in this tank.
-void check_water(const Scene& scene, const Place& place);
-/// Throws InputError if a body's particles are nearer to each other than lengths that the scheme does not tell from none.
-void check_bodies(const Scene& scene, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
 /// `data` as in SceneOptions.
 Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data);

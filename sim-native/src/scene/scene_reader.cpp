@@ -1,7 +1,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/strict_json.h"
+#include "base/text.h"
+#include "model/check_scene.h"
 #include "natator/limits.h"
 #include "readers.h"
 #include "scene/scene_json.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "model/tank_ends.h"
 #include "readers.h"
-#include "tank_ends.h"
 
 namespace natator::fields {
 

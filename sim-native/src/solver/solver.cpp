@@ -5,14 +5,14 @@
 #include <string>
 #include <variant>
 
-#include "check_model.h"
-#include "cpu/conserving/conserving_stages.h"
-#include "cpu/flex/flex_stages.h"
-#include "gait/check_values.h"
+#include "base/check_values.h"
+#include "flex/cpu/flex_stages.h"
 #include "lattice/coupling.h"
+#include "law_name.h"
+#include "model/check_model.h"
 #include "natator/actuate.h"
-#include "measure/law_name.h"
 #include "natator/steering.h"
+#include "solids/cpu/conserving_stages.h"
 #include "step.h"
 
 namespace natator {

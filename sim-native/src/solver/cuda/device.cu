@@ -1,16 +1,25 @@
 #include <string>
 
-#include "batch_runner.h"
+#include "device.h"
+#include "model_view.h"
 #include "natator/actuate.h"
-#include "natator/batch.h"
-#include "natator/model_builder.h"
+#include "natator/error.h"
 #include "natator/solver.h"
+#include "owned_array.h"
+#include "refusal.h"
 
 namespace natator {
 namespace cuda {
 
+int device_count() {
+    int count = 0;
+    if (cudaGetDeviceCount(&count) == cudaSuccess) return count;
+    cudaGetLastError();
+    return 0;
+}
+
 void choose_device(int device) {
-    const int devices = static_cast<int>(cuda_devices().size());
+    const int devices = device_count();
     if (device < 0 || device >= devices)
         throw NoDevice("backend cuda: device " + std::to_string(device) + ": no such device; there " +
                        (devices == 1 ? "is 1 GPU" : "are " + std::to_string(devices) + " GPUs"));
@@ -45,26 +54,5 @@ template Instability located(const Model&, State<float>, const Gait*, double, in
 template Instability located(const Model&, State<double>, const Gait*, double, int, double, const Instability&);
 
 }  // namespace cuda
-
-std::vector<Device> cuda_devices() {
-    int count = 0;
-    if (cudaGetDeviceCount(&count) != cudaSuccess) {
-        cudaGetLastError();
-        return {};
-    }
-    std::vector<Device> devices;
-    for (int i = 0; i < count; ++i) {
-        cudaDeviceProp properties{};
-        cuda::check(cudaGetDeviceProperties(&properties, i), "device properties");
-        devices.push_back({i, properties.name,
-                           std::to_string(properties.major) + "." + std::to_string(properties.minor),
-                           properties.totalGlobalMem, properties.multiProcessorCount});
-    }
-    return devices;
-}
-
-std::optional<std::string> gpu_refusal(const Scene& scene) {
-    return cuda::refusal(build_model(scene));
-}
 
 }  // namespace natator

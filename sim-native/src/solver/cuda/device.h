@@ -2,6 +2,9 @@
 
 namespace natator::cuda {
 
+/// How many GPUs there are; 0 without one, or without its driver.
+int device_count();
+
 /// Makes a GPU the current one. Throws NoDevice where there is no such one.
 void choose_device(int device);
 

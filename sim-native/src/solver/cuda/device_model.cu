@@ -8,11 +8,10 @@
 #include "model/carried_weight.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
-#include "natator/laws.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
-#include "solver/cpu/conserving/solids.h"
 #include "solver/cpu/substep.h"
+#include "solver/solids/cpu/solids.h"
 #include "way.h"
 
 namespace natator::cuda {
@@ -94,8 +93,8 @@ void DeviceModel<Real>::set_constants(const Model& model) {
     view_.local_relaxation = p.relaxationMode == RelaxationMode::local;
     view_.gravity = vec3<Real>(p.gravity);
     view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);
-    view_.bounded_gravity = vec3<Real>(bounded_gravity(model));
-    view_.bounded_fluid_gravity = vec3<Real>(bounded_gravity(model) * p.buoyancy);
+    view_.bounded_gravity = vec3<Real>(gravity_on_walls(model));
+    view_.bounded_fluid_gravity = vec3<Real>(gravity_on_walls(model) * p.buoyancy);
     view_.iterations = p.numIterations;
     view_.solid_iterations = p.solidIterations;
     view_.most_neighbours = p.maxNeighborsPerParticle;

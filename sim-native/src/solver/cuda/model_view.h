@@ -143,7 +143,7 @@ struct ModelView {
     Real viscosity, damping, max_acceleration, max_speed, relaxation_factor, solid_pressure;
     bool local_relaxation;
     Vec3<Real> gravity, fluid_gravity;
-    Vec3<Real> bounded_gravity, bounded_fluid_gravity;  ///< see natator::bounded_gravity
+    Vec3<Real> bounded_gravity, bounded_fluid_gravity;  ///< gravity_on_walls, and what buoyancy leaves of it
     int iterations, solid_iterations, most_neighbours;
 
     // Off in the thesis, see physics/effects.h.

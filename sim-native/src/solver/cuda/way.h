@@ -1,6 +1,5 @@
 #pragma once
 
-#include "natator/batch.h"
 #include "natator/model.h"
 
 namespace natator::cuda {
@@ -12,10 +11,8 @@ inline constexpr int most_particles_by_blocks_alone = 20000;
 
 /// Do blocks and the whole GPU compute a Model alike? In float and without effects (Plan::effects) both ways give the same bits:
 /// cells are the same, and the host sets the muscles.
-bool goes_either_way(const Model& model);
-
-/// Whether the current device computes a scene by kernels of the whole GPU: in scheme conserving, with goals or companions, and where
-/// it is asked for, always; above 20 000 particles where both ways do not give the same bits, or blocks have no room for it.
-bool by_whole_gpu(const Scene& scene, const Model& model, const BatchOptions& options);
+inline bool goes_either_way(const Model& model) {
+    return model.scheme == Scheme::flex && model.particles() > most_particles_by_blocks_alone;
+}
 
 }  // namespace natator::cuda

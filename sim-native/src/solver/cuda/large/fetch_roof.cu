@@ -8,8 +8,9 @@
 #include "large_runner.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
-#include "solver/cuda/batch_runner.h"
+#include "solver/cuda/device.h"
 #include "solver/cuda/event.h"
+#include "solver/cuda/refusal.h"
 
 namespace natator::cuda {
 namespace {

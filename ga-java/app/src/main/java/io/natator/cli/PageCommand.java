@@ -119,7 +119,7 @@ final class PageCommand implements Callable<Integer> {
 
     /** The best of a run, and with {@code --best} those after it. */
     private List<SwimSource> swimmers(String source) {
-        SwimSource first = SwimSource.of(source, null, gait);
+        SwimSource first = SwimSource.of(source, gait);
         if (best == 1) {
             return List.of(first);
         }
@@ -131,7 +131,7 @@ final class PageCommand implements Callable<Integer> {
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));
         }
-        return gaits.stream().map(one -> SwimSource.of(run, null, one, one.equals(run.best().swimmer()) ? run.best() : null))
+        return gaits.stream().map(one -> SwimSource.of(run, one, one.equals(run.best().swimmer()) ? run.best() : null))
                 .toList();
     }
 

@@ -9,6 +9,7 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
+import io.natator.config.Json;
 import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
@@ -48,9 +49,14 @@ final class ShowCommand implements Callable<Integer> {
     @Option(names = "--json", description = "As a line of JSON for programs: what python -m natator report draws.")
     private boolean json;
 
+    @Option(names = "--generation", paramLabel = "N", description = "Only the best gait of the generations up to N, and its body, "
+            + "as JSON: --gait of other commands takes it.")
+    private Integer generation;
+
     @Override
     public Integer call() throws InterruptedException {
-        WholeOutput.print(spec.commandLine(), this::print);
+        WholeOutput.print(spec.commandLine(), generation == null ? this::print
+                : out -> out.println(Json.line(SwimSource.bestUntil(generation, StoredRun.in(folder))).strip()));
         return ExitCode.OK;
     }
 

@@ -2,12 +2,9 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
-import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -29,7 +26,6 @@ import java.util.Objects;
  * Who swims where: a run's best swimmer in its scene, or a scene with or without a gait.
  *
  * @param run        its folder, or null
- * @param generation up to which it is the best, or null for all
  * @param scene      name or path
  * @param overrides  JSON Merge Patch on the scene, with the body if that is not the scene's; or null
  * @param gait       or null for a body at rest
@@ -37,35 +33,27 @@ import java.util.Objects;
  * @param duration   of an evaluation in seconds, or null for the scene's own
  * @param best       what the run has stored of the gait, if it is the best of all; else null
  */
-record SwimSource(Path run, Integer generation, String scene, JsonNode overrides, Gait gait, Scheme scheme,
+record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme scheme,
         Double duration, BestGait best) {
 
     /**
      * Whom the user named.
      *
      * @param source     a run folder, else a scene
-     * @param generation of a run, or null
      * @param gait       a file, or null for a run's best
      * @throws InvalidInputException if the run has no such gait, or a scene's file is not there
      */
-    static SwimSource of(String source, Integer generation, Path gait) {
+    static SwimSource of(String source, Path gait) {
         Swimmer given = gait == null ? null : GaitFile.read(gait);
-        if (generation != null && given != null) {
-            throw new InvalidInputException("--generation and --gait: expected one of them");
-        }
         Path folder = Path.of(source);
         if (StoredRun.exists(folder)) {
             StoredRun run = StoredRun.in(folder);
-            Swimmer swimmer = given != null ? given : best(run, generation);
-            return of(run, generation, swimmer, given == null && generation == null ? run.best() : null);
-        }
-        if (generation != null) {
-            throw new InvalidInputException("--generation: " + source + " is not a run folder");
+            return of(run, given != null ? given : best(run), given == null ? run.best() : null);
         }
         if (source.endsWith(".json") && !Files.isRegularFile(Path.of(source))) {
             throw new InvalidInputException(source + " is neither a run folder nor a scene: there is no such file");
         }
-        return new SwimSource(null, null, SceneOptions.scene("scene", source), given == null ? null : given.body(),
+        return new SwimSource(null, SceneOptions.scene("scene", source), given == null ? null : given.body(),
                 given == null ? null : given.gait(), null, null, null);
     }
 
@@ -74,19 +62,25 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
      *
      * @param best what the run has stored of it, or null
      */
-    static SwimSource of(StoredRun run, Integer generation, Swimmer swimmer, BestGait best) {
+    static SwimSource of(StoredRun run, Swimmer swimmer, BestGait best) {
         EvolutionSettings settings = run.settings();
-        return new SwimSource(run.directory(), generation, SceneOptions.scene("scene of " + run.directory(), settings.scene()),
+        return new SwimSource(run.directory(), SceneOptions.scene("scene of " + run.directory(), settings.scene()),
                 MergePatch.both(settings.overrides(), swimmer.body()), swimmer.gait(), settings.scheme(), settings.duration(), best);
     }
 
-    private static Swimmer best(StoredRun run, Integer generation) {
-        if (generation == null) {
-            if (run.best() == null) {
-                throw new InvalidInputException(run.whyNoBest() + "; or give a gait by --gait");
-            }
-            return run.best().swimmer();
+    private static Swimmer best(StoredRun run) {
+        if (run.best() == null) {
+            throw new InvalidInputException(run.whyNoBest() + "; or give a gait by --gait");
         }
+        return run.best().swimmer();
+    }
+
+    /**
+     * The best of the generations up to one.
+     *
+     * @throws InvalidInputException if the run has not finished that one, or no longer knows it
+     */
+    static Swimmer bestUntil(int generation, StoredRun run) {
         int last = run.state() == null ? -1 : run.state().generation();
         if (generation < 0 || generation > last) {
             throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
@@ -125,12 +119,6 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
     }
 
-    /** That a run's scene is no longer what it was begun with, in one line; null if it is, or that is not known. */
-    String changedScene(Path simulator) throws InterruptedException {
-        return run == null || !SceneDigest.isChanged(run, simulator) ? null
-                : "scene " + scene + " was changed after " + run + " was begun: the gait swims in another one than it was evolved in";
-    }
-
     /** What simulates a swim. */
     @FunctionalInterface
     interface Simulation<T> {
@@ -159,18 +147,6 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         } catch (JsonProcessingException e) {
             throw new IllegalStateException(e);
         }
-    }
-
-    /** What metadata say of it. */
-    ObjectNode described() {
-        ObjectNode text = JsonNodeFactory.instance.objectNode();
-        if (run != null) {
-            text.put("run", run.toAbsolutePath().normalize().getFileName().toString());
-        }
-        if (generation != null) {
-            text.put("generation", generation);
-        }
-        return text;
     }
 
     /** See {@link SceneOptions#shortName}. */

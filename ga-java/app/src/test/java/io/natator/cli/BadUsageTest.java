@@ -302,8 +302,7 @@ class BadUsageTest extends FakeSimulatorTest {
 
     /** Whatever is asked of it: that a program does not work is no fault of the scene. */
     @ParameterizedTest
-    @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "export --format csv", "picture",
-        "new scene minnow --like"})
+    @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "page", "new scene minnow --like"})
     void aSimulatorThatDoesNotWorkIsAFailure(String command) throws IOException {
         Path simulator = folder.resolve("simulator");
         String[] arguments = (command + " pool/eel --simulator-path " + simulator).split(" ");

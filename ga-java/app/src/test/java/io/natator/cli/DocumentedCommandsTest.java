@@ -19,7 +19,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-/** Commands that stand in documents are ones that the programs take: names, options and their values. */
+/** Commands in documents, and in the scripts that measure results, are ones that the programs take: names, options and their values. */
 class DocumentedCommandsTest {
 
     private static final Path ROOT = Path.of("../..").toAbsolutePath().normalize();
@@ -45,16 +45,20 @@ class DocumentedCommandsTest {
         List<Path> files = new ArrayList<>(List.of(ROOT.resolve("README.md"), ROOT.resolve("CONTRIBUTING.md")));
         for (String within : List.of("sim-native/docs", "sim-native/protocol", "sim-native/python", "ga-java/docs", "results")) {
             try (Stream<Path> all = Files.walk(ROOT.resolve(within))) {
-                all.filter(file -> file.toString().endsWith(".md")).forEach(files::add);
+                all.filter(file -> file.toString().endsWith(".md") || isScript(file)).forEach(files::add);
             }
         }
         return files.stream();
     }
 
+    private static boolean isScript(Path file) {
+        return file.getFileName().toString().matches("measure.*\\.sh");
+    }
+
     /** Lines of code, continued ones joined, without comments. */
     private static List<Shown> code(Path file) {
         List<Shown> lines = new ArrayList<>();
-        boolean fenced = false;
+        boolean fenced = isScript(file);
         try {
             String text = Files.readString(file, StandardCharsets.UTF_8).replaceAll("\\\\\\n\\s*", "");
             for (String line : text.split("\n")) {

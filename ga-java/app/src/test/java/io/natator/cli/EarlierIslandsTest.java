@@ -39,13 +39,12 @@ class EarlierIslandsTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"show", "resume", "evolve --resume", "check", "converge", "compare other", "view --no-browser --run",
-        "page", "picture", "export --format vtp --output-dir out"})
+        "page"})
     void commandsRefuseThemInOneLine(String command) throws IOException {
         assertThat(evolve("other")).as(err.toString()).isZero();
         for (Path refused : List.of(run, island)) {
             forget();
-            List<String> all = new ArrayList<>(List.of(command.replace(" other", " " + folder.resolve("other"))
-                    .replace(" out", " " + folder.resolve("out")).split(" ")));
+            List<String> all = new ArrayList<>(List.of(command.replace(" other", " " + folder.resolve("other")).split(" ")));
             all.add(refused.toString());
 
             assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true))

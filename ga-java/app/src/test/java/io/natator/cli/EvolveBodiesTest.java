@@ -153,8 +153,14 @@ class EvolveBodiesTest {
         JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class, "result");
         assertThat(result.path("distance").doubleValue()).isEqualTo(best.distance());
         assertThat(GaitFile.read(folder.resolve("run/best.json"))).isEqualTo(new Swimmer(best.gait(), best.body()));
-        assertThat(SwimSource.of(folder.resolve("run").toString(), null, null).overrides()).isEqualTo(best.body());
-        assertThat(SwimSource.of(folder.resolve("run").toString(), 0, null).overrides().path("creature").has("profile")).isTrue();
+        assertThat(SwimSource.of(folder.resolve("run").toString(), null).overrides()).isEqualTo(best.body());
+        out.getBuffer().setLength(0);
+        assertThat(natator("show", folder.resolve("run").toString(), "--generation", "0")).as(err.toString()).isZero();
+        Swimmer first = GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString()));
+        assertThat(first).isEqualTo(StoredRun.in(folder.resolve("run")).bestUntil(0).swimmer());
+        assertThat(first.body().path("creature").has("profile")).isTrue();
+        assertThat(natator("show", folder.resolve("run").toString(), "--generation", "99")).isEqualTo(2);
+        assertThat(err.toString()).contains("--generation is 99; expected one that ").contains(" has finished, 0 to ");
     }
 
     @Test

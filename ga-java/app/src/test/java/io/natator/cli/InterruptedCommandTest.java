@@ -39,7 +39,7 @@ class InterruptedCommandTest extends FakeSimulatorTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"picture pool/eel --output NEW.png", "export pool/eel --format csv --output-dir NEW"})
+    @ValueSource(strings = "page pool/eel --output NEW.html")
     void whatTheyWereDoingIsNoFailure(String command) throws IOException, InterruptedException {
         String name = command.split(" ")[0];
         List<String> words = JavaCommand.of(Patient.class, command.replace("NEW", folder.resolve("new").toString()).split(" "));

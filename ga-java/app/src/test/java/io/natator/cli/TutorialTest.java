@@ -37,7 +37,6 @@ class TutorialTest {
 
         assertThat(folder.resolve("minnow.json")).isRegularFile();
         assertThat(folder.resolve("minnow-gait.json")).isRegularFile();
-        assertThat(folder.resolve("minnow.png")).isNotEmptyFile();
         assertThat(folder.resolve("runs/minnow/best.json")).isNotEmptyFile();
     }
 

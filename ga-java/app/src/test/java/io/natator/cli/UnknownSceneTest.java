@@ -24,11 +24,11 @@ class UnknownSceneTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "export --format csv runs/nothing|runs/nothing is neither a run folder nor a scene",
-        "export --format csv --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
+        "page runs/nothing|runs/nothing is neither a run folder nor a scene",
+        "page --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
         "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray, lake/ray or pool/ray?",
-        "picture tuna|tuna is neither a run folder nor a scene; did you mean lake/tuna, pool/tuna or open-water/tuna?",
-        "picture gone.json|gone.json is neither a run folder nor a scene: there is no such file",
+        "page tuna|tuna is neither a run folder nor a scene; did you mean lake/tuna, pool/tuna or open-water/tuna?",
+        "page gone.json|gone.json is neither a run folder nor a scene: there is no such file",
         "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
         "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
         "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
@@ -42,7 +42,7 @@ class UnknownSceneTest {
         List<String> all = new ArrayList<>(List.of(arguments.split(" ")));
         all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
         switch (all.get(0)) {
-            case "picture", "page" -> all.addAll(1, List.of("--output", folder.resolve("new." + (all.get(0).equals("page") ? "html" : "png")).toString()));
+            case "page" -> all.addAll(1, List.of("--output", folder.resolve("new.html").toString()));
             case "view" -> all.addAll(1, List.of("--port", "0", "--no-browser"));
             case "evaluate" -> { }
             default -> all.addAll(1, List.of("--output-dir", folder.resolve("new").toString()));
@@ -59,9 +59,10 @@ class UnknownSceneTest {
         StringWriter err = new StringWriter();
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
 
-        assertThat(command.execute("export", "--simulator-path", SIMULATOR.toString(), "--format", "csv", file.toString())).isEqualTo(2);
-        assertThat(command.execute("export", "--simulator-path", SIMULATOR.toString(), "--format", "csv", "--output-dir",
-                folder.resolve("new").toString(), "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
+        assertThat(command.execute("page", "--simulator-path", SIMULATOR.toString(), "--output",
+                folder.resolve("new.html").toString(), file.toString())).isEqualTo(2);
+        assertThat(command.execute("page", "--simulator-path", SIMULATOR.toString(), "--output",
+                folder.resolve("new.html").toString(), "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(2).allSatisfy(line -> assertThat(line).doesNotContain("neither"));
         assertThat(err.toString()).contains("no/such", "substeps");
     }

@@ -218,9 +218,9 @@ class ViewCommandTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"[5,0.5]|[0,0.5]|amplitude[0] = 5: must be a number in [0, 2]",
         "[0.5]|[0]|amplitude has length 1: must have length 2, one value per actuator of the creature"})
-    void aGaitThatTheSimulatorRefusesIsRefusedAsByPicture(String amplitude, String phase, String message) throws IOException {
+    void aGaitThatTheSimulatorRefusesIsRefused(String amplitude, String phase, String message) throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
-        for (String command : List.of("view --no-browser --port 0 --scene", "picture --at 0")) {
+        for (String command : List.of("view --no-browser --port 0 --scene", "page --output " + folder.resolve("page.html"))) {
             StringWriter err = new StringWriter();
             List<String> all = new ArrayList<>(List.of(command.split(" ")));
             all.addAll(List.of("thesis/creature-1", "--gait", gait.toString(), "--simulator-path", SIMULATOR));

@@ -1,5 +1,6 @@
 package io.natator.body;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.encoding.Gait;
 
@@ -9,6 +10,7 @@ import io.natator.encoding.Gait;
  * @param gait how its muscles move
  * @param body JSON Merge Patch that gives the scene its body, or null for the scene's own
  */
+@JsonInclude(JsonInclude.Include.NON_NULL)
 public record Swimmer(Gait gait, JsonNode body) {
 
     /** Another gait of the same body. */

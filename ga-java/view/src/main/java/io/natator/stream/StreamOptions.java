@@ -16,42 +16,35 @@ import java.util.stream.Collectors;
  * @param scheme    or null for the scene's own
  * @param precision {@code float}, {@code double}, or null for the program's default
  * @param fields    what frames hold; at least one
- * @param every     only every so many-th frame is offered
  * @param rate      simulated seconds per second of wall time, at most; 0 = as fast as possible
  * @param until     seconds after which the stream ends, or null for never
  * @param lossless  whether the simulation waits for credit instead of dropping a frame
  * @param paused    whether it waits for {@code run}
  */
 public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Scheme scheme, String precision,
-        List<StreamField> fields, int every, double rate, Double until, boolean lossless, boolean paused) {
+        List<StreamField> fields, double rate, Double until, boolean lossless, boolean paused) {
 
     private static final List<StreamField> ALL = List.of(StreamField.values());
 
     /** A scene to be watched: all fields, in real time, without end. */
     public static StreamOptions live(String scene, JsonNode overrides, JsonNode gait, boolean paused) {
-        return new StreamOptions(scene, overrides, gait, null, null, ALL, 1, 1, null, false, paused);
+        return new StreamOptions(scene, overrides, gait, null, null, ALL, 1, null, false, paused);
     }
 
     /** Every frame from the settled start to {@code until} seconds, as fast as they are taken. */
     public static StreamOptions recording(String scene, JsonNode overrides, JsonNode gait, double until) {
-        return new StreamOptions(scene, overrides, gait, null, null, ALL, 1, 0, until, true, false);
+        return new StreamOptions(scene, overrides, gait, null, null, ALL, 0, until, true, false);
     }
 
     /** The same with another scheme and precision; null leaves either to the scene and the program. */
     public StreamOptions with(Scheme newScheme, String newPrecision) {
-        return new StreamOptions(scene, overrides, gait, newScheme, newPrecision, fields, every, rate, until, lossless,
+        return new StreamOptions(scene, overrides, gait, newScheme, newPrecision, fields, rate, until, lossless,
                 paused);
     }
 
     /** The same with other fields. */
     public StreamOptions withFields(List<StreamField> newFields) {
-        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, every, rate, until, lossless,
-                paused);
-    }
-
-    /** The same with only every so many-th frame. */
-    public StreamOptions withEvery(int newEvery) {
-        return new StreamOptions(scene, overrides, gait, scheme, precision, fields, newEvery, rate, until, lossless,
+        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless,
                 paused);
     }
 
@@ -63,7 +56,6 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         add(arguments, "--scheme", scheme == null ? null : scheme.name().toLowerCase(Locale.ROOT));
         add(arguments, "--precision", precision);
         add(arguments, "--fields", fields.stream().sorted().map(StreamField::text).collect(Collectors.joining(",")));
-        add(arguments, "--every", every == 1 ? null : every);
         add(arguments, "--rate", rate);
         add(arguments, "--until", until);
         if (lossless) {

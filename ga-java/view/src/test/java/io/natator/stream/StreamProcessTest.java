@@ -77,14 +77,14 @@ class StreamProcessTest {
     @Test
     void optionsBecomeArguments() throws IOException, InterruptedException {
         StreamOptions options = StreamOptions.recording("a b", StreamBytes.scene().get("definition"),
-                StreamBytes.scene().get("gait"), 0.5).with(Scheme.CONSERVING, "double").withEvery(4)
+                StreamBytes.scene().get("gait"), 0.5).with(Scheme.CONSERVING, "double")
                 .withFields(List.of(StreamField.DENSITY, StreamField.POSITION));
         try (StreamProcess process = new StreamProcess(program(scene(), "exit 0"), options)) {
             process.next();
         }
         assertThat(folder.resolve("arguments")).hasContent("stream a b --overrides {\"name\":\"pool\"} --gait "
                 + "{\"frequency\":1,\"amplitude\":[0.5],\"phase\":[0]} --scheme conserving --precision double "
-                + "--fields position,density --every 4 --rate 0.0 --until 0.5 --lossless");
+                + "--fields position,density --rate 0.0 --until 0.5 --lossless");
     }
 
     @Test

@@ -250,4 +250,26 @@ class StreamReaderTest {
         assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
                 .isInstanceOf(StreamException.class).hasMessageContaining("particles").message().doesNotContain("\n");
     }
+
+    /** Two clusters of four particles each, and three vertices: of one, between both, of the other. */
+    @Test
+    void aSkinThatDoesNotFitItsBodyIsRefused() throws IOException {
+        ObjectNode scene = StreamBytes.scene();
+        scene.set("body", Json.parse("[0,1,2,3,4,5,6,7]", JsonNode.class));
+        scene.set("clusters", Json.parse("[[0,1,2,3],[4,5,6,7]]", JsonNode.class));
+        String skin = """
+                {"file":"fish.obj","vertices":[[2,0,0],[0,0.5,0],[-2,0,1]],"triangles":[[0,1,2]],"cluster":[0,0,1],
+                 "share":[1,0.25,1],"rest":[[1,0,0],[2,0,0],[1,1,0],[1,0,1],[-1,0,0],[-2,0,0],[-1,1,0],[-1,0,1]]}""";
+        scene.set("skin", Json.parse(skin, JsonNode.class));
+        assertThat(((StreamMessage.Scene) reader(new StreamBytes().json("SCEN", scene)).next()).scene().skin()).isNotNull();
+        for (String[] change : new String[][] {{"[[0,1,2]]", "[[0,1,3]]"}, {"\"cluster\":[0,0,1]", "\"cluster\":[0,0,2]"},
+            {"\"share\":[1,0.25,1]", "\"share\":[1,0.25]"}, {"\"share\":[1,0.25,1]", "\"share\":[1,0.25,0.5]"},
+            {"[-1,0,1]]}", "[-1,0]]}"}, {",[-1,0,1]]}", "]}"}}) {
+            String wrong = skin.replace(change[0], change[1]);
+            assertThat(wrong).isNotEqualTo(skin);
+            scene.set("skin", Json.parse(wrong, JsonNode.class));
+            assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next()).isInstanceOf(StreamException.class)
+                    .hasMessageContaining("skin");
+        }
+    }
 }

@@ -1,0 +1,55 @@
+#include "natator/actuate.h"
+
+#include "base/check_values.h"
+#include "check_gait.h"
+#include "check_model.h"
+#include "physics/muscle.h"
+
+namespace natator {
+
+namespace {
+
+/// Adds what drives the actuators of one swimmer.
+void add_drive(const Gait& gait, double ramp, double time, std::vector<double>& driven) {
+    for (std::size_t i = 0; i < gait.amplitude.size(); ++i) {
+        driven.push_back(ramp * gait.amplitude[i] * activation(gait, static_cast<int>(i), time));
+        if (!gait.offset.empty()) driven.back() += ramp * gait.offset[i];
+    }
+}
+
+double ramp_at(const Model& model, double time) {
+    return model.scheme != Scheme::flex ? physics::start_ramp(time) : 1.0;
+}
+
+}  // namespace
+
+std::vector<double> drive(const Model& model, const Gait& gait, double time) {
+    check_lengths(gait, model.actuators);
+    std::vector<double> driven;
+    add_drive(gait, ramp_at(model, time), time, driven);
+    return driven;
+}
+
+template <class Real>
+void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
+    actuate(model, drive(model, gait, time), time, state);
+}
+
+template <class Real>
+void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
+    check_length("drive", driven.size(), model.actuators);
+    if (!model.muscles.empty()) check_springs(model, state);
+    for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
+    for (const Muscle& muscle : model.muscles) {
+        const double rest = model.springs[muscle.spring].rest_length;
+        const double length = physics::muscle_length(rest, muscle.lateral, driven[muscle.actuator]);
+        state.spring_rest_length[muscle.spring] = static_cast<Real>(length);
+    }
+}
+
+template void actuate(const Model&, const Gait&, double, State<float>&);
+template void actuate(const Model&, const Gait&, double, State<double>&);
+template void actuate(const Model&, std::vector<double>, double, State<float>&);
+template void actuate(const Model&, std::vector<double>, double, State<double>&);
+
+}  // namespace natator

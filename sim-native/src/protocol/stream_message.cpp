@@ -1,0 +1,289 @@
+#include <bit>
+#include <cstring>
+#include <stdexcept>
+
+#include "base/strict_json.h"
+#include "model/borders.h"
+#include "model/skin_weights.h"
+#include "model/tank_ends.h"
+#include "natator/instruction_set.h"
+#include "natator/measure.h"
+#include "natator/momentum.h"
+#include "natator/pose.h"
+#include "natator/version.h"
+#include "protocol/stream.h"
+#include "run/conservation_errors.h"
+#include "scene/gait_json.h"
+#include "scene/scene_json.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "messages are written as numbers are in memory");
+
+constexpr std::uint32_t flag_running = 1, flag_touches_plane = 2;
+
+/// A message that grows: letters, a length that is set at the end, a body.
+class MessageWriter {
+public:
+    explicit MessageWriter(std::string_view letters) : bytes_(letters) { add<std::uint32_t>(0); }
+
+    template <class T>
+    void add(T value) {
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void add_text(const std::string& text) { bytes_ += text; }
+    template <class Vectors>
+    void add_vectors(const Vectors& vectors) {
+        for (const auto& vector : vectors)
+            for (const auto component : vector) add(static_cast<float>(component));
+    }
+    template <class Numbers>
+    void add_numbers(const Numbers& numbers) {
+        for (const auto number : numbers) add(static_cast<float>(number));
+    }
+    void reserve(std::size_t size) { bytes_.reserve(size); }
+
+    /// The bytes, filled up with spaces to a multiple of 4.
+    std::string finish() {
+        while (bytes_.size() % 4 != 0) bytes_ += ' ';
+        const std::size_t length = bytes_.size() - head;
+        if (length > UINT32_MAX) throw std::runtime_error("a message of the stream is larger than 4 GiB");
+        const auto stored = static_cast<std::uint32_t>(length);
+        std::memcpy(bytes_.data() + 4, &stored, sizeof stored);
+        return std::move(bytes_);
+    }
+
+private:
+    static constexpr std::size_t head = 8;
+    std::string bytes_;
+};
+
+ordered_json planes_json(const Model& model) {
+    ordered_json planes = ordered_json::array();
+    for (const Plane& plane : model.planes)
+        planes.push_back({plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset});
+    return planes;
+}
+
+/// {"x": [low, high]} of the axes that have no ends.
+ordered_json periodic_json(const Model& model) {
+    ordered_json periodic = ordered_json::object();
+    for (const PeriodicAxis& axis : model.periodic) periodic[name_of_axis(axis.axis)] = {axis.low, axis.high};
+    return periodic;
+}
+
+/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the swimmer.
+template <class Real>
+std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Real>& state) {
+    std::vector<Vector3<Real>> places = state.position;
+    if (model.periodic.empty() || model.body.particles.empty()) return places;
+    const Eigen::Vector3d centre = mean_place(body_places_in_tank(model.body, state));
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        const Eigen::Vector3d way = shortest_way(model, places[i].template cast<double>() - centre);
+        for (const PeriodicAxis& axis : model.periodic)
+            places[i][axis.axis] = static_cast<Real>(centre[axis.axis] + way[axis.axis]);
+    }
+    return places;
+}
+
+ordered_json fields_json(const stream::Fields& fields) {
+    ordered_json names = ordered_json::array();
+    if (fields.position) names.push_back("position");
+    if (fields.velocity) names.push_back("velocity");
+    if (fields.density) names.push_back("density");
+    return names;
+}
+
+ordered_json masses_json(const Model& model) {
+    ordered_json masses = ordered_json::array();
+    for (const double w : model.inverse_mass) masses.push_back(w > 0 ? ordered_json(1 / w) : ordered_json());
+    return masses;
+}
+
+/// First fluid particle and their number; model_builder lays them out one after another.
+ordered_json fluid_json(const Model& model) {
+    int first = 0, count = 0;
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i) && count++ == 0) first = i;
+    return {first, count};
+}
+
+ordered_json clusters_json(const Model& model) {
+    ordered_json clusters = ordered_json::array();
+    for (const Cluster& cluster : model.clusters) clusters.push_back(cluster.particles);
+    return clusters;
+}
+
+/// Those of the body; companions drive their own, and no frame tells how.
+ordered_json muscles_json(const Scene& scene, const Model& model) {
+    ordered_json muscles = ordered_json::array();
+    const std::vector<Actuator> actuators = scene.creature ? scene.creature->actuator_list() : std::vector<Actuator>{};
+    for (const Muscle& muscle : model.muscles) {
+        if (muscle.actuator >= model.actuators) continue;
+        const Spring& spring = model.springs[muscle.spring];
+        muscles.push_back({{"a", spring.a},
+                           {"b", spring.b},
+                           {"actuator", muscle.actuator},
+                           {"lateral", muscle.lateral},
+                           {"restLength", spring.rest_length}});
+        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
+    }
+    return muscles;
+}
+
+/// Bodies that are in the tank besides the swimmer: their creature's name, particles, and slices from the head on.
+ordered_json companions_json(const Scene& scene, const Model& model) {
+    ordered_json companions = ordered_json::array();
+    for (std::size_t k = 0; k < model.companions.size(); ++k) {
+        const Body& body = model.companions[k].body;
+        companions.push_back({{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
+    }
+    return companions;
+}
+
+/// [x, y, z] each.
+template <class Vectors>
+ordered_json triples_json(const Vectors& vectors) {
+    ordered_json triples = ordered_json::array();
+    for (const auto& v : vectors) triples.push_back({v[0], v[1], v[2]});
+    return triples;
+}
+
+/// The mesh that goes with the body; null without one.
+ordered_json skin_json(const Scene& scene, const Model& model) {
+    if (!scene.creature || !scene.creature->skin) return nullptr;
+    const Skin& skin = *scene.creature->skin;
+    const std::vector<SkinWeight> weights = skin_weights(*scene.creature, model);
+    ordered_json clusters = ordered_json::array(), shares = ordered_json::array();
+    for (const SkinWeight& weight : weights) {
+        clusters.push_back(weight.cluster);
+        shares.push_back(weight.share);
+    }
+    std::vector<Eigen::Vector3d> rest;
+    for (const int particle : model.body.particles) rest.push_back(model.position[particle] - scene.creature->rear_centre);
+    return {{"file", skin.file},
+            {"digest", skin.digest},
+            {"unit", skin.unit},
+            {"axes", triples_json(skin.axes.rowwise())},
+            {"origin", {skin.origin.x(), skin.origin.y(), skin.origin.z()}},
+            {"vertices", triples_json(skin.vertices)},
+            {"triangles", triples_json(skin.triangles)},
+            {"cluster", clusters},
+            {"share", shares},
+            {"rest", triples_json(rest)}};
+}
+
+template <class Real>
+constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Precision::double_precision
+                                                                  : Precision::single_precision;
+
+}  // namespace
+
+std::string stream_message(std::string_view letters, const ordered_json& body) {
+    MessageWriter message(letters);
+    message.add_text(body.dump(-1, ' ', false, json::error_handler_t::replace));
+    return message.finish();
+}
+
+template <class Real>
+ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head) {
+    const LiveSetup& setup = simulation.setup();
+    const Scene& scene = simulation.scene();
+    const Model& model = simulation.model();
+    const SolverParameters& solver = model.parameters;
+    const json overrides = setup.overrides.empty() ? json::object() : parse_json(setup.overrides, "overrides");
+    ordered_json body;
+    body["protocol"] = 2;
+    body["program"] = {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}};
+    body["number"] = head.number;
+    body["restarted"] = head.restarted;
+    body["scene"] = setup.scene;
+    body["overrides"] = overrides;
+    if (setup.start) body["start"] = *setup.start;
+    body["gait"] = gait_json(simulation.gait());
+    body["scheme"] = to_string(model.scheme);
+    body["precision"] = to_string(precision_of<Real>);
+    body["definition"] = scene_definition(setup.scene, overrides, setup.data);
+    body["timeStep"] = model.time_step;
+    body["duration"] = scene.duration;
+    body["radius"] = solver.radius;
+    body["solidRestDistance"] = solver.solidRestDistance;
+    body["fluidRestDistance"] = solver.fluidRestDistance;
+    body["planes"] = planes_json(model);
+    body["periodic"] = periodic_json(model);
+    body["fields"] = fields_json(head.fields);
+    body["particles"] = model.particles();
+    body["mass"] = masses_json(model);
+    body["fluid"] = fluid_json(model);
+    body["body"] = model.body.particles;
+    body["slices"] = model.body.slices;
+    body["bodyLength"] = model.body.length;
+    body["companions"] = companions_json(scene, model);
+    body["clusters"] = clusters_json(model);
+    body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
+    body["actuators"] = model.actuators;
+    body["muscles"] = muscles_json(scene, model);
+    body["skin"] = skin_json(scene, model);
+    return body;
+}
+
+ordered_json stream_scene_change(const ordered_json& before, const ordered_json& now) {
+    ordered_json body;
+    for (const auto& [key, value] : now.items())
+        if (key == "number" || key == "restarted" || before.at(key) != value) body[key] = value;
+    return body;
+}
+
+template <class Real>
+std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head) {
+    const Model& model = simulation.model();
+    const State<Real>& state = simulation.state();
+    const std::vector<Real> densities = simulation.densities();
+    const ConservationErrors errors = conservation_errors(model, state, densities);
+    const Eigen::Vector3d velocity = centre_velocity(model, state, model.body.particles);
+    const std::uint32_t running = head.running ? flag_running : 0;
+    const std::uint32_t touches = touches_plane(model, state) ? flag_touches_plane : 0;
+
+    MessageWriter message("FRAM");
+    message.reserve(128 + 4 * model.actuators + std::size_t{28} * model.particles());
+    message.add(head.scene);
+    message.add(static_cast<std::uint32_t>(simulation.frames()));
+    message.add(head.dropped);
+    message.add(running | touches);
+    message.add(state.time);
+    message.add(head.wall_seconds);
+    message.add(simulation.distance());
+    message.add_numbers(velocity);
+    message.add_numbers(std::initializer_list<double>{errors.linear_momentum, errors.angular_momentum,
+                                                      errors.density_error_mean, errors.density_error_max});
+    message.add(std::uint32_t{0});
+    message.add_numbers(simulation.driven());
+    if (head.fields.position) message.add_vectors(places_around_body(model, state));
+    if (head.fields.velocity) message.add_vectors(state.velocity);
+    if (head.fields.density) message.add_numbers(densities);
+    return message.finish();
+}
+
+ordered_json stream_stop() {
+    return {{"reason", "until"}};
+}
+
+ordered_json stream_stop(const Instability& instability) {
+    return {{"reason", "unstable"},
+            {"particle", instability.particle},
+            {"stage", instability.stage},
+            {"time", instability.time},
+            {"law", instability.law}};
+}
+
+template ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
+template ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
+template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
+template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
+
+}  // namespace natator

@@ -1,0 +1,50 @@
+#include "natator/measure.h"
+#include "natator/plan.h"
+#include "protocol/stream.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json vector_json(const Eigen::Vector3d& vector) {
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+ordered_json flow_json(const std::vector<SkinFlow>& flow) {
+    ordered_json list = ordered_json::array();
+    for (const SkinFlow& felt : flow)
+        list.push_back({{"velocity", vector_json(felt.velocity)}, {"particles", felt.particles}});
+    return list;
+}
+
+}  // namespace
+
+template <class Real>
+ordered_json stream_senses(const LiveSimulation<Real>& simulation, const Sensing& sensing) {
+    const Model& model = simulation.model();
+    const Senses senses = sense(model, simulation.state(), sensing);
+    ordered_json body;
+    body["frame"] = simulation.frames();
+    body["time"] = simulation.state().time;
+    body["distance"] = simulation.distance();
+    body["touchesPlane"] = touches_plane(model, simulation.state());
+    if (has_muscle_work(model)) body["work"] = simulation.muscle_work();
+    body["centre"] = vector_json(senses.centre);
+    body["forward"] = vector_json(senses.axes.col(0));
+    body["up"] = vector_json(senses.axes.col(1));
+    body["right"] = vector_json(senses.axes.col(2));
+    body["velocity"] = vector_json(senses.velocity);
+    body["turnRate"] = vector_json(senses.turn_rate);
+    body["drive"] = simulation.driven();
+    body["bend"] = senses.bend;
+    if (!sensing.flow.empty()) body["flow"] = flow_json(senses.flow);
+    if (senses.target)
+        body["target"] = {{"direction", vector_json(*senses.target)}, {"distance", senses.target_distance}};
+    return body;
+}
+
+template ordered_json stream_senses(const LiveSimulation<float>&, const Sensing&);
+template ordered_json stream_senses(const LiveSimulation<double>&, const Sensing&);
+
+}  // namespace natator

@@ -1,0 +1,269 @@
+#include "base/strict_json.h"
+#include "conservation_errors.h"
+#include "natator/actuate.h"
+#include "natator/cost.h"
+#include "natator/error.h"
+#include "natator/laws.h"
+#include "natator/limits.h"
+#include "natator/live.h"
+#include "natator/load_scene.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
+#include "natator/pose.h"
+#include "perturb.h"
+#include "physics/laws.h"
+#include "same_layout.h"
+#include "scene/merge_patches.h"
+#include "settled_start.h"
+
+namespace natator {
+namespace {
+
+constexpr int frames_between_densities = 16;  ///< an evaluation looks at them at its end, which a stream has not
+
+/// Densities of a state that no update has led to: those of an update that moves nothing.
+template <class Real>
+std::vector<Real> densities_at_rest(Model model, State<Real> state) {
+    model.parameters.gravity.setZero();
+    model.parameters.numIterations = 0;
+    std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
+    Solver<Real> solver(model);
+    solver.update(state, model.time_step, 1);
+    return solver.densities();
+}
+
+/// The scene's model, if a stream of it does not cost too much.
+Model affordable(const Scene& scene, std::optional<double> until, const Computing& computing) {
+    Model model = build_model(scene);
+    check_live_cost(scene, model, until, computing);
+    return model;
+}
+
+}  // namespace
+
+/// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
+template <class Real>
+struct LiveSimulation<Real>::Run {
+    Run(Scene of, const Perturbation& by, const LiveSetup& setup, const Execution& execution)
+        : scene(std::move(of)),
+          perturbation(by),
+          model(affordable(scene, setup.until,
+                           {.doubles = sizeof(Real) > sizeof(float), .several_threads = execution.threads > 1})),
+          solver(model, execution),
+          laws(model) {
+        if (scene.moving_tank) follower.emplace(scene, model);
+    }
+
+    /// The start at rest; settled once. Sets `instability` if settling was unstable.
+    State<Real> begin(const SettledStateCache* starts, std::optional<Instability>& instability) {
+        if (settled) return *settled;
+        State<Real> state = perturbation.amplitude == 0
+                                ? settled_start(model, scene.settling, solver, starts, instability)
+                                : shifted_start(instability);
+        if (!instability) settled = state;
+        return state;
+    }
+
+    /// As in `evaluate` never from the cache: there are as many as seeds.
+    State<Real> shifted_start(std::optional<Instability>& instability) {
+        Model shifted = model;
+        perturb(perturbation, shifted);
+        return settled_start<Real>(shifted, scene.settling, solver, nullptr, instability);
+    }
+
+    Scene scene;
+    Perturbation perturbation;
+    Model model;
+    Solver<Real> solver;
+    LawWatch laws;
+    std::optional<TankFollower> follower;
+    std::optional<State<Real>> settled;
+};
+
+template <class Real>
+LiveSimulation<Real>::LiveSimulation(const LiveSetup& setup, const Execution& execution) : execution_(execution) {
+    load(setup);
+}
+
+template <class Real>
+LiveSimulation<Real>::~LiveSimulation() = default;
+
+template <class Real>
+void LiveSimulation<Real>::load(const LiveSetup& setup) {
+    LiveSetup next = setup;
+    std::unique_ptr<Run> run = make_run(next);
+    if (!next.gait) next.gait = resting_gait(run->model.actuators);
+    check_gait(*next.gait, run->model.actuators);
+    start(std::move(run));
+    setup_ = std::move(next);
+}
+
+template <class Real>
+void LiveSimulation<Real>::set_gait(const Gait& gait) {
+    check_gait(gait, model().actuators);
+    check_steering(steering_, gait, model().actuators);
+    check_steering(applied_, gait, model().actuators);
+    setup_.gait = gait;
+    run_->laws.drive_freely();  // muscles jump from the one to the other
+}
+
+template <class Real>
+void LiveSimulation<Real>::steer(const Steering& steering) {
+    check_steering(steering, gait(), model().actuators);
+    steering_ = steering;
+    run_->laws.drive_freely();
+}
+
+template <class Real>
+void LiveSimulation<Real>::drive(const std::vector<double>& values) {
+    check_drive(values, model().actuators);
+    steering_ = steering_of_drive(values);
+    run_->laws.drive_freely();
+}
+
+template <class Real>
+bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
+    LiveSetup next = setup_;
+    const std::string before = next.overrides.empty() ? "{}" : next.overrides;
+    next.overrides = merge_patches(parse_json(before, "overrides"), parse_json(patch, "overrides")).dump();
+    if (next.overrides.size() > limits::live_overrides_bytes)
+        throw InputError("overrides: all that are in force together are larger than 1 MiB; load the scene anew");
+    std::unique_ptr<Run> run = make_run(next);
+    check_gait(*next.gait, run->model.actuators);
+    const bool goes_on = !instability_ && same_layout(model(), run->model);
+    if (goes_on) {
+        if (run->scene.time_step != scene().time_step) {
+            base_frame_ = frames_;
+            base_time_ = state_.time;
+        }
+        earlier_work_ += run_->solver.muscle_work();
+        if (run->follower) run->follower->stand_at(state_.origin);
+        run_ = std::move(run);
+        run_->laws.go_on(measure_laws(model(), state_));
+        run_->laws.drive_freely();
+        updated_ = false;
+    } else {
+        start(std::move(run));
+    }
+    setup_ = std::move(next);
+    return !goes_on;
+}
+
+template <class Real>
+void LiveSimulation<Real>::reset() {
+    start(nullptr);
+}
+
+template <class Real>
+void LiveSimulation<Real>::reset(int start_number) {
+    if (setup_.start == start_number) return reset();
+    LiveSetup next = setup_;
+    next.start = start_number;
+    start(make_run(next));
+    setup_ = std::move(next);
+}
+
+/// Of the frame that begins now.
+template <class Real>
+Drive LiveSimulation<Real>::next_drive() const {
+    const bool along = model().scheme != Scheme::flex;  // from one steering to the next; else at once
+    return [this, along, begin = state_.time, frame = model().time_step](double time) {
+        std::vector<double> driven = natator::drive(model(), gait(), time);
+        if (leaves_gait(steering_) && leaves_gait(applied_)) return driven;
+        const double part = along ? std::clamp((time - begin) / frame, 0.0, 1.0) : 1;
+        return natator::steer(applied_, steering_, part, std::move(driven));
+    };
+}
+
+template <class Real>
+std::vector<double> LiveSimulation<Real>::driven() const {
+    std::vector<double> driven = natator::drive(model(), gait(), state_.time);
+    return leaves_gait(applied_) ? driven : natator::steer(applied_, applied_, 1, std::move(driven));
+}
+
+template <class Real>
+double LiveSimulation<Real>::muscle_work() const {
+    return earlier_work_ + run_->solver.muscle_work();
+}
+
+template <class Real>
+bool LiveSimulation<Real>::frame() {
+    if (instability_) return false;
+    run_->laws.drive_by(gait());
+    instability_ = run_->solver.frame(state_, next_drive());
+    updated_ = true;
+    if (!instability_)
+        instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
+    if (!instability_ && (frames_ + 1) % frames_between_densities == 0)
+        instability_ = run_->laws.look_at_compression(
+            conservation_errors(model(), state_, run_->solver.densities()).density_error_mean, state_.time);
+    if (instability_) return false;
+    applied_ = steering_;
+    ++frames_;
+    state_.time = base_time_ + (frames_ - base_frame_) * scene().time_step;  // free of summed rounding
+    if (run_->follower) follow(*run_->follower);
+    return true;
+}
+
+/// As SwimRecord does it.
+template <class Real>
+void LiveSimulation<Real>::follow(TankFollower& follower) {
+    follower.drift(scene().time_step);
+    const Eigen::Vector3d before = state_.origin;
+    const Vector3<Real> first = state_.position.front();
+    follower.follow(mean_place(body_places_in_tank(model().body, state_)), state_);
+    run_->solver.shift_water((first - state_.position.front()).template cast<double>());
+    if (state_.origin != before) run_->laws.begin_anew();
+}
+
+template <class Real>
+const Scene& LiveSimulation<Real>::scene() const {
+    return run_->scene;
+}
+
+template <class Real>
+const Model& LiveSimulation<Real>::model() const {
+    return run_->model;
+}
+
+template <class Real>
+double LiveSimulation<Real>::distance() const {
+    return mean_x(model().body, state_) + state_.origin.x() - start_x_;
+}
+
+template <class Real>
+std::vector<Real> LiveSimulation<Real>::densities() {
+    return updated_ ? run_->solver.densities() : densities_at_rest(model(), state_);
+}
+
+template <class Real>
+std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
+    Scene scene = load_scene(setup.scene, {setup.overrides, setup.data});
+    const Perturbation shift = setup.start ? choose_start(*setup.start, scene) : Perturbation{};
+    return std::make_unique<Run>(std::move(scene), shift, setup, execution_);
+}
+
+template <class Real>
+void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
+    Run& next = run ? *run : *run_;
+    std::optional<Instability> instability;
+    State<Real> state = next.begin(execution_.starts, instability);
+    next.laws = LawWatch(next.model);
+    if (!instability) instability = next.laws.start(measure_laws(next.model, state));
+    if (run) run_ = std::move(run);
+    state_ = std::move(state);
+    if (next.follower) next.follower->stand_at(state_.origin);
+    instability_ = std::move(instability);
+    updated_ = false;
+    frames_ = base_frame_ = 0;
+    base_time_ = 0;
+    start_x_ = mean_x(model().body, state_);
+    earlier_work_ = 0;
+    run_->solver.clear_muscle_work();  // not subtracted: each start gives the same bits
+    steering_ = applied_ = no_steering(model().actuators);
+}
+
+template class LiveSimulation<float>;
+template class LiveSimulation<double>;
+
+}  // namespace natator

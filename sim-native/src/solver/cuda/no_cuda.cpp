@@ -1,0 +1,67 @@
+// What a build without CUDA answers.
+#include "natator/error.h"
+#include "natator/gpu_solver.h"
+#include "no_cuda.h"
+#include "solver/cuda/large/fetch_roof.h"
+
+namespace natator {
+
+void refuse_without_cuda() {
+    throw NoDevice("backend cuda: natator was built without CUDA; must be built with -DNATATOR_CUDA=ON");
+}
+
+namespace cuda {
+
+FetchRoof measure_fetch_roof(const Scene&, const std::vector<Gait>&, int, int) {
+    refuse_without_cuda();
+}
+double measure_copy_bandwidth(int) {
+    refuse_without_cuda();
+}
+
+}  // namespace cuda
+
+template <class Real>
+class GpuSolver<Real>::Implementation {};
+template <class Real>
+GpuSolver<Real>::GpuSolver(const Model&, const GpuSolverOptions&) {
+    refuse_without_cuda();
+}
+template <class Real>
+GpuSolver<Real>::~GpuSolver() = default;
+template <class Real>
+GpuSolver<Real>::GpuSolver(GpuSolver&&) noexcept = default;
+template <class Real>
+GpuSolver<Real>& GpuSolver<Real>::operator=(GpuSolver&&) noexcept = default;
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::update(State<Real>&, double, int, StepObserver<Real>*) {
+    refuse_without_cuda();
+}
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
+    refuse_without_cuda();
+}
+template <class Real>
+double GpuSolver<Real>::muscle_work() const {
+    refuse_without_cuda();
+}
+template <class Real>
+std::vector<Real> GpuSolver<Real>::densities() const {
+    refuse_without_cuda();
+}
+template <class Real>
+std::vector<Real> GpuSolver<Real>::pressures() const {
+    refuse_without_cuda();
+}
+template <class Real>
+std::vector<Vector3<Real>> GpuSolver<Real>::forces() const {
+    refuse_without_cuda();
+}
+template <class Real>
+std::vector<int> GpuSolver<Real>::neighbour_counts() const {
+    refuse_without_cuda();
+}
+template class GpuSolver<float>;
+template class GpuSolver<double>;
+
+}  // namespace natator

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "natator/gait.h"
+#include "natator/model.h"
+#include "natator/solver.h"
+#include "natator/state.h"
+
+namespace natator::cuda {
+
+/// Why scenes of this Model cannot be computed; none if they can.
+std::optional<std::string> refusal(const Model& model);
+
+/// Names the stage that made a State unstable: the CPU does the substep again, from the State before it. `found` says
+/// what the GPU saw: it stands if the CPU finds nothing.
+template <class Real>
+Instability located(const Model& model, State<Real> before, const Gait* gait, double time_step, int substeps,
+                    double frame_time, const Instability& found);
+
+}  // namespace natator::cuda

@@ -1,0 +1,289 @@
+#include "water.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "model/borders.h"
+#include "model/carried_weight.h"
+#include "model/water_volumes.h"
+#include "physics/constants.h"
+#include "physics/dfsph.h"
+#include "solver/cpu/workspace.h"
+
+namespace natator::cpu {
+
+template <class Real>
+Water<Real>::Water(const Model& model)
+    : model_(model),
+      kernels_(&water_kernels<Real>(instruction_set())),
+      neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
+      radius_(static_cast<Real>(support(model))),
+      spacing_(static_cast<Real>(model.parameters.fluidRestDistance)),
+      kernel_scale_(static_cast<Real>(wendland(0, support(model)))),
+      at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluidRestDistance, support(model)))),
+      images_(model),
+      seams_(seams_of<Real>(model)),
+      particles_(model.particles()),
+      image_begin_(round_up_to_block(model.particles())) {
+    effect_radius_ = static_cast<Real>(effect_radius(model));
+    fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
+    weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
+    carried_ = carried_weight<Real>(model);
+    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
+    const std::vector<double> volumes = particle_volumes(model);
+    const double density = fluid_density(model, volumes);
+    fluid_density_ = static_cast<Real>(density);
+    dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * density);
+    for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
+    for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
+    for (int i = 0; i < particles_; ++i)
+        mobility_of_.push_back(static_cast<Real>(physics::mobility(model.inverse_mass[i], volumes[i], density)));
+    slot_of_.resize(particles_);
+    cell_of_.resize(particles_);
+    particle_of_.assign(image_begin_, -1);
+    row_begin_.assign(image_begin_ / lanes + 1, 0);
+    neighbour_count_.assign(image_begin_, 0);
+    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_, &relief_}) array->resize(image_begin_);
+    for (auto& array : correction_) array.resize(image_begin_);
+    crowding_.resize(image_begin_);
+    zeroth_.resize(image_begin_);
+}
+
+template <class Real>
+Vec3<Real> Water<Real>::shift(int particle) const {
+    const int slot = slot_of_[particle];
+    const Vec3<Real> parting = parting_.empty() ? Vec3<Real>{} : parting_[slot];
+    if (!model_.is_fluid(particle)) return parting;
+    return parting +
+           physics::shift_of(density_[slot], crowding_.at(slot), fastest_square_[slot], radius_, spacing_, h_);
+}
+
+/// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
+/// would bend them.
+template <class Real>
+bool Water<Real>::part_overlaps(ThreadTeam& team) {
+    parting_.clear();
+    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
+    std::atomic<bool> any = false;
+    team.for_parts(particles_, shortest_run, [&, h = h_](int, int begin, int end) {
+        const Real *const volume = volume_.data(), *const density = density_.data();
+        Real* const target = target_.data();
+        Real densest = 0;
+        for (int slot = begin; slot < end; ++slot) {
+            densest = std::max(densest, density[slot]);
+            target[slot] = physics::parting_target(volume[slot], density[slot], limit, h);
+        }
+        if (densest - 1 > Real(physics::overlap_tolerance)) any = true;
+    });
+    if (!any) return false;
+    kept_velocity_ = velocity_;
+    for_each_slot(team, [this](int slot) {
+        velocity_.set(slot, {});
+        if (!model_.is_fluid(particle_of_[slot])) inverse_mass_[slot] = 0;
+    });
+    on_all_threads(team, kernels_->pack);
+    give_images_velocities(team);
+    for (int pass = 0; pass < physics::parting_passes; ++pass) {
+        compute_impulses(team);
+        apply_impulses(team);
+        give_images_velocities(team);
+    }
+    parting_.resize(particles_);
+    for_each_slot(team, [this](int slot) {
+        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::longest_parting) * spacing_);
+        velocity_.set(slot, kept_velocity_.at(slot));
+        inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
+    });
+    on_all_threads(team, kernels_->pack);
+    give_images_velocities(team);
+    return true;
+}
+
+template <class Real>
+void Water<Real>::give_images_corrections(ThreadTeam& team) {
+    for_each_image(team, [this](int k) {
+        const int owner = image_owner_[k];
+        const auto part = [&](int c) { return correction_[c][owner]; };
+        Eigen::Matrix<Real, 3, 3> l;
+        l << part(0), part(3), part(4), part(3), part(1), part(5), part(4), part(5), part(2);
+        const auto& h = images_.matrix(image_turn_[k]);
+        l = (h * l * h.transpose()).eval();
+        const std::size_t slot = 4 * static_cast<std::size_t>(image_begin_ + k);
+        const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), solid_[owner], 0};
+        std::copy_n(packed, 4, packed_correction_.begin() + static_cast<std::ptrdiff_t>(slot));
+        std::copy_n(packed + 4, 4, packed_shear_.begin() + static_cast<std::ptrdiff_t>(slot));
+    });
+    for (auto* array : {&packed_correction_, &packed_shear_})
+        std::fill_n(array->begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
+}
+
+template <class Real>
+void Water<Real>::give_images(AlignedVector<Real>& packed, ThreadTeam& team) {
+    using Vector = Eigen::Matrix<Real, 3, 1>;
+    for_each_image(team, [&](int k) {
+        const Vector v = images_.matrix(image_turn_[k]) *
+                         Eigen::Map<const Vector>(&packed[4 * static_cast<std::size_t>(image_owner_[k])]);
+        std::copy_n(v.data(), 3, packed.begin() + 4 * static_cast<std::ptrdiff_t>(image_begin_ + k));
+    });
+}
+
+template <class Real>
+void Water<Real>::give_images_velocities(ThreadTeam& team) {
+    give_images(packed_velocity_, team);
+}
+
+template <class Real>
+WaterView<Real> Water<Real>::view() {
+    const auto pointers = [](Vector3Array<Real>& array) { return array.pointers(); };
+    const auto position = pointers(position_), velocity = pointers(velocity_), crowding = pointers(crowding_),
+               gradient = pointers(gradient_), zeroth = pointers(zeroth_);
+    WaterView<Real> all{.first_block = 0,
+                        .end_block = image_begin_ / lanes,
+                        .row_begin = row_begin_.data(),
+                        .neighbour = neighbour_.data(),
+                        .far_slot = far_slot_,
+                        .inverse_radius = 1 / radius_,
+                        .kernel_scale = kernel_scale_,
+                        .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
+                        .at_spacing = at_spacing_,
+                        .softening = Real(0.01) * spacing_ * spacing_,
+                        .position = {position[0], position[1], position[2]},
+                        .volume = volume_.data(),
+                        .inverse_mass = inverse_mass_.data(),
+                        .mobility = mobility_.data(),
+                        .solid = solid_.data(),
+                        .velocity = {velocity[0], velocity[1], velocity[2]},
+                        .density = density_.data(),
+                        .correction = {},
+                        .crowding = {crowding[0], crowding[1], crowding[2]},
+                        .fastest_square = fastest_square_.data(),
+                        .response = response_.data(),
+                        .target = target_.data(),
+                        .impulse = impulse_.data(),
+                        .impulse_sum = impulse_sum_.data(),
+                        .zeroth = {zeroth[0], zeroth[1], zeroth[2]},
+                        .relief = relief_.data(),
+                        .packed = packed_.data(),
+                        .packed_velocity = packed_velocity_.data(),
+                        .packed_correction = packed_correction_.data(),
+                        .packed_shear = packed_shear_.data(),
+                        .packed_relief = packed_relief_.data(),
+                        .distance = distance_.data(),
+                        .gradient = {gradient[0], gradient[1], gradient[2]}};
+    for (int k = 0; k < 6; ++k) all.correction[k] = correction_[k].data();
+    return all;
+}
+
+template <class Real>
+void Water<Real>::compute_impulses(ThreadTeam& team) {
+    on_all_threads(team, kernels_->compute_impulse);
+}
+
+template <class Real>
+void Water<Real>::apply_impulses(ThreadTeam& team) {
+    for_each_image(team, [this](int k) { impulse_[image_begin_ + k] = impulse_[image_owner_[k]]; });
+    on_all_threads(team, kernels_->apply_impulse);
+}
+
+template <class Real>
+void Water<Real>::apply_relieved_impulses(ThreadTeam& team) {
+    apply_impulses(team);
+    const Real strength = physics::kept_strength(h_, fluid_density_);
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
+    give_images_velocities(team);
+}
+
+template <class Real>
+void Water<Real>::push_apart(ThreadTeam& team) {
+    compute_impulses(team);
+    apply_relieved_impulses(team);
+}
+
+template <class Real>
+void Water<Real>::return_relief(ThreadTeam& team) {
+    on_all_threads(team, kernels_->lay_out_relief);
+    give_images(packed_relief_, team);
+    std::fill_n(packed_relief_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
+    on_all_threads(team, kernels_->return_relief);
+}
+
+template <class Real>
+void Water<Real>::compute_gradients(ThreadTeam& team) {
+    on_all_threads(team, kernels_->compute_moments);
+    give_images_corrections(team);
+    on_all_threads(team, kernels_->compute_gradients);
+}
+
+template <class Real>
+void Water<Real>::solve_divergence(ThreadTeam& team) {
+    const bool parted = part_overlaps(team);
+    std::fill(relief_.begin(), relief_.end(), Real(0));
+    std::fill(target_.begin(), target_.end(), Real(0));
+    if (parted) {
+        std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
+        compute_impulses(team);
+    }  // else compute_gradients has computed them
+    apply_relieved_impulses(team);
+    for (int pass = 1; pass < physics::divergence_passes; ++pass) push_apart(team);
+}
+
+template <class Real>
+void Water<Real>::add_viscosity(ThreadTeam& team) {
+    if (!(dynamic_viscosity_ > 0)) return;
+    const Real strength = 10 * h_ * dynamic_viscosity_;
+    const Real most = physics::viscous_limit(spacing_, strength);
+    add_viscous_forces(strength, most);
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
+}
+
+template <class Real>
+void Water<Real>::add_gravity(ThreadTeam& team) {
+    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
+    const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
+    const auto acceleration = [&](int slot) {
+        const bool fluid = model_.is_fluid(particle_of_[slot]);
+        const Vec3<Real> all = fluid ? fluid_gravity_ : gravity;
+        if (!carried_.any()) return all;
+        return all - carried_.acceleration(position_.at(slot), fluid, fluid_density_, volume_[slot], inverse_mass_[slot]);
+    };
+    for_each_slot(team, [&](int slot) {
+        if (inverse_mass_[slot] > 0) velocity_.add(slot, h_ * acceleration(slot));
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
+    });
+    on_all_threads(team, kernels_->pack);
+    give_images_velocities(team);
+}
+
+template <class Real>
+void Water<Real>::hold_at_walls(ThreadTeam& team) {
+    if (image_owner_.empty() || !(norm(weight_on_walls_) > 0)) return;
+    std::fill_n(impulse_.begin(), image_begin_, Real(0));
+    const auto weight = [this](int owner) {
+        if (!carried_.any()) return weight_on_walls_;
+        return weight_on_walls_ - carried_.part(position_.at(owner)) * carried_.gravity;
+    };
+    for_each_image(team, [&](int k) {
+        const int slot = image_begin_ + k, owner = image_owner_[k];
+        impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_, weight(owner),
+                                                                         position_.at(slot) - position_.at(owner),
+                                                                         impulse_sum_[owner])
+                                              : Real(0);
+    });
+    const auto at_wall = [this](int block) {
+        for (int slot = block * lanes; slot < std::min((block + 1) * lanes, particles_); ++slot)
+            if (images_.reaches_walls(eigen(position_.at(slot)), radius_)) return true;
+        return false;
+    };
+    on_all_threads(team, [&](WaterView<Real> part) {
+        for (const int end = part.end_block; part.first_block < end; ++part.first_block) {
+            part.end_block = part.first_block + 1;
+            if (at_wall(part.first_block)) kernels_->apply_impulse(part);
+        }
+    });
+}
+
+template class Water<float>;
+template class Water<double>;
+
+}  // namespace natator::cpu

@@ -1,0 +1,153 @@
+"""Pictures of a swim: what is where the projection says, and what is refused."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from natator import picture
+from PIL import Image
+
+TANK = "bench/small-tank"
+GAIT = {"frequency": 2, "amplitude": [1, 1], "phase": [0, 0.75]}
+#: of the tank's sphere of directions: one unit along x, y and z, in units to the right, up and to the viewer
+SEEN = {"side": [(1, 0, 0), (0, 1, 0), (0, 0, 1)], "top": [(1, 0, 0), (0, 0, 1), (0, -1, 0)], "front": [(0, 0, 1), (0, 1, 0), (-1, 0, 0)]}
+
+
+class PictureTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def drawn(self, scene=TANK, **options):
+        """Pixels, and where its projection puts a place."""
+        def keep(plotter):
+            camera = plotter.camera
+            seen.update(focus=np.array(camera.focal_point), scale=options["size"][1] / 2 / camera.parallel_scale)
+
+        seen, screenshot = {}, picture.package("pyvista", "pyvista", "").Plotter.screenshot
+        with mock.patch("pyvista.Plotter.screenshot", lambda self, **given: keep(self) or screenshot(self, **given)):
+            picture.picture(scene, self.folder / "one.png", **options)
+        pixels = np.array(Image.open(self.folder / "one.png").convert("RGB"), int)
+        self.assertEqual(pixels.shape[1::-1], options["size"])
+
+        def at(place):
+            right, up, _ = picture._axes(*picture.VIEWS[options.get("view", "side")]) @ (np.array(place) - seen["focus"])
+            return pixels[round(options["size"][1] / 2 - seen["scale"] * up), round(options["size"][0] / 2 + seen["scale"] * right)]
+
+        return pixels, at, seen["scale"]
+
+    def test_a_unit_is_where_it_is_seen(self):
+        for view, units in SEEN.items():
+            np.testing.assert_allclose(picture._axes(*picture.VIEWS[view]).T, units, atol=1e-12)
+        for view in picture.VIEWS.values():
+            axes = picture._axes(*view)
+            np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+        self.assertTrue((picture._axes(*picture.VIEWS["three-quarter"])[2] > 0.3).all())  # shows right, top and head
+
+    def test_a_scale_is_a_round_length(self):
+        for wanted, length in ((0.3, 0.2), (0.4, 0.5), (1, 1), (8, 10), (0.033, 0.05), (14, 10)):
+            self.assertAlmostEqual(picture._round(wanted), length)
+
+    def test_a_body_in_vacuum_is_on_white(self):
+        for view in picture.VIEWS:
+            with self.subTest(view):
+                pixels, _, _ = self.drawn("thesis/creature-1-vacuum", view=view, size=(320, 240))
+                self.assertEqual(pixels[2, 2].tolist(), [255, 255, 255])
+                warm = pixels[..., 0] > pixels[..., 2] + 60
+                self.assertGreater(warm.mean(), 0.02)
+
+    def test_water_veils_what_is_behind_it_and_ends_at_the_walls(self):
+        _, wet, _ = self.drawn(size=(500, 300))
+        _, dry, _ = self.drawn(size=(500, 300), water=False)
+        from natator import Stream
+        with Stream(TANK, fields=("position",)) as stream:
+            body = stream.frame.position[stream.scene["body"]].mean(0)
+            walls = picture._framing(SimpleNamespace(scene=stream.scene, all_water=np.arange(sum(stream.scene["fluid"])), solids=np.array(
+                stream.scene["body"])), stream.frame.position)[0]
+        corner = [walls[0, 0] + 0.1, walls[0, 1] + 0.1, body[2]]
+        self.assertGreater(wet(corner)[2], wet(corner)[0] + 40)
+        self.assertEqual(dry(corner).tolist(), [255, 255, 255])
+        self.assertEqual(wet([corner[0], walls[0, 1] - 0.03, body[2]]).tolist(), [255, 255, 255])
+        self.assertGreater(dry(body)[0], dry(body)[2] + 60)
+        self.assertLess(wet(body)[0] - wet(body)[2], dry(body)[0] - dry(body)[2])
+
+    def test_a_periodic_tank_has_no_edges_at_its_ends(self):
+        tank = np.array([[0, 0, 0], [2, 1, 1.0]])
+        self.assertEqual(len(list(picture._edges(tank, {}))), 12)
+        edges = [np.ptp(ends, axis=0) for ends in picture._edges(tank, {"z": [0, 1]})]
+        self.assertEqual([edge.tolist() for edge in edges], 4 * [[0, 0, 1]])
+
+    def test_a_short_tank_is_shown_whole_and_a_long_one_in_part(self):
+        position = np.array([(0, 0, 0), (4, 1, 1), (1.9, 0.5, 0.5), (2.1, 0.5, 0.5)], "f4")
+        swim = SimpleNamespace(scene={"planes": [[1, 0, 0, 0], [-1, 0, 0, 4], [0, 1, 0, 0]], "body": [2, 3], "bodyLength": 0.2},
+                               all_water=np.array([0, 1]), solids=np.array([2, 3]))
+        tank, shown = picture._framing(swim, position)
+        np.testing.assert_allclose(tank, [[0, 0, 0], [4, 1, 1]])
+        np.testing.assert_allclose(shown, [[1.78, 0, 0], [2.22, 1, 1]], rtol=1e-6)
+        swim.scene["bodyLength"] = 2.4
+        np.testing.assert_allclose(picture._framing(swim, position)[1], tank)
+        swim.scene["planes"] = []
+        np.testing.assert_allclose(picture._framing(swim, position)[1], [[-0.48] * 3, [4.48, 1.48, 1.48]], rtol=1e-6)
+
+    def test_a_scale_is_as_long_as_it_says(self):
+        pixels, _, scale = self.drawn(size=(800, 400))
+        dark = np.pad((pixels[360:, :300] < 100).all(2), ((0, 0), (1, 1))).astype(int)
+        runs = [np.flatnonzero(row == -1) - np.flatnonzero(row == 1) for row in np.diff(dark, axis=1)]
+        self.assertAlmostEqual(max(run.max() for run in runs if len(run)) / scale / picture._round(0.14 * 800 / scale), 1, delta=0.03)
+
+    def command(self, *arguments, env={}):
+        return subprocess.run([sys.executable, "-m", "natator", "picture", *map(str, arguments)], capture_output=True, text=True,
+                              cwd=self.folder, env={**os.environ, **env})
+
+    def test_a_swim_is_drawn_at_its_time(self):
+        (self.folder / "gait.json").write_text(json.dumps(GAIT))
+        for name, at in (("0.png", 0), ("1.png", 0.2)):
+            done = self.command(TANK, "--gait", "gait.json", "--at", at, "--size", "320x200", "-o", name)
+            self.assertEqual((done.returncode, done.stdout), (0, f"{name}: 320 x 200 pixels, at {at:.2f} s\n"), done.stderr)
+        start, later = (np.array(Image.open(self.folder / name), int) for name in ("0.png", "1.png"))
+        self.assertEqual(start.shape, (200, 320, 3))
+        self.assertGreater((start != later).any(2).sum(), 100)
+
+    def test_a_body_at_rest_is_drawn_at_the_start_as_high_as_it_takes(self):
+        done = self.command("thesis/creature-1-vacuum", "--from", "three-quarter")
+        with Image.open(self.folder / "creature-1-vacuum.png") as image:
+            width, height = image.size
+        self.assertEqual((done.stdout, width), (f"creature-1-vacuum.png: 1600 x {height} pixels, at 0.00 s\n", 1600))
+
+    def test_bad_usage_is_one_line(self):
+        for arguments, message in (
+                ("no/such", 'unknown scene "no/such"'),
+                ("none.json", "none.json is neither a run folder nor a scene: there is no such file"),
+                (f"{TANK} --size 10x10", "--size is 10x10; expected pixels as 1200x800, each from 64 to 4096"),
+                (f"{TANK} --size 5000x800", "--size is 5000x800; expected pixels"),
+                (f"{TANK} --size big", "--size is big; expected pixels"),
+                (f"{TANK} --at 1.5", "--at is 1.5; expected a time of the swim, 0 to 1"),
+                (f"{TANK} --at -1", "--at is -1.0; expected a time of the swim"),
+                (f"{TANK} --at nan", "--at is nan; expected a time of the swim"),
+                (f"{TANK} --from behind", "argument --from: invalid choice: 'behind'"),
+                (f"{TANK} -o x.jpg", "--output is x.jpg; expected a name that ends in .png"),
+                (f"{TANK} -o no/x.png", "no/x.png cannot be written: there is no folder no")):
+            with self.subTest(arguments):
+                done = self.command(*arguments.split())
+                self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_missing_package_is_named(self):
+        (self.folder / "pyvista.py").write_text("raise ImportError\n")
+        path = os.pathsep.join([str(self.folder), os.environ.get("PYTHONPATH", "")])
+        done = self.command(TANK, env={"PYTHONPATH": path})
+        self.assertEqual((done.returncode, done.stderr), (2, "python -m natator: a picture: the Python package pyvista is missing: "
+                                                          "pip install pyvista\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,2 @@
+#pragma once
+#include "model/tank/two.h"

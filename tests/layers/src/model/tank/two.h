@@ -1,0 +1,3 @@
+#pragma once
+#include "../mesh/one.h"
+#include "../plain.h"
