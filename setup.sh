@@ -8,7 +8,8 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
-  --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, pygltflib,
+  --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
+            try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium and pycma, from PyPI into .readers (1 GB); the validator of glTF, where npm
             is; libegl1 and libgl1, which draw; and valgrind, which runs the program as on a processor without AVX-512
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)

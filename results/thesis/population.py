@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Are 60 chromosomes enough? What 150, as the thesis has, find in open water beside what 60 do.
 
-    natator reproduce --creature 2 --water open-water --population 150 --seeds 2 --generations 100 --phase evolve --compact \\
-        --backend cuda --output-dir results/thesis/population
-    natator reproduce --creature 1,3,4 --water open-water --population 150 --seeds 1 --generations 100 --phase evolve --compact \\
-        --backend cuda --output-dir results/thesis/population
+    evolve() { python3 -c "import plan; print(*map(repr, plan.Evolution($1, 'open-water', 1, plan.Size(seeds=$2, population=150)).arguments()))" |
+        xargs natator evolve --backend cuda --output-dir "population/runs/creature-$1/open-water"; }
+    cd results/thesis; evolve 1 1; evolve 2 2; evolve 3 1; evolve 4 1; cd -
     python3 results/thesis/population.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
     python3 results/thesis/population.py results.jsonl      # the table for commentary.md

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Recomputes numbers of results/thesis/README.md from its raw files: python3 results/thesis/recompute.py [--entries N] [--seed S]
+"""Recomputes the speeds of results/thesis/tables from the raw files: python3 results/thesis/recompute.py [--entries N] [--seed S]
 
-Draws N entries (50; 0 for all) by chance from the tables of speeds, works each out anew from measurements.jsonl,
-convergence.jsonl, motions.jsonl and finalists.json, with nothing of Natator's own code, and compares what is printed. Exit status 1 if any differs.
+Draws N entries (50; 0 for all) by chance from tables/speeds-*.csv, works each out anew from measurements.jsonl,
+convergence.jsonl, motions.jsonl and finalists.json, with nothing of what made the tables, and compares what they have. Exit status 1 if any differs.
 """
 import argparse
 import collections
+import csv
 import json
 import math
 import pathlib
@@ -15,7 +16,6 @@ import statistics
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
 SECONDS = 4.0
 # Student's t at 97.5 %, by degrees of freedom.
 STUDENT = {1: 12.7062, 2: 4.30265, 3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}
@@ -48,7 +48,7 @@ class Study:
         self.length = {}
         for row in lines("motions.jsonl"):
             self.length.setdefault(row["request"]["scene"].split("/")[1], row["bodyLength"])
-        data = json.loads((ROOT / "ga-java/study/src/main/resources/io/natator/study/thesis/thesis.json").read_text(encoding="utf-8"))
+        data = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
         self.published = data["gaits"]
 
     @staticmethod
@@ -66,7 +66,7 @@ class Study:
         return [result for start, result in sorted(self.rows[key].items(), key=lambda one: one[0]) if first <= start <= last]
 
     def subjects(self, water):
-        """(creature, label, gait, whether a plane ends its runs) in the order of the page."""
+        """(creature, label, gait, whether a plane ends its runs) in the order of the tables."""
         for gait in self.published:
             label = "thesis' gait" + ("" if gait["about"].startswith("as published") else ", " + gait["about"])
             yield gait["creature"], label, gait["gait"], False
@@ -126,13 +126,11 @@ def speeds(study):
             yield where + (6,), shown(mean / length / gait["frequency"])
 
 
-def page_speeds(page):
-    """The same as printed."""
-    for water, heading in (("flex", "### The thesis' tank, flex"), ("open-water", "### Open water, conserving")):
-        section = page.split(heading)[1].split("<details>")[0]
-        for line in section.splitlines():
-            fields = [field.strip() for field in line.strip("|").split("|")]
-            if re.fullmatch(r"[1-4]", fields[0]):
+def table_speeds():
+    """The same as the tables have them."""
+    for water in STOPPING:
+        with open(HERE / "tables" / f"speeds-{water}.csv", encoding="utf-8", newline="") as lines:
+            for fields in list(csv.reader(lines))[1:]:
                 for column in range(2, 7):
                     yield (water, fields[0], fields[1], column), fields[column]
 
@@ -156,13 +154,13 @@ def main():
     options.add_argument("--entries", type=count, default=50)
     options.add_argument("--seed", type=int, default=None)
     asked = options.parse_args()
-    printed = dict(page_speeds((HERE / "README.md").read_text(encoding="utf-8")))
+    printed = dict(table_speeds())
     computed = dict(speeds(Study()))
-    wrong = [f"{where}: computed, but not on the page" for where in computed.keys() - printed.keys()]
-    wrong += [f"{where}: on the page, but not in the data" for where in printed.keys() - computed.keys()]
+    wrong = [f"{where}: computed, but not in the tables" for where in computed.keys() - printed.keys()]
+    wrong += [f"{where}: in the tables, but not in the data" for where in printed.keys() - computed.keys()]
     both = sorted(computed.keys() & printed.keys())
     drawn = both if asked.entries == 0 else random.Random(asked.seed).sample(both, min(asked.entries, len(both)))
-    wrong += [f"{where}: the page has {printed[where]}, the data give {computed[where]}" for where in drawn if printed[where] != computed[where]]
+    wrong += [f"{where}: the table has {printed[where]}, the data give {computed[where]}" for where in drawn if printed[where] != computed[where]]
     for line in wrong:
         print(line, file=sys.stderr)
     print(f"{len(drawn)} of {len(both)} entries recomputed, {len(wrong)} differ")

@@ -1,11 +1,11 @@
-"""`python -m natator`: swims for other programs, and pictures of them."""
+"""`python -m natator`: swims for other programs, pictures of them, and reports of evolutions."""
 
 import argparse
 import re
 import signal
 import sys
 
-from natator import export, picture
+from natator import export, picture, report
 from natator.errors import InputError
 from natator.script import run
 from natator.source import source
@@ -46,7 +46,16 @@ def parser():
             command.add_argument("--from", dest="view", default="side", choices=picture.VIEWS, help="default: %(default)s")
             command.add_argument("--size", metavar="WxH", help="pixels; default: 1600 wide, as high as what is shown")
             command.add_argument("-o", "--output", metavar="FILE", help="default: the scene's name and .png")
+    about = "Runs a run's best gait once more, draws how it swims and says what fish it is like: a page report.html and its pictures."
+    command = commands.add_parser("report", help=about, description=about)
+    command.set_defaults(work=reported, command=command)
+    command.add_argument("run", metavar="RUN", help="a run folder of natator evolve")
+    command.add_argument("--output-dir", metavar="DIR", help="default: RUN/report")
     return all_commands
+
+
+def reported(given):
+    print(report.write(given.run, given.output_dir))
 
 
 def exported(given):

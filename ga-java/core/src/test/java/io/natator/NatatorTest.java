@@ -26,7 +26,7 @@ class NatatorTest {
     private Path folder;
 
     @ParameterizedTest
-    @ValueSource(strings = {"io.javalin.Javalin", "org.knowm.xchart.XYChart", "org.commonmark.parser.Parser",
+    @ValueSource(strings = {"io.javalin.Javalin",
         "picocli.CommandLine", "me.tongfei.progressbar.ProgressBar", "io.natator.cli.Main", "io.natator.view.ViewServer"})
     void whoEmbedsItGetsNoServerNoChartsAndNoCommandLine(String name) {
         assertThatThrownBy(() -> Class.forName(name)).isInstanceOf(ClassNotFoundException.class);

@@ -8,7 +8,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
-import io.natator.report.WaterCheck;
+import io.natator.flow.WaterCheck;
 import io.natator.run.ControlRuns;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.RequestRejectedException;

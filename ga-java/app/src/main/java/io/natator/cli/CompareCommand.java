@@ -2,14 +2,15 @@ package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
+import io.natator.compare.RunComparison;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.file.AtomicFile;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
-import io.natator.study.optimizer.RunComparison;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
@@ -50,6 +51,16 @@ final class CompareCommand implements Callable<Integer> {
             + "0: nothing is run. Default: ${DEFAULT-VALUE}.")
     private int starts;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--json", paramLabel = "FILE", description = "Also write a line of JSON for each run: settings, course, winner, and "
+            + "what its best gaits at a tenth, a quarter, half and all of the budgets were worth from the fresh starts.")
+    private Path json;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--rank-starts", paramLabel = "N", description = "For --json: run all gaits of each last generation from so many "
+            + "fresh starts, from 1, too.")
+    private Integer rankStarts;
+
     @Parameters(paramLabel = "RUN", arity = "2..*", description = "Run folders, at least two.")
     private List<Path> folders;
 
@@ -57,6 +68,12 @@ final class CompareCommand implements Callable<Integer> {
     public Integer call() throws InterruptedException {
         if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
+        }
+        if (rankStarts != null) {
+            Limits.checkCount("--rank-starts", rankStarts, Limits.STARTS);
+        }
+        if (json == null ? rankStarts != null : starts == 0) {
+            throw new InvalidInputException(json == null ? "--rank-starts goes with --json; give both" : "--json goes without --starts 0; leave one of them out");
         }
         List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
         EachOnce.checkFolders("RUN", folders);
@@ -85,12 +102,15 @@ final class CompareCommand implements Callable<Integer> {
                 : Backend.CPU;
         ExecutionSettings execution =
                 EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
-        RunComparison comparison = new RunComparison(folders, starts);
+        RunComparison comparison = new RunComparison(folders, starts, json != null);
         PrintWriter err = spec.commandLine().getErr();
         err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");
         err.flush();
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
             comparison.run(evaluator, execution.simulator());
+            if (json != null) {
+                AtomicFile.write(json, String.join("\n", comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n");
+            }
         }
         comparison.lines().forEach(out::println);
     }

@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
@@ -10,6 +11,9 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.config.Preset;
 import io.natator.file.OutputFolder;
+import io.natator.run.EvolutionRun;
+import io.natator.run.PlannedRun;
+import io.natator.run.RunQueue;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SceneInfo;
@@ -19,6 +23,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.Callable;
+import java.util.stream.LongStream;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -37,6 +42,7 @@ import picocli.CommandLine.Spec;
             "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
             "  natator evolve --optimizer nsga2 --objectives distance,work",
             "  natator evolve --creature eel --evolve both",
+            "  natator evolve --creature 1 --seeds 10 --output-dir runs/ten",
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
@@ -79,8 +85,12 @@ final class EvolveCommand implements Callable<Integer> {
     private boolean dryRun;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued by --resume.")
-    private Double stopAfter;
+    @Option(names = "--seeds", paramLabel = "N", description = "Evolve with so many seeds, from --seed on, several at once, each in the folder "
+            + "DIR/seed-S. The same command continues.")
+    private Integer seeds;
+
+    @Mixin
+    private QueueOptions queueOptions;
 
     @Section(Topic.OTHER)
     @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
@@ -88,7 +98,7 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        checkStopAfter(stopAfter);
+        Double stopAfter = queueOptions.stopAfter();
         if (resume != null) {
             refuseSettings();
             ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, null, spec);
@@ -96,6 +106,9 @@ final class EvolveCommand implements Callable<Integer> {
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
+        if (seeds != null) {
+            return evolveAll(settings, execution);
+        }
         RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
             Path folder = outputDir != null ? outputDir : freeFolder(settings.scene());
@@ -103,12 +116,33 @@ final class EvolveCommand implements Callable<Integer> {
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
-        beginRun(RunFolder.create(directory, settings), preview, execution);
+        beginRun(RunFolder.create(directory, settings), preview, execution, stopAfter);
+        return ExitCode.OK;
+    }
+
+    /** With all seeds, as far as they are not finished; their generations share a batch. */
+    private int evolveAll(EvolutionSettings settings, ExecutionSettings execution) throws InterruptedException {
+        Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
+        if (outputDir == null || dryRun) {
+            throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out" : "--seeds goes with --output-dir; give both");
+        }
+        if (StoredRun.exists(outputDir)) {
+            throw new InvalidInputException("output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
+        }
+        List<PlannedRun> runs = LongStream.range(settings.seed(), settings.seed() + seeds)
+                .mapToObj(seed -> new PlannedRun(settings.withSeed(seed), outputDir.resolve("seed-" + seed))).toList();
+        runs.forEach(PlannedRun::check);
+        long finished = runs.stream().filter(PlannedRun::isFinished).count();
+        boolean all = queueOptions.carryOut(new RunQueue(runs, execution.simulator())::run, EvolutionRun.withTimeLimit(execution, settings),
+                runs.size(), (int) finished, seeds * ProgressEstimate.evaluations(settings), runs.stream().mapToLong(PlannedRun::recorded).sum(),
+                spec.commandLine().getErr());
+        spec.commandLine().getOut().println((all ? runs.size() : runs.stream().filter(PlannedRun::isFinished).count()) + " of " + runs.size()
+                + " runs finished in " + outputDir + (all ? "" : "; the same command continues"));
         return ExitCode.OK;
     }
 
     /** Evolves; what is refused with the first evaluation leaves no folder that would be in the way of the corrected command. */
-    private void beginRun(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
+    private void beginRun(RunFolder folder, RunPreview preview, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
         try (folder) {
             preview.printAnyway(folder.directory(), spec.commandLine().getOut());
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);

@@ -14,8 +14,7 @@ import picocli.CommandLine.Spec;
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
             CheckCommand.class, ConvergeCommand.class,
-            CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
-            ReportCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class, ReproduceCommand.class, PlotCommand.class, ClusterEfficiencyCommand.class},
+            CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

@@ -19,7 +19,7 @@ final class OwnDefaults {
             "--backend", Map.of("", "cpu", "evolve", "cpu; of a run that is resumed, its own", "resume", "the run's", "check", "the run's",
                     "converge", "the run's", "compare", "that of the runs, cpu if they have several"),
             "--duration", Map.of("", "", "evolve", "the preset's, else ", "page", RUN),
-            "--scheme", Map.of("", RUN, "evaluate", "", "evolve", "", "compare-optimizers", ""));
+            "--scheme", Map.of("", RUN, "evaluate", "", "evolve", ""));
 
     private OwnDefaults() {
     }

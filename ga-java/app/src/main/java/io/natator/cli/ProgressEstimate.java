@@ -147,4 +147,10 @@ final class ProgressEstimate {
         }
         return seconds >= 60 ? String.format("%dm%02ds", seconds / 60, seconds % 60) : seconds + "s";
     }
+
+    /** How many evaluations a run takes, as far as that is known before. */
+    static long evaluations(EvolutionSettings settings) {
+        return settings.evaluations() != null ? settings.evaluations() : Math.round(settings.starts() * settings.population()
+                * (1 + CHILDREN_PER_SELECTED * settings.generations())) + (long) settings.repeats() * (settings.generations() + 1);
+    }
 }

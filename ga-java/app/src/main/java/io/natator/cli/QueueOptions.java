@@ -11,7 +11,7 @@ import io.natator.simulator.Evaluator;
 import java.io.PrintWriter;
 import picocli.CommandLine.Option;
 
-/** Options of commands that carry out many runs, and how they carry them out. */
+/** Options of commands that may carry out many runs, and how they carry them out. */
 final class QueueOptions {
 
     private static final int AT_ONCE = 2;

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
@@ -46,12 +47,20 @@ final class ResumeCommand implements Callable<Integer> {
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--compact", description = "Drop the single evaluations of the finished run, some ten megabytes, which the same seed gives "
+            + "again; it can still go on to more generations.")
+    private boolean compact;
+
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
     @Override
     public Integer call() throws InterruptedException {
         resume(folder, executionOptions, cacheOptions, stopAfter, generations, spec);
+        if (compact && StoredRun.isFinished(folder) && !CompactRun.isCompact(folder)) {
+            CompactRun.compact(folder);
+        }
         return ExitCode.OK;
     }
 

@@ -5,7 +5,6 @@ import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.file.ShellWord;
-import io.natator.report.FitnessPlot;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import java.io.PrintWriter;
@@ -58,7 +57,6 @@ final class RunLauncher {
             }
             return;
         }
-        FitnessPlot.draw(folder, outcome.state().history());
         new RunReport(out).print(folder.settings(), outcome.state(), outcome.best(), folder.directory());
         out.println("  run folder  " + folder.directory());
         out.flush();

@@ -5,6 +5,7 @@ import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
+import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
@@ -44,6 +45,10 @@ final class ShowCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--json", description = "As a line of JSON for programs: what python -m natator report draws.")
+    private boolean json;
+
     @Option(names = "--generation", paramLabel = "N", description = "Only the best gait of the generations up to N, and its body, "
             + "as JSON: --gait of other commands takes it.")
     private Integer generation;
@@ -57,7 +62,12 @@ final class ShowCommand implements Callable<Integer> {
 
     private void print(PrintWriter out) {
         StoredRun run = StoredRun.in(folder);
+        RunDocument document = json ? new RunDocument(run) : null;
         OneLineErrors.warn(spec.commandLine(), run.damage());
+        if (document != null) {
+            out.println(document.json());
+            return;
+        }
         Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         Convergence convergence = run.best() == null ? null : Convergence.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
@@ -72,7 +82,7 @@ final class ShowCommand implements Callable<Integer> {
             }
             printFront(run, out);
             if (run.elites() != null) {
-                out.printf("map of gaits: the best of %s; natator view --run %s swims them, natator report draws them%n",
+                out.printf("map of gaits: the best of %s; natator view --run %s swims them, python -m natator report draws them%n",
                         Numbers.count(run.elites().moving().size(), "kind"), ShellWord.of(run.directory()));
             }
             printSavings(run, out);

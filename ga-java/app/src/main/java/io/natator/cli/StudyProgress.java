@@ -3,11 +3,9 @@ package io.natator.cli;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.Numbers;
 import io.natator.evolution.Individual;
-import io.natator.report.FitnessPlot;
 import io.natator.run.EvolutionRun;
 import io.natator.run.RunQueue;
 import java.io.PrintWriter;
-import java.nio.file.Path;
 import java.util.Locale;
 
 /** Tells how a study goes: a line for each finished run, and every few seconds one for the whole. */
@@ -62,14 +60,8 @@ abstract class StudyProgress implements RunQueue.Watcher {
     }
 
     @Override
-    public synchronized void foundFinished(Path run) {
-        FitnessPlot.drawIfMissing(run);
-    }
-
-    @Override
     public synchronized void finished(RunFolder run, EvolutionRun.Outcome outcome) {
         finished++;
-        FitnessPlot.draw(run, outcome.state().history());
         Individual best = outcome.state().best();
         out.printf("%s  best %s%n", run.directory(), Numbers.fixed(best == null ? 0 : best.result().score(), 4));
         out.flush();

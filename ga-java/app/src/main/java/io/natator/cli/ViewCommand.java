@@ -14,7 +14,6 @@ import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import io.natator.stream.StreamOptions;
 import io.natator.stream.StreamProcess;
-import io.natator.study.thesis.ThesisData;
 import io.natator.view.InitialScene;
 import io.natator.view.ViewServer;
 import io.natator.view.ViewSettings;
@@ -90,7 +89,7 @@ final class ViewCommand implements Callable<Integer> {
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
         Path shown = shownRun();
         ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),
-                ThesisData.load()::gaitIn, runs);
+                ThesisGaits::in, runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
         BackgroundCheck check = null;
@@ -141,7 +140,7 @@ final class ViewCommand implements Callable<Integer> {
         if (run != null) {
             return start(StoredRun.settings(run), given, StoredRun.best(run), program);
         }
-        Swimmer swimmer = given != null ? given : new Swimmer(ThesisData.load().gaitIn(scene), null);
+        Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
         ObjectNode overrides =
                 InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
         try {

@@ -31,20 +31,16 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
-        "compare-optimizers --output-dir NEVER --creatures 1,2,1|--creatures has 1 twice; expected each once",
-        "compare-optimizers --output-dir NEVER --scene pool/eel --creatures 1|--creatures goes without --scene; leave one of them out",
-        "compare-optimizers --output-dir NEVER --scene NEVER.json|expected a named scene or an existing file",
-        "compare-optimizers --output-dir NEVER --optimizers random,cma-es,RANDOM|--optimizers has random twice; expected each once",
-        "reproduce --output-dir NEVER --creature 2,x|--creature is x; expected a whole number",
-        "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",
-        "reproduce --output-dir NEVER --water flex,open-water,flex|--water has flex twice; expected each once",
         "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
         "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
-        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
-        "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
-        "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
-        "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})
+        "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+        "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
+        "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
+        "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+        "evolve --seeds 2|--seeds goes with --output-dir; give both",
+        "evolve --output-dir NEVER --seeds 2 --dry-run|--seeds goes without --dry-run; leave one of them out",
+        "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
     void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
         assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(1);
@@ -197,55 +193,29 @@ class BadUsageTest extends FakeSimulatorTest {
     }
 
     @Test
-    void studiesAndReportsOverwriteNobodysPage() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path mine = Files.writeString(Files.createDirectory(folder.resolve("mine")).resolve("README.md"), "my notes");
-        for (String[] command : new String[][] {{"report", folder.resolve("run").toString()}, {"compare-optimizers"}}) {
-            err.getBuffer().setLength(0);
-            List<String> arguments = new ArrayList<>(List.of(command));
-            arguments.addAll(List.of("--output-dir", folder.resolve("mine").toString()));
-            assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-            assertThat(err.toString()).contains("has a README.md that natator did not write").hasLineCount(1);
-        }
-        assertThat(mine).hasContent("my notes");
-        err.getBuffer().setLength(0);
-        assertThat(natator("compare-optimizers", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).contains("is the folder of a run").hasLineCount(1);
-    }
-
-    @Test
-    void aReportHasItsFolderBeforeItSimulates() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path file = Files.writeString(folder.resolve("file"), "");
-        err.getBuffer().setLength(0);
-
-        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", file.resolve("a").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator report: output folder " + file.resolve("a") + " cannot be made: "
-                + file + " is a file, not a folder\n");
-    }
-
-    @Test
-    void aReportNeedsACheckpoint() throws IOException {
+    void aDocumentOfARunNeedsACheckpoint() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.delete(folder.resolve("run/checkpoint.json"));
         err.getBuffer().setLength(0);
 
-        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
+        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
     /** What else is wrong with the run does not matter then. To finish what is finished would not help. */
     @ParameterizedTest
-    @ValueSource(strings = {"report", "check"})
+    @ValueSource(strings = {"show --json", "check"})
     void withoutABestGaitIsOneLine(String command) throws IOException {
         assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
         assertThat(out.toString()).contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
         forget();
 
-        assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
+        List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
+        arguments.add(folder.resolve("run").toString());
+        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
+        assertThat(err.toString()).isEqualTo("natator " + arguments.get(0) + ": " + folder.resolve("run")
                 + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
                 + "where they were unstable with more solver.substeps in --overrides\n");
     }
@@ -258,9 +228,9 @@ class BadUsageTest extends FakeSimulatorTest {
         }
         forget();
 
-        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
+        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
     }
 
     @ParameterizedTest
@@ -269,7 +239,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "evolve --seed=EMPTY|natator evolve: --seed is empty",
         "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
         "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
-        "show EMPTY|natator show: RUN is empty", "report EMPTY|natator report: RUN is empty",
+        "show EMPTY|natator show: RUN is empty",
         "compare a EMPTY|natator compare: RUN is empty",
         "resume EMPTY|natator resume: RUN is empty"})
     void anEmptyValueIsOneLine(String arguments, String message) {
@@ -328,13 +298,6 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(evolve("run", "--scene", "fault/exit", "--dry-run")).isEqualTo(1);
         assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck").hasLineCount(1);
         assertThat(out.toString()).isEmpty();
-    }
-
-    @Test
-    void timesOfEvaluationsThatFailAreNotTaken() {
-        assertThat(natator("cluster-efficiency", "--scene", "fault/exit", "--output-dir", folder.resolve("times").toString())).isEqualTo(1);
-        assertThat(err.toString()).startsWith("natator cluster-efficiency: an evaluation failed: ").contains("out of luck").hasLineCount(1);
-        assertThat(folder.resolve("times")).isEmptyDirectory();
     }
 
     /** Whatever is asked of it: that a program does not work is no fault of the scene. */

@@ -4,7 +4,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.io.Writer;
 import java.nio.file.Path;
 import picocli.CommandLine;
 
@@ -14,12 +13,13 @@ public final class Commands {
     private Commands() {
     }
 
-    /** Carries out a command, which must succeed. */
-    public static void natator(String... arguments) {
+    /** What a command prints, which must succeed. */
+    public static String natator(String... arguments) {
+        StringWriter printed = new StringWriter();
         StringWriter errors = new StringWriter();
-        CommandLine command = Main.commandLine().setOut(new PrintWriter(Writer.nullWriter()))
-                .setErr(new PrintWriter(errors, true));
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(printed, true)).setErr(new PrintWriter(errors, true));
         assertThat(command.execute(arguments)).as(errors.toString()).isZero();
+        return printed.toString();
     }
 
     /** Evolves creature 1 in the thesis' tank for three generations of eight, with another scheme than the scene's. */

@@ -1,88 +1,22 @@
 package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
-import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-/** {@code natator compare}, {@code show}, {@code check} and {@code compare-optimizers}: what is read from runs. */
+/** {@code natator compare}, {@code show} and {@code check}: what is read from runs. */
 class CompareCommandTest extends FakeSimulatorTest {
-
-    @Test
-    void comparesOptimizersInPieces() throws IOException {
-        String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--creatures", "1",
-            "--seeds", "2", "--evaluations", "30", "--population", "6", "--simulator", "batch"};
-        List<String> piece = new ArrayList<>(List.of(study));
-        piece.addAll(List.of("--stop-after", "0.3"));
-        Files.writeString(folder.resolve("slow"), "0.5");
-        assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("of 8 runs finished; the same command continues");
-
-        Files.delete(folder.resolve("slow"));
-        assertThat(natator(study)).as(err.toString()).isZero();
-        assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
-                "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");
-        assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
-        assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
-
-        // As a kill leaves it between the last generation and the drawing.
-        Files.delete(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png"));
-        assertThat(natator(study)).as(err.toString()).isZero();
-        assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
-
-        String page = file("study", "README.md");
-        assertThat(page).contains("At equal evaluations:", "At equal simulated time:", "too few to tell");
-        List<String> compact = new ArrayList<>(List.of(study));
-        compact.add("--compact");
-        assertThat(natator(compact.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(file("study", "README.md")).isEqualTo(page);
-        assertThat(file("study", "creature-1.jsonl")).hasLineCount(8);
-        assertThat(folder.resolve("study/creature-1")).doesNotExist();
-    }
-
-    /** Files are named by the last part of a scene's name; two scenes of one name would share them. */
-    @Test
-    void comparesOptimizersOnNamedScenes() {
-        String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--seeds", "1", "--evaluations", "12",
-            "--population", "4", "--optimizers", "random", "--simulator", "batch", "--scene", "thesis/creature-1,thesis/creature-2"};
-        assertThat(natator(study)).as(err.toString()).isZero();
-        assertThat(folder.resolve("study/creature-1/random/seed-1/best.json")).isNotEmptyFile();
-        assertThat(folder.resolve("study/creature-2-again.jsonl")).isNotEmptyFile();
-
-        err.getBuffer().setLength(0);
-        study[study.length - 1] = "thesis/creature-1,thesis/creature-1";
-        assertThat(natator(study)).isEqualTo(2);
-        assertThat(err.toString()).contains("--scene has creature-1 twice; expected each once").hasLineCount(1);
-    }
-
-    /** Finished runs of other settings are no part of the study. */
-    @ParameterizedTest
-    @CsvSource({"--evaluations, 12, evaluations was 24", "--duration, 3.0, duration was not set", "--population, 4, population was 6"})
-    void aFinishedStudyIsOfItsSettings(String option, String value, String change) {
-        List<String> study = new ArrayList<>(List.of("compare-optimizers", "--output-dir", folder.resolve("study").toString(),
-                "--creatures", "1", "--seeds", "1", "--optimizers", "random", "--simulator", "batch"));
-        List<String> size = List.of("--evaluations", "24", "--population", "6");
-        assertThat(natator(Stream.concat(study.stream(), size.stream()).toArray(String[]::new))).as(err.toString()).isZero();
-        err.getBuffer().setLength(0);
-
-        for (int i = 0; i < size.size(); i += 2) {
-            if (!size.get(i).equals(option)) {
-                study.addAll(size.subList(i, i + 2));
-            }
-        }
-        study.addAll(List.of(option, value));
-        assertThat(natator(study.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err.toString()).contains("was begun with other settings: " + change + ", is now " + value).hasLineCount(1);
-    }
 
     @Test
     void showsARunAtAnyTime() throws IOException {
@@ -215,6 +149,39 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
         assertThat(out.toString()).contains("at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
                 "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
+    }
+
+    /** What results/optimizers is made of. */
+    @Test
+    void writesWhatRunsAreComparedByAsJson() throws IOException {
+        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "4", "--rank-starts", "3", "--json", folder.resolve("runs.jsonl").toString()));
+        for (String optimizer : List.of("cma-es", "random")) {
+            String run = folder.resolve(optimizer).toString();
+            assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "40", "--output-dir", run)).isZero();
+            arguments.add(run);
+        }
+
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        List<String> lines = Files.readString(folder.resolve("runs.jsonl")).lines().toList();
+        assertThat(lines).hasSize(2);
+        for (String line : lines) {
+            JsonNode run = Json.parse(line, JsonNode.class);
+            JsonNode best = Json.parse(Files.readString(Path.of(run.get("run").textValue()).resolve("best.json")), JsonNode.class);
+            assertThat(run.get("best").get("genes")).isEqualTo(best.get("genes"));
+            assertThat(run.get("improvements").size()).isPositive();
+            assertThat(run.at("/improvements/0/evaluation").isInt()).isTrue();
+            // The winner's fresh runs are those that its run has of it.
+            assertThat(run.get("again")).isNotEmpty().anySatisfy(one -> {
+                assertThat(one.get("genes")).isEqualTo(best.get("genes"));
+                assertThat(one.get("runs")).hasSize(4);
+                double sum = 0;
+                for (JsonNode worth : one.get("runs")) {
+                    sum += worth.doubleValue();
+                }
+                assertThat(sum / 4).isCloseTo(best.at("/fresh/again").doubleValue(), within(1e-12));
+            });
+            assertThat(run.get("last")).isNotEmpty().allSatisfy(one -> assertThat(one.get("runs")).hasSize(3));
+        }
     }
 
     @ParameterizedTest

@@ -38,7 +38,7 @@ class EarlierIslandsTest extends FakeSimulatorTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"show", "resume", "evolve --resume", "report", "check", "converge", "compare other", "view --no-browser --run",
+    @ValueSource(strings = {"show", "resume", "evolve --resume", "check", "converge", "compare other", "view --no-browser --run",
         "page"})
     void commandsRefuseThemInOneLine(String command) throws IOException {
         assertThat(evolve("other")).as(err.toString()).isZero();

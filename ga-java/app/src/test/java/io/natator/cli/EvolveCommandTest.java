@@ -6,6 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
+import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -36,11 +37,10 @@ class EvolveCommandTest extends FakeSimulatorTest {
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
         assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
-        assertThat(environment.get("version").asText()).isEqualTo("0.2.0");
+        assertThat(environment.get("version").asText()).isEqualTo("0.1.0");
         assertThat(environment.get("commit").asText()).isEqualTo("0123456789ab");
         assertThat(environment.get("instructionSet").asText()).isEqualTo("any");
         assertThat(best.get("bodyLength").asDouble()).isEqualTo(1.2);
-        assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
     }
 
     /** What is printed to be copied is read by a shell. */
@@ -169,5 +169,29 @@ class EvolveCommandTest extends FakeSimulatorTest {
         assertThat(err.toString().lines()).hasSize(1);
         assertThat(err.toString()).startsWith("natator evolve: generation 0: 8 of 8 simulations failed, the first: ")
                 .contains("out of luck");
+    }
+
+    /** The runs are those that each seed gives alone. */
+    @Test
+    void evolvesWithSeveralSeedsInPieces() throws IOException {
+        String[] study = {"evolve", "--creature", "1", "--seeds", "3", "--evaluations", "30", "--population", "6", "--simulator", "batch",
+            "--output-dir", folder.resolve("study").toString()};
+        List<String> piece = new ArrayList<>(List.of(study));
+        piece.addAll(List.of("--stop-after", "0.3"));
+        Files.writeString(folder.resolve("slow"), "0.5");
+        assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains(" of 3 runs finished in ", "; the same command continues");
+
+        Files.delete(folder.resolve("slow"));
+        assertThat(natator(study)).as(err.toString()).isZero();
+        assertThat(out.toString()).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
+        assertThat(natator("evolve", "--creature", "1", "--seed", "2", "--evaluations", "30", "--population", "6", "--output-dir",
+                folder.resolve("alone").toString())).as(err.toString()).isZero();
+        assertThat(folder.resolve("study/seed-2/evaluations.jsonl")).hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
+
+        err.getBuffer().setLength(0);
+        study[6] = "40";
+        assertThat(natator(study)).isEqualTo(2);
+        assertThat(err.toString()).contains("seed-1 was begun with other settings: evaluations was 30, is now 40").hasLineCount(1);
     }
 }

@@ -34,7 +34,7 @@ abstract class FakeSimulatorTest {
         if (arguments[0].equals("show")) {
             return command.execute(arguments);
         }
-        if (!List.of("evaluate", "report", "reproduce", "converge", "cluster-efficiency").contains(arguments[0])) {
+        if (!List.of("evaluate", "converge").contains(arguments[0])) {
             // The fake's faults are not what the cache is to keep.
             all.add(1, "--no-cache");
         }

@@ -24,8 +24,7 @@ class HelpTest {
     }
 
     private static Stream<CommandLine> commands() {
-        return Stream.concat(Main.commandLine().getSubcommands().values().stream(),
-                Main.commandLine().getSubcommands().get("plot").getSubcommands().values().stream());
+        return Main.commandLine().getSubcommands().values().stream();
     }
 
     @ParameterizedTest
@@ -62,7 +61,7 @@ class HelpTest {
         "evolve|Simulated time, to the nearest frame. Default: the preset's, else the scene's (4 for the thesis scenes).",
         "evolve|How to solve: flex, conserving or lattice. Default: the scene's.",
         "resume|a GPU where there is one). Default: the run's.", "check|a GPU where there is one). Default: the run's.",
-        "evaluate|a GPU where there is one). Default: cpu.", "compare-flex|a GPU where there is one). Default: cpu.",
+        "evaluate|a GPU where there is one). Default: cpu.",
         "compare|a GPU where there is one). Default: that of the runs, cpu if they have several.",
         "evaluate|Simulated time, to the nearest frame. Default: the scene's (4 for the thesis scenes).",
         "evaluate|How to solve: flex, conserving or lattice. Default: the scene's.",
@@ -90,12 +89,11 @@ class HelpTest {
                 "natator evolve --creature 2");
     }
 
-    @ParameterizedTest
-    @CsvSource({"'',Usage: natator [", "plot,Usage: natator plot ["})
-    void withoutACommandTheHelpSaysWhichThereAre(String command, String start) {
-        assertThat(command.isEmpty() ? natator() : natator(command)).isEqualTo(2);
+    @Test
+    void withoutACommandTheHelpSaysWhichThereAre() {
+        assertThat(natator()).isEqualTo(2);
 
-        assertThat(err.toString()).startsWith(start).contains("Commands:");
+        assertThat(err.toString()).startsWith("Usage: natator [").contains("Commands:");
         assertThat(out.toString()).isEmpty();
     }
 
@@ -104,13 +102,8 @@ class HelpTest {
         "evolv|natator: 'evolv' is no command; did you mean evolve? See natator --help",
         "resum|natator: 'resum' is no command; did you mean resume? See natator --help",
         "swim|natator: 'swim' is no command; see natator --help",
-        "plot precison|natator plot: 'precison' is no command; did you mean precision? See natator plot --help",
         "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
-        "view --zzz|natator view: --zzz is no option of this command; see natator view --help",
-        "reproduce --phase mesure|natator reproduce: Invalid value for option '--phase': expected evolve, measure, report, "
-            + "repeat or all but was 'mesure'; did you mean measure? See natator reproduce --help",
-        "reproduce --water FLEX,open-watr|natator reproduce: Invalid value for option '--water' (WATER): expected flex "
-            + "or open-water but was 'open-watr'; did you mean open-water? See natator reproduce --help"})
+        "view --zzz|natator view: --zzz is no option of this command; see natator view --help"})
     void whatWasProbablyMeantIsNamed(String arguments, String line) {
         assertThat(natator(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString().strip()).isEqualTo(line);

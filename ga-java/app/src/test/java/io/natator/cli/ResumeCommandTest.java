@@ -214,9 +214,13 @@ class ResumeCommandTest extends FakeSimulatorTest {
     @Test
     void aCompactRunStaysAsItIs() throws IOException {
         assertThat(evolve("run")).isZero();
-        CompactRun.compact(folder.resolve("run"));
-        Map<String, String> before = files();
         String run = folder.resolve("run").toString();
+        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        assertThat(folder.resolve("run/evaluations.jsonl")).doesNotExist();
+        Map<String, String> before = files();
+
+        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        assertThat(files()).isEqualTo(before);
 
         assertThat(natator("resume", run)).as(err.toString()).isZero();
         assertThat(files()).isEqualTo(before);
@@ -264,18 +268,6 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
         Files.writeString(folder.resolve("run/config.json"), config);
         assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
-    }
-
-    /** A kill may come between the last generation and the drawing. */
-    @Test
-    void aFinishedRunWithoutItsCurveGetsIt() throws IOException {
-        assertThat(evolve("run")).isZero();
-        Path curve = folder.resolve("run/plots/fitness.png");
-        Files.delete(curve);
-
-        assertThat(natator("evolve", "--resume", folder.resolve("run").toString())).as(err.toString()).isZero();
-
-        assertThat(curve).isNotEmptyFile();
     }
 
     /** A file's scene may be edited: its name says nothing of that. */

@@ -16,7 +16,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
-/** {@code natator show}, and what it has in common with {@code natator report}: both read runs that are damaged, or written just now. */
+/** {@code natator show}, which reads runs that are damaged, or written just now. */
 class ShowCommandTest extends FakeSimulatorTest {
 
     private Path file(String name) {
@@ -47,9 +47,6 @@ class ShowCommandTest extends FakeSimulatorTest {
             assertThat(natator("show", folder.resolve("run").toString())).isZero();
             assertThat(err.toString()).isEqualTo("natator show: " + damage);
             assertThat(out.toString()).contains("generation 3: best ", "finished", "best gait of pool/creature-1");
-            forget();
-            assertThat(natator("report", folder.resolve("run").toString())).isIn(0, 2);
-            assertThat(err.toString()).startsWith("natator report: " + damage);
             forget();
         }
     }

@@ -44,6 +44,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String EVALUATIONS = "evaluations.jsonl";
     private static final String GENERATIONS = "generations.csv";
     private static final String TIMINGS = "timings.csv";
+    /** Of earlier versions, with a picture. */
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
@@ -302,21 +303,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Writes the best gait. */
     public void write(BestGait best) {
         digests.write(BEST, Json.document(best));
-    }
-
-    /** The folder for pictures of a run, which need not be there. */
-    public static Path plots(Path directory) {
-        return directory.resolve(PLOTS);
-    }
-
-    /** The same, made if it is not there. */
-    public Path plots() {
-        Path plots = plots(directory);
-        try {
-            return Files.createDirectories(plots);
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot make " + plots + ": " + e.getMessage(), e);
-        }
     }
 
     @Override

@@ -5,7 +5,6 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
-import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.FileInputStream;
 import java.io.IOException;
@@ -19,8 +18,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.function.Predicate;
-import java.util.stream.Collectors;
 
 /**
  * Rows in a file, one JSON value a line, each handed to the operating system as soon as it is appended. A last line that
@@ -172,44 +169,6 @@ public final class JsonLines<T> implements AutoCloseable {
     /** How many rows are in the file now. */
     public int size() {
         return size;
-    }
-
-    /**
-     * Leaves out of the file, and of {@link #rows}, all but these. It is at every moment the old or the new file. Only
-     * for one that is not opened for writing yet.
-     *
-     * @return how many were left out
-     * @throws InvalidInputException if another process writes the file, or has since it was read
-     */
-    public int keep(Predicate<T> wanted) {
-        if (content != null) {
-            throw new IllegalStateException(file + " is being written");
-        }
-        int before = rows.size();
-        List<T> kept = rows.stream().filter(wanted).toList();
-        if (kept.size() < before) {
-            String text = kept.stream().map(row -> Json.line(row) + "\n").collect(Collectors.joining());
-            replace(text);
-        }
-        return before - rows.size();
-    }
-
-    /** While it is locked, so that nobody goes on writing to what is no longer the file. */
-    private void replace(String text) {
-        try {
-            openUnchanged();
-            try {
-                AtomicFile.write(file, text);
-            } finally {
-                content.close();
-                content = null;
-            }
-            starts.subList(1, starts.size()).clear();
-            rows.clear();
-            parse(new ByteArrayInputStream(text.getBytes(StandardCharsets.UTF_8)));
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
-        }
     }
 
     /** Forgets a row that was in the file when it was opened for writing, and all after it. */

@@ -7,8 +7,6 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Map;
-import java.util.stream.Collectors;
 
 /** Carries out many runs, several at the same time with one evaluator, so that their generations share a batch. */
 public final class RunQueue {
@@ -38,10 +36,6 @@ public final class RunQueue {
         /** A run has reached its end; its folder is still open. */
         void finished(RunFolder run, EvolutionRun.Outcome outcome);
 
-        /** A run of these, in its folder, had reached its end before; what its watcher then did may be missing. */
-        default void foundFinished(Path run) {
-        }
-
         /** Something to tell, in one line. */
         default void said(String line) {
         }
@@ -61,9 +55,7 @@ public final class RunQueue {
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, Watcher watcher)
             throws InterruptedException {
-        Map<Boolean, List<PlannedRun>> byEnd = runs.stream().collect(Collectors.partitioningBy(PlannedRun::isFinished));
-        byEnd.get(true).forEach(run -> watcher.foundFinished(run.directory()));
-        return Lanes.carryOut(byEnd.get(false).stream()
+        return Lanes.carryOut(runs.stream().filter(run -> !run.isFinished())
                 .<Lanes.Work>map(run -> () -> carryOut(run, execution, evaluator, watcher)).toList(), evaluator, atOnce);
     }
 

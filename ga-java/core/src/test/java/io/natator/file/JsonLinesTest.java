@@ -140,33 +140,6 @@ class JsonLinesTest {
     }
 
     @Test
-    void rowsThatAreNotKeptLeaveTheFile() {
-        write(new Row(1, "öö"), new Row(2, "b"), new Row(3, "c"));
-        try (JsonLines<Row> lines = lines()) {
-            assertThat(lines.keep(row -> row.number() != 2)).isEqualTo(1);
-            lines.append(new Row(4, "d"));
-            assertThatThrownBy(() -> lines.keep(row -> false)).isInstanceOf(IllegalStateException.class);
-        }
-        assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 3, 4);
-    }
-
-    /** Nobody is left writing to what is no longer the file, and nothing that others wrote is lost. */
-    @Test
-    void noRowsAreLeftOutOfAFileThatAnotherWrites() {
-        write(new Row(1, "a"), new Row(2, "b"));
-        try (JsonLines<Row> lines = lines()) {
-            try (JsonLines<Row> writer = lines()) {
-                writer.append(new Row(3, "c"));
-                assertThatThrownBy(() -> lines.keep(row -> row.number() != 2)).isInstanceOf(InvalidInputException.class)
-                        .hasMessage(file + " is in use by another run");
-            }
-            assertThatThrownBy(() -> lines.keep(row -> row.number() != 2)).isInstanceOf(InvalidInputException.class)
-                    .hasMessage(file + " was changed by another run meanwhile");
-        }
-        assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 2, 3);
-    }
-
-    @Test
     void rowsAreDroppedFromTheEnd() {
         write(new Row(1, "öö"), new Row(2, "b"), new Row(3, "c"));
         try (JsonLines<Row> lines = JsonLines.locked(file, Row.class)) {

@@ -1,23 +1,14 @@
 package io.natator.kinematics;
 
 import static org.assertj.core.api.Assertions.assertThat;
-import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.RandomCases;
-import io.natator.config.InvalidInputException;
-import java.io.IOException;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
 class SwimmingTest {
-
-    @TempDir
-    private Path folder;
 
     /** z = 0.02 cos(2π·3 x / L) has no slope: the envelope of a standing wave is its amplitude. */
     @Test
@@ -74,39 +65,6 @@ class SwimmingTest {
                 assertThat(back.centres()[frame][slice]).containsExactly(upright.centres()[frame][slice], within(1e-12));
             }
         }
-    }
-
-    @Test
-    void readsTheParticlesOfARunAndFindsSlices() throws IOException {
-        Path file = folder.resolve("path.csv");
-        // Two slices of two and one particles, head first, turned by 90° about y in the second frame.
-        Files.writeString(file, """
-                frame,time,particle,x,y,z
-                0,0,0,1,0.5,0
-                0,0,1,1,1.5,0
-                0,0,2,0,1,0
-                1,0.5,0,0,0.5,-1
-                1,0.5,1,0,1.5,-1
-                1,0.5,2,0,1,0
-                """);
-
-        BodyPath body = BodyPath.read(file);
-        SpinePath spine = body.spine();
-
-        assertThat(spine.centres()[0]).isDeepEqualTo(new double[][] {{1, 1, 0}, {0, 1, 0}});
-        assertThat(spine.times()).containsExactly(0, 0.5);
-        assertThat(body.centre(1)[2]).isCloseTo(-2.0 / 3, within(1e-12));
-    }
-
-    @Test
-    void saysWhichLineOfATrajectoryIsWrong() throws IOException {
-        Path file = folder.resolve("path.csv");
-        Files.writeString(file, "frame,time,particle,x,y,z\n0,0,0,1,0\n");
-
-        assertThatThrownBy(() -> BodyPath.read(file)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("line 2");
-        Files.writeString(file, "frame,time,slice,x,y,z\n");
-        assertThatThrownBy(() -> BodyPath.read(file)).hasMessage(file + " has no column particle");
     }
 
     /** A body turned by known angles, one after the other about x, y and z, says them. */

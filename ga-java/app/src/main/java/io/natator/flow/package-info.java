@@ -1,0 +1,2 @@
+/** How much of a swimmer is in the water. */
+package io.natator.flow;

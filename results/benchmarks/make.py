@@ -1,0 +1,46 @@
+"""Draws the rooflines, how near the solver's stages come to what the processor can do, and throughput over the size of a scene.
+
+Rooflines: operations per second over operations per byte, under the measured roofs (Williams, Waterman, Patterson: Roofline, 2009). Throughput: a line for
+each size of a batch; rings are scenes that have blocks of threads of their own, discs those of the whole GPU, with lists.
+"""
+import pathlib
+
+import numpy as np
+import pandas
+import study
+
+HERE = pathlib.Path(__file__).parent
+INTENSITY = np.geomspace(0.1, 10, 200)
+MARKERS = "oDs^x"
+COLOURS = ["#1668b0", "#b04a16", "#2a8a3a", "#7a3aa0", "#a08a16", "#555"]
+
+
+def throughput(table, scheme, file):
+    rows = table[(table.scheme == scheme) & (table.precision == "float") & ~table.path.str.contains("without lists")]
+    rows = rows[rows.device == rows.device.iloc[0]].sort_values("fluid_particles")
+    chart = study.Chart(f"million particle-iterations per second: {scheme}, float, {rows.device.iloc[0]}", "fluid particles of a scene", "", log=True)
+    for colour, (batch, own) in zip(COLOURS, rows.groupby("evaluations"), strict=False):
+        rate = own.million_particle_iterations_per_second
+        chart.axes.plot(own.fluid_particles, rate, color=colour, label=f"{batch} at a time")
+        chart.axes.scatter(own.fluid_particles, rate, s=25, color=colour, facecolors=["white" if path == "block" else colour for path in own.path], zorder=2)
+    chart.save(file)
+
+
+def make(folder):
+    table = pandas.read_csv(HERE / "throughput.csv")
+    for scheme in ("flex", "conserving"):
+        throughput(table, scheme, folder / f"throughput-{scheme}.png")
+    for instructions, rows in pandas.read_csv(HERE / "roofline.csv").groupby("instruction_set", sort=False):
+        chart = study.Chart(f"Roofline, one thread, {instructions}", "operations per byte", "10⁹ operations per second", log=True)
+        kinds = dict(list(rows.groupby("kind", sort=False)))
+        peak = kinds["compute"].gflops.iloc[0]
+        for shade, roof in enumerate(kinds["bandwidth"].itertuples()):
+            chart.axes.plot(INTENSITY, np.minimum(peak, INTENSITY * roof.gbytes_per_second), color=str(0.2 + 0.15 * shade), label=roof.name)
+        for k, stage in enumerate(kinds["stage"].itertuples()):
+            chart.axes.plot(stage.intensity, stage.gflops, MARKERS[k % len(MARKERS)], color=study.COLOURS[stage.scheme],
+                            label=f"{stage.scheme}: {stage.name}")
+        chart.axes.set_ylim(bottom=1)
+        chart.save(folder / f"roofline-{instructions}.png")
+
+
+study.main(make)

@@ -1,0 +1,221 @@
+"""Which of the thesis' conclusions hold, by rules that the page states. Speeds are along the body's own heading, while a run lasts."""
+import dataclasses
+import math
+import statistics
+
+import measured
+from measured import fixed
+from plan import PARAMETERS, POWERS
+
+HOLDS, FAILS, OPEN, VOID = "✔ holds", "✘ does not hold", "– open", "– no such thing"
+STILL = 0.01  # units/s: slower is no motion in vacuum worth the name
+# What this study cannot test, and why.
+UNTESTED = (("more substeps, iterations and a larger radius cost more", "what they cost is measured, interleaved, in "
+             "[benchmarks](../benchmarks/README.md); a study's runs share their machine"),
+            ("a body sampled from a triangle mesh does not swim", "that mesh is not published; Natator's own bodies from meshes swim, see the ray in "
+             "[pictures](../pictures/README.md)"))
+
+
+@dataclasses.dataclass(frozen=True)
+class Claim:
+    says: str
+    water: str
+    measured: str
+    outcome: str
+    ours: bool = False  # found here, not the thesis'
+
+
+def told(holds):
+    return HOLDS if holds else FAILS
+
+
+def agreed(outcomes, none=OPEN):
+    """What several tests agree on."""
+    return outcomes[0] if outcomes and len(set(outcomes)) == 1 else OPEN if outcomes else none
+
+
+def value_text(value):
+    """A parameter's value: no limit where it is as good as none."""
+    return "none" if value >= 1e20 else f"{value:.12g}"
+
+
+def name(subject):
+    return f"creature {subject.creature}" + (" evolved" if subject.seed else "")
+
+
+class Trend:
+    """How a speed goes as a parameter moves away from its own value; the farthest is last. What differs, differs by two standard errors and a tenth."""
+
+    def __init__(self, usual, changed):
+        self.usual, self.changed, self.last = usual, changed, changed[-1] if changed else None
+        self.is_known = usual.count > 1 and bool(changed) and all(one.count for one in changed)
+        self.swims = usual.mean > 2 * usual.error and usual.mean > 0
+
+    def differs(self, one, direction):
+        difference = direction * (one.mean - self.usual.mean)
+        return difference > 2 * math.hypot(one.error, self.usual.error) and difference > 0.1 * self.usual.mean
+
+    def hinders(self):
+        if not self.differs(self.last, -1):
+            return FAILS
+        return OPEN if any(self.differs(one, 1) for one in self.changed) else HOLDS
+
+    def makes_no_difference(self):
+        """Open where chance alone is larger than a tenth."""
+        if any(self.differs(one, -1) or self.differs(one, 1) for one in self.changed):
+            return FAILS
+        return HOLDS if all(2 * math.hypot(one.error, self.usual.error) <= 0.1 * self.usual.mean for one in self.changed) else OPEN
+
+    def stops(self):
+        return told(abs(self.last.mean) < 0.1 * self.usual.mean)
+
+    def slows_a_little(self):
+        return told(self.differs(self.last, -1) and self.last.mean > self.usual.mean / 2)
+
+    def text(self):
+        return f"{fixed(self.usual.mean)}: " + ", ".join(f"{100 * one.mean / self.usual.mean:.0f}" for one in self.changed) + " %"
+
+
+def every(study, vorticity):
+    """All claims that can be tested. vorticity: by recording, the water's at the head, the tail and behind a swimmer."""
+    for water in ("flex", "open-water"):
+        yield from motion(study, water, vorticity)
+        yield from parameters(study, water)
+        yield from activation(study, water)
+
+
+def kept(claims, water):
+    """How many of the thesis' own hold, in words; None if none could be tested."""
+    tested = [one.outcome for one in claims if one.water == water and not one.ours and one.outcome != VOID]
+    return f"{tested.count(HOLDS)} of {len(tested)} hold and {tested.count(FAILS)} do not" if tested else None
+
+
+def motion(study, water, vorticity):
+    """Chapter 3, by the best that evolved."""
+    best = study.bests(water)
+    moved = [(one, rows) for one in best if (rows := study.moves(one))]
+    if moved:
+        texts, outcomes = [], []
+        for subject, rows in moved:
+            yaw, roll = (math.degrees(max(values)) for values in ([row["largestYaw"] for row in rows], [abs(row["end"]["roll"]) for row in rows]))
+            outcomes.append(told(yaw < 30 and roll < 30))
+            texts.append(f"{subject.creature}: {yaw:.0f}°, {roll:.0f}°")
+        yield Claim("swimming is stable and straight", water, "largest yaw and roll at the end — " + "; ".join(texts), agreed(outcomes))
+        # Of a body that folds up the tail's swing is not measured.
+        whole = {one.creature: all(row["measuredPart"] >= 0.8 for row in rows) for one, rows in moved}
+        swings = {one.creature: statistics.fmean(row["tailSwing"] for row in rows) for one, rows in moved}
+        yield Claim("amplitudes are wider than real fish'", water, "tail's swing in body lengths, an eel's is 0.1 — " + "; ".join(
+            f"{creature}: {fixed(swings[creature]) if whole[creature] else 'folds up'}" for creature in whole),
+            agreed([told(swings[creature] > 0.1) for creature in whole if whole[creature]]))
+    if f"creature-2-{water}" in vorticity:
+        head, tail, behind = vorticity[f"creature-2-{water}"]
+        yield Claim("vortices appear at the tail", water, f"mean vorticity at the tail {fixed(tail)}, at the head {fixed(head)} 1/s",
+                    told(tail > 2 * head))
+        yield Claim("and die out quickly", water, f"at the tail {fixed(tail)}, half a length to a length behind it {fixed(behind)} 1/s",
+                    OPEN if math.isnan(behind) else told(behind < tail / 2))
+    speeds = {one.creature: study.speed(one) for one in best}
+    others = [speed for creature, speed in speeds.items() if creature != 1]
+    if 1 in speeds and others:
+        one, fastest = speeds[1], max(others, key=lambda speed: speed.mean)
+        yield Claim("creature 1 is the fastest", water, "units/s — " + "; ".join(
+            f"{creature}: {measured.with_error(speed.mean, speed.error)}" for creature, speed in speeds.items()),
+            told(one.mean > fastest.mean) if abs(one.mean - fastest.mean) > math.hypot(one.error, fastest.error) else OPEN)
+    eel = next((rows for one, rows in moved if one.creature == 2), None)
+    if eel:
+        found = measured.like(eel, "fitsOfBody")
+        shown = measured.nearest(eel, "fitsOfBody") if found is None else found
+        yield Claim("creature 2 swims like an eel (e 0.0402, 0.12 of no motion's)", water,
+                    f"e as a share of no motion's — {'none' if found is None else measured.FISH[found]} "
+                    f"({fixed(measured.relative(eel, shown, 'fitsOfBody'))} over {fixed(statistics.fmean(row['measuredPart'] for row in eel))} of it, "
+                    f"α {fixed(measured.scale(eel, shown, 'fitsOfBody'))})", told(found == 0))
+
+
+def parameters(study, water):
+    """4.1, by all values and all gaits that swim."""
+    forward = {}
+
+    def speed(subject, parameter, value, vacuum=False):
+        key = (name(subject), parameter, value, vacuum)
+        if key not in forward:
+            forward[key] = study.forward(study.plan.parameter(subject, parameter, value, vacuum))
+        return forward[key]
+
+    def by_trend(says, parameter, above, rule):
+        if parameter not in study.size.parameters or water not in PARAMETERS[parameter][1]:
+            return
+        own, values = PARAMETERS[parameter][1][water]
+        values = [one for one in values if one > own] if above else [one for one in reversed(values) if one < own]
+        trends = [(one, Trend(speed(one, parameter, own), [speed(one, parameter, value) for value in values])) for one in study.studied(water)]
+        trends = [(one, trend) for one, trend in trends if trend.is_known and trend.swims]
+        if trends:
+            yield Claim(says, water, f"{parameter} {', '.join(map(value_text, values))} — "
+                        + "; ".join(f"{name(one)} {trend.text()}" for one, trend in trends), agreed([rule(trend) for _, trend in trends]))
+
+    def by_blow_up(says, parameter):
+        if parameter in study.size.parameters and water in PARAMETERS[parameter][1]:
+            least = PARAMETERS[parameter][1][water][1][0]
+            asked = [study.plan.parameter(one, parameter, least) for one in study.studied(water)]
+            runs, broken = sum(len(study.results(one)) for one in asked), sum(map(study.unstable, asked))
+            if runs:
+                yield Claim(says, water, f"{parameter} {value_text(least)} — {broken} of {runs} runs blow up",
+                            HOLDS if broken == runs else FAILS if broken == 0 else OPEN)
+
+    def in_vacuum(says, parameter, ours=False):
+        """Whether the greatest value leaves a third of the motion or less, of gaits that move there."""
+        if parameter in study.size.parameters and water == "flex":
+            own, values = PARAMETERS[parameter][1][water]
+            pairs = [(one, speed(one, parameter, own, True), speed(one, parameter, values[-1], True)) for one in study.studied(water)]
+            pairs = [pair for pair in pairs if pair[1].count and pair[2].count and abs(pair[1].mean) > STILL]
+            shown = "; ".join(f"{name(one)} {fixed(usual.mean)} → {fixed(changed.mean)}" for one, usual, changed in pairs)
+            yield Claim(says, water, f"{parameter} {value_text(values[-1])} — {shown}" if pairs else "nothing moves",
+                        agreed([told(abs(changed.mean) < abs(usual.mean) / 3) for _, usual, changed in pairs], VOID), ours)
+
+    viscosity, radius = ("viscosity", "radius") if water == "flex" else ("kinematic viscosity", "kernel support")
+    yield from by_trend("cohesion hinders", "cohesion", True, Trend.hinders)
+    yield from by_trend("surface tension hinders", "surface tension", True, Trend.hinders)
+    yield from by_trend("viscosity helps: with less it swims worse", viscosity, False, Trend.hinders)
+    yield from by_trend("too much viscosity hinders", viscosity, True, Trend.hinders)
+    yield from by_trend("vorticity confinement makes no visible difference", "vorticity confinement", True, Trend.makes_no_difference)
+    yield from by_trend("a body much lighter than the fluid cannot move", "body mass", False, Trend.stops)
+    yield from by_trend("a larger radius hinders", radius, True, Trend.hinders)
+    yield from by_trend("damping slows a little in fluid", "damping", True, Trend.slows_a_little)
+    yield from by_blow_up("a small radius is unstable", "small radius")
+    yield from by_blow_up("few substeps are unstable", "substeps")
+    yield from in_vacuum("damping strongly suppresses the motion in vacuum", "damping")
+    yield from in_vacuum("(found here) the motion in vacuum is the acceleration clamp", "acceleration clamp", True)
+
+
+def activation(study, water):
+    """4.2 and 4.3."""
+    plan = study.plan
+
+    def by_creatures(says, pair, rule):
+        outcomes, texts = [], []
+        for creature in plan.potent():
+            first, second = (study.forward(plan.potentiated(creature, power, step, water, vacuum)) for power, step, vacuum in pair)
+            holds = rule(first, second)
+            if holds is not None and first.count and second.count:
+                outcomes.append(told(holds))
+                texts.append(f"creature {creature}: {fixed(first.mean)} and {fixed(second.mean)}")
+        return Claim(says, water, "; ".join(texts) or "nothing moves", agreed(outcomes, VOID))
+
+    def sure(one):
+        return abs(one.mean) > 2 * one.error
+
+    def turns(ahead, back):
+        return ahead.mean * back.mean < 0 and sure(ahead) and sure(back)
+
+    yield by_creatures("potentiation (p = 4) swims far faster than the sine (p = 1)", ((1.0, 0.25, False), (POWERS[-1], 0.25, False)),
+                       lambda sine, powered: powered.mean > 1.5 * max(sine.mean, 0) and powered.mean > 2 * powered.error)
+    yield by_creatures("the same with 1 − Δφ swims backwards", ((POWERS[-1], 0.25, False), (POWERS[-1], 0.75, False)), turns)
+    yield by_creatures("potentiation (p = 4) also accelerates in vacuum", ((1.0, 0.25, True), (POWERS[-1], 0.25, True)),
+                       lambda sine, powered: abs(powered.mean) > STILL)
+    yield by_creatures("and in vacuum backwards with 1 − Δφ", ((POWERS[-1], 0.25, True), (POWERS[-1], 0.75, True)),
+                       lambda ahead, back: turns(ahead, back) if max(abs(ahead.mean), abs(back.mean)) >= STILL else None)
+    rest = study.forward(plan.two_clusters(plan.gaits_of_two_clusters()[0], water, "resting"))
+    swims = [one for gait in plan.gaits_of_two_clusters() if (one := study.forward(plan.two_clusters(gait, water, "water"))).count]
+    if rest.count and swims:
+        best = max(swims, key=lambda one: one.mean)
+        net = best.mean - rest.mean
+        yield Claim("a body of two clusters does not swim", water, f"at most {fixed(net, 4)} more than at rest, by the best of {len(swims)} gaits",
+                    told(not (net > 2 * math.hypot(best.error, rest.error) and net > STILL)))

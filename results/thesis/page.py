@@ -1,0 +1,372 @@
+"""The page of the study, README.md, and its tables, tables/*.csv. All that they say of numbers follows from the rows."""
+import csv
+import io
+import math
+import re
+import statistics
+
+import claims
+import measured
+import plan
+import study
+from measured import FISH, Sample, error_text, fixed, percent, with_error
+from plan import GAITS, WATERS
+
+WORDS = {"flex": "flex", "open-water": "open water"}
+MARK = "Generated; do not edit."
+BOUND = 0.02  # from here on a gene counts as being on its bound, as a share of its range
+
+
+def text(sample, digits=4):
+    """Mean ± standard deviation, or the one value that there is."""
+    return with_error(sample.mean, sample.sd, digits) if sample.count > 1 else fixed(sample.mean, digits)
+
+
+class Page:
+    def __init__(self, found, vorticity):
+        self.study, self.plan = found, found.plan
+        self.claims = list(claims.every(found, vorticity))
+        self.gaits = [one for one in GAITS if one["creature"] in found.size.creatures]
+
+    # Tables: a heading and rows of text.
+
+    def tables(self):
+        """All of them, by name."""
+        found = {f"{name}-{water}": table(water) for name, table in (("speeds", self.speeds), ("verdicts", self.verdicts), ("controls", self.controls))
+                 for water in WATERS}
+        found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "decisive": self.decisive(), "fish": self.fish("fits", True),
+                  "fish-upright": self.fish("fitsOfBody", False), "attitudes": self.attitudes(), "parameters": self.parameters(),
+                  "potentiation": self.potentiation(), "two-clusters": self.two_clusters()}
+        return {name: table for name, table in found.items() if len(table) > 1}
+
+    def known(self, water):
+        return [(one, speed) for one in self.study.subjects(water) if (speed := self.study.speed(one))]
+
+    def speeds(self, water):
+        rows = [["creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "lasts (s)"]
+                + (["Re", "St", "cavities"] if water == "open-water" else [])]
+        for one, speed in self.known(water):
+            length = self.study.length(one.creature)
+            changes = ["–" if math.isnan(change) else f"{change / length:+.2f}" for change in (speed.half_step, speed.half_spacing)]
+            rows.append([str(one.creature), one.label, with_error(speed.mean / length, speed.error / length), error_text(speed.scatter / length),
+                         *changes, fixed(speed.mean / length / one.gait["frequency"]), f"{self.study.lasted(one).mean:.1f}"])
+            if water == "open-water":
+                numbers = [self.study.number(one, name) if self.study.may_swim(one) else None for name in ("reynolds", "strouhal", "cavities")]
+                rows[-1] += ["–" if number is None else fixed(number, digits) for number, digits in zip(numbers, (0, 2, 2))]
+        return rows
+
+    def verdicts(self, water):
+        return [["creature", "gait", "verdict"]] + [[str(one.creature), one.label, " ".join(verdict)] for one in self.study.subjects(water)
+                                                    if (verdict := self.study.verdict(one))]
+
+    def controls(self, water):
+        conditions = ("resting", "vacuum", "no-clamp", "mirrored", "other-water")
+        rows = [["creature", "gait", *(one.replace("-", " ") for one in conditions), "on the processor", "under water"]]
+        for one, _ in self.known(water):
+            length, under = self.study.length(one.creature), self.study.under_water(one)
+            rows.append([str(one.creature), one.label] + [fixed(self.study.means(one, condition).mean / length) if condition in plan.CONDITIONS[water]
+                                                          else "–" for condition in conditions]
+                        + [fixed(self.study.on_processor(one).mean / length), "–" if under is None else percent(under)])
+        return rows
+
+    def agreement(self):
+        """What each seed found: how much depends on the chance of an evolution."""
+        seeds = sorted({one.seed for one in self.study.evolved()})
+        rows = [["creature", "water", *(f"seed {seed}" for seed in seeds), "apart", "agree"]]
+        for water in WATERS:
+            for creature in self.study.size.creatures:
+                speeds = {one.seed: speed for one in self.study.evolved(water, creature) if (speed := self.study.speed(one))}
+                if len(speeds) > 1:
+                    length, ends = self.study.length(creature), [rule(speeds.values(), key=lambda one: one.mean) for rule in (min, max)]
+                    apart = ends[1].mean - ends[0].mean
+                    rows.append([str(creature), WORDS[water], *(with_error(speeds[seed].mean / length, speeds[seed].error / length) if seed in speeds
+                                                                else "–" for seed in seeds), fixed(apart / length),
+                                 "✔" if apart <= max(one.error for one in ends) else "✘"])
+        return rows
+
+    def gait_table(self):
+        rows = [["creature", "water", "gait", "f (1/s)", "a", "φ", "on a bound"]]
+        for one in [one for water in WATERS for one in self.study.subjects(water) if one.seed or water == "flex"]:
+            frequency, amplitudes = one.gait["frequency"], one.gait["amplitude"]
+            on = ["f"] if min(frequency - 0.5, 2 - frequency) < BOUND * 1.5 else []
+            count = sum(min(a, 1 - a) < BOUND for a in amplitudes)
+            on += [f"{count} of {len(amplitudes)} a"] if count else []
+            rows.append([str(one.creature), WORDS[one.water], one.label, fixed(frequency, 4),
+                         *(" ".join(f"{value:.3f}" for value in values) for values in (amplitudes, one.gait["phase"])), ", ".join(on) or "–"])
+        return rows
+
+    def claim_table(self):
+        rows = {one.says: {} for one in self.claims}
+        for one in self.claims:
+            rows[one.says][one.water] = one.outcome
+        return [["the thesis says", "in flex", "in open water"]] + [[says, *(row.get(water, "") for water in WATERS)] for says, row in rows.items()]
+
+    def claim_numbers(self):
+        return [["the thesis says", "water", "what was measured", "holds"]] + [[one.says, WORDS[one.water], one.measured, one.outcome]
+                                                                               for one in self.claims]
+
+    def beside_flex(self):
+        """Published gaits beside the published speeds and beside Flex 1.2.0, which ran five times where it has a deviation, else once."""
+        rows = [["gait", "setting", "thesis", "Flex 1.2.0", "flex", "difference", "agrees by"]]
+        for gait in self.gaits:
+            for setting, condition in (("fluid", "water"), ("fluid-inverse-mass", "inverse-mass"), ("vacuum", "vacuum")):
+                ours = self.study.means(plan.subject_of(gait, "flex"), condition)
+                theirs = next((Sample(5 if one.get("deviation") is not None else 1, one["mean"], one.get("deviation") or math.nan)
+                               for one in gait["flex"] if one["setting"] == setting), Sample(0, math.nan, math.nan))
+                published = (gait.get("published") or {}).get({"fluid": "speed", "vacuum": "vacuumSpeed"}.get(setting), math.nan)
+                if not ours.count or not theirs.count and math.isnan(published):
+                    continue
+                difference, spread = ours.mean - theirs.mean, math.hypot(ours.error, theirs.error)
+                told, agrees = "–", "–"
+                if theirs.count:
+                    told = f"{abs(difference) / spread:.1f}" if theirs.count > 1 else f"{difference:+.4f}"
+                    # Where nothing scatters, as in vacuum, a difference of rounding remains.
+                    agrees = "✔ standard errors" if theirs.count > 1 and abs(difference) <= 3 * spread else \
+                        "✔ less than 0.005" if abs(difference) <= 0.005 else "✘ no"
+                rows.append([f"{gait['creature']}, {gait['about']}", setting, fixed(published, 4), text(theirs), text(ours), told, agrees])
+        return rows
+
+    def decisive(self):
+        """What decides the published gaits' speed in flex; parameters were changed of one of them only."""
+        rows = [["gait", "as stated", "no friction", "no acceleration clamp", "no damping", "no viscosity", "inverse mass linear"]]
+        for one in self.plan.published("flex"):
+            without = {name: text(self.study.sample(self.plan.parameter(one, name, 0), lambda run: run["distance"] / self.study.duration))
+                       for name in ("friction", "damping", "viscosity")}
+            as_is, no_clamp, inverse = (text(self.study.means(one, condition)) for condition in ("water", "no-clamp", "inverse-mass"))
+            rows.append([f"{one.creature}, {one.about}", as_is, without["friction"], no_clamp, without["damping"], without["viscosity"], inverse])
+        return rows
+
+    def recorded(self):
+        """(creature, from, recorded runs)."""
+        for water in WATERS:
+            for one in self.study.subjects(water):
+                yield str(one.creature), f"{one.label}, {WORDS[water]}", self.study.moves(one)
+                if water == "flex" and not one.seed:
+                    yield str(one.creature), f"{one.label}, flex, inverse mass linear", self.study.motions_of(self.plan.of(one, "inverse-mass"))
+
+    def fish(self, fits, with_published):
+        """Table 3.2: e against real fish."""
+        rows = [["creature", "from", *FISH, "none", "x_l/L", "like"]]
+        for gait in self.gaits if with_published else []:
+            published = gait.get("published")
+            if published:
+                rows.append([str(gait["creature"]), "published", *(fixed(e, 4) for e in published["errors"]), "–", "–", "–"])
+            for one in gait["flex"]:
+                if one.get("errors"):
+                    rows.append([str(gait["creature"]) + ("" if published else f", {gait['about']}"), "thesis' gait, Flex 1.2.0"
+                                 + (", inverse mass linear" if one["setting"] == "fluid-inverse-mass" else ""),
+                                 *(fixed(e, 4) for e in one["errors"]), "–", "–", "–"])
+        for creature, source, runs in self.recorded():
+            if runs:
+                part, like = statistics.fmean(row["measuredPart"] for row in runs), measured.like(runs, fits)
+                rows.append([creature, source, *(f"{text(measured.error(runs, fish, fits))}, α {fixed(measured.scale(runs, fish, fits))}"
+                                                 for fish in range(3)), fixed(math.sqrt(part) / 3), fixed(part), "none" if like is None else FISH[like]])
+        return rows
+
+    def attitudes(self):
+        """How the bodies lie at the end of the recorded runs, and how wide their tails swing."""
+        rows = [["creature", "from", "roll θ (degrees)", "largest yaw ρ (degrees)", "height y at start → end", "swing (body lengths)"]]
+        for creature, source, runs in self.recorded():
+            if runs:
+                roll, yaw = (Sample.of(map(math.degrees, angles)) for angles in ([row["end"]["roll"] for row in runs],
+                                                                                 [row["largestYaw"] for row in runs]))
+                start, end = (fixed(statistics.fmean(row["heights"][which] for row in runs)) for which in (0, 1))
+                rows.append([creature, source, text(roll, 0), text(yaw, 0), f"{start} → {end}", fixed(statistics.fmean(row["tailSwing"] for row in runs))])
+        return rows
+
+    def cell(self, experiment):
+        """Mean ± standard deviation along the own heading, and how many runs became unstable."""
+        unstable, speed = self.study.unstable(experiment), self.study.forward(experiment)
+        return text(speed) if not unstable else (f"{text(speed)}, " if speed.count else "") + f"{unstable} unstable"
+
+    def parameters(self):
+        """Thesis 4.1: what each parameter does; the scene's own value is bold."""
+        gaits = ["creature 2"] + [f"creature {creature} evolved" for creature in self.plan.potent()]
+        rows = [["parameter", "water", "value", *gaits, *(f"{one}, vacuum" for one in gaits)]]
+        for name in self.study.size.parameters:
+            for water in WATERS:
+                for _, own, values, too in (one for one in self.plan.parameters(water) if one[0] == name):
+                    subjects = {claims.name(one): one for one in self.study.studied(water)}
+                    for value in values:
+                        cells = [self.cell(self.plan.parameter(subjects[one], name, value, vacuum)) if one in subjects and (too or not vacuum) else ""
+                                 for vacuum in (False, True) for one in gaits]
+                        shown = claims.value_text(value)
+                        rows.append([name, WORDS[water], f"**{shown}**" if value == own else shown, *cells])
+        return rows
+
+    def potentiation(self):
+        """Thesis 4.2: u = ((sin + 1)/2)ᵖ·2 − 1 with f = 2, a = 0.8, and Δφ = 0.25 from head to tail, or 1 − Δφ."""
+        return [["creature", "water", "p", "Δφ", "1 − Δφ", "vacuum, Δφ", "vacuum, 1 − Δφ"]] + [
+            [str(creature), WORDS[water], claims.value_text(power), *(self.cell(self.plan.potentiated(creature, power, step, water, vacuum))
+                                                                      for vacuum in (False, True) for step in plan.PHASE_STEPS)]
+            for creature in self.plan.potent() for water in WATERS for power in plan.POWERS]
+
+    def two_clusters(self):
+        """Thesis 4.3: one actuator across the one joint; the last row has resting muscles."""
+        gaits, cell = self.plan.gaits_of_two_clusters(), lambda *asked: self.cell(self.plan.two_clusters(*asked))
+        return [["f (1/s)", "a", "flex", "flex, vacuum", "open water", "open water, vacuum"]] + [
+            [f"{gait['frequency']:.1f}", f"{gait['amplitude'][0]:.1f}", *(cell(gait, water, setting) for water in WATERS
+                                                                          for setting in ("water", "vacuum"))] for gait in gaits] + [
+            ["rest", "", cell(gaits[0], "flex", "resting"), "", cell(gaits[0], "open-water", "resting"), ""]]
+
+    # The first screen.
+
+    def swimming(self, subjects):
+        judged = [one for one in subjects if self.study.verdict(one)]
+        return f"{sum(map(self.study.swims_by_every_control, judged))} of {len(judged)}" if judged else None
+
+    def published(self, water):
+        """The thesis' own gaits, without what is made of them here."""
+        return [plan.subject_of(one, water) for one in self.gaits if one.get("published")]
+
+    def seconds(self, subject):
+        return f"{self.study.lasted(subject).mean:.1f} s"
+
+    def fastest(self, water):
+        swimmers = [one for one in self.study.bests(water) if self.study.swims_by_every_control(one)]
+        if not swimmers:
+            return None
+        one = max(swimmers, key=lambda swimmer: self.study.speed(swimmer).mean)
+        speed = self.study.speed(one)
+        wall = f", until it touches a wall after {self.seconds(one)}" if water == "open-water" and self.study.ends_at_wall(one) else ""
+        return f"creature {one.creature} at {with_error(speed.mean, speed.error)} units/s ({fixed(speed.mean / self.study.length(one.creature))} " \
+               f"body lengths/s{wall})"
+
+    def without_water(self, water):
+        speeds = [abs(one) for subject in self.study.bests(water) if math.isfinite(one := self.study.means(subject, "vacuum").mean)]
+        return f"{fixed(max(speeds))} units/s" if speeds else None
+
+    def eel(self, water):
+        best = self.study.best(2, water)
+        runs = self.study.moves(best) if best else []
+        like = measured.like(runs, "fitsOfBody") if runs else None
+        return None if not runs else "no fish" if like is None else f"{FISH[like]} fish"
+
+    def answer(self):
+        published, evolved, fastest, without, eel, kept = (in_each(one) for one in (
+            lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest,
+            self.without_water, self.eel, lambda water: claims.kept(self.claims, water)))
+        if not published:
+            return "**Nothing is measured yet.**"
+        return " ".join([f"**Of the thesis' gaits {published} swim by every control" + (f"; of the gaits that evolved here {evolved} do.**" if evolved
+                                                                                         else ".**")]
+                        + ([f"The fastest that swims is {fastest}."] if fastest else [])
+                        + ([f"Without water, where nothing can swim, what evolved moves at up to {without}."] if without else [])
+                        + ([f"Creature 2, which the thesis found to swim like an eel, evolves to swim like {eel}."] if eel else [])
+                        + ([f"Of the thesis' conclusions that can be tested {kept}."] if kept else []))
+
+    def evidence(self):
+        rows = [["creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex", "evolved, open water"]]
+        for gait in self.gaits:
+            published = gait.get("published")
+            rows.append([str(gait["creature"]) + ("" if published else f", {gait['about']}"), fixed(published["speed"]) if published else ""]
+                        + [self.told(plan.subject_of(gait, water)) for water in WATERS]
+                        + [self.told_of_seeds(gait["creature"], water) if published else "" for water in WATERS])
+        return rows
+
+    def told(self, subject):
+        speed = self.study.speed(subject) if subject else None
+        return f"{(self.study.verdict(subject) or '–')[0]} {with_error(speed.mean, speed.error)}" if speed else ""
+
+    def told_of_seeds(self, creature, water):
+        seeds = self.swimming(self.study.evolved(water, creature))
+        return self.told(self.study.best(creature, water)) + (f" ({seeds})" if seeds else "")
+
+    def until_walls(self):
+        ends = [f"creature {one.creature} after {self.seconds(one)}" for one in self.study.bests("open-water") if self.study.ends_at_wall(one)]
+        return f" In open water a speed is that until a wall is touched: by {', '.join(ends)}." if ends else ""
+
+    # What page.md asks for by name.
+
+    def reynolds(self):
+        known = [one for subject in self.study.subjects("open-water") if self.study.may_swim(subject)
+                 and (one := self.study.number(subject, "reynolds")) is not None]
+        return f": what swims there has a Reynolds number of {min(known):.0f} to {max(known):.0f}, as the larva of a fish" if known else ""
+
+    def sinking(self):
+        runs = [one for creature in self.study.size.creatures for one in self.study.results(self.plan.sinking(creature))]
+        times = sorted(one["simulated"] for one in runs if one["stopped"] == "touched-plane")
+        return f"{len(times)} of {len(runs)} runs of its gaits there lie on the floor" + (
+            f" after {fixed(times[0])} to {fixed(times[-1])} s" if times else "")
+
+    def evolutions(self):
+        """One sentence for each way in which evolution searched."""
+        alike = {}
+        for one in self.study.finished():
+            config = self.study.read(one, "config.json")
+            alike.setdefault((one.water, config["population"], config.get("duration") or plan.SECONDS), []).append((one.creature, config["generations"]))
+        return " ".join(
+            f"In {WORDS[water]} {len(found)} evolutions of creature{'s' if len({one for one, _ in found}) > 1 else ''} "
+            f"{listed(sorted({one for one, _ in found}))}: {population} chromosomes over {spread([count for _, count in found])} generations, "
+            f"{duration:g} s a run." for (water, population, duration), found in alike.items()) or "No evolution is finished."
+
+    def scale(self):
+        logs = (self.study.measurements, self.study.processor, self.study.convergence, self.study.motions)
+        backends = sorted({row["backend"] for row in self.study.measurements.rows.values()})
+        programs = {row["program"] for log in logs for row in log.rows.values()}
+        counts = [len(log.rows) for log in logs]
+        return f"{len(self.study.finished())} of {len(self.plan.evolutions)} evolutions are finished. {counts[0]} evaluations on {', '.join(backends)} " \
+               f"(`measurements.jsonl`), {counts[1]} of them again on the processor (`processor.jsonl`), {counts[2]} gaits at half the spacing " \
+               f"(`convergence.jsonl`) and {counts[3]} recorded motions (`motions.jsonl`), by {len(programs)} builds of the native program, " \
+               "which every row names by its SHA-256."
+
+    def write(self, pictures):
+        """Text of the page, by page.md, in which {{name}} stands for what a method of that name says, a table, or the pictures."""
+        def value(match):
+            name = match.group(1)
+            if name == "commentary":
+                return commentary(self.study.folder / "commentary.md")
+            found = pictures[name] if name in pictures else getattr(self, name)()
+            return markdown(found) if isinstance(found, list) else found
+        return re.sub(r"\{\{(\w+)\}\}", value, (plan.HERE / "page.md").read_text(encoding="utf-8"))
+
+    def mark(self):
+        return MARK
+
+    def untested(self):
+        return [["the thesis says", "why it is not tested"], *map(list, claims.UNTESTED)]
+
+    def sources(self):
+        return "\n".join(f"- {one}" for one in plan.THESIS["about"])
+
+
+def in_each(of):
+    """What is said of each water, where there is something; once, if it is the same in all."""
+    told = [of(water) for water in WATERS]
+    if told[0] and len(set(told)) == 1:
+        return f"{told[0]} in both waters"
+    return ", ".join(f"{one} in {'`flex`' if water == 'flex' else WORDS[water]}" for water, one in zip(WATERS, told) if one)
+
+
+def listed(numbers):
+    *most, last = map(str, numbers)
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def spread(numbers):
+    return str(min(numbers)) if min(numbers) == max(numbers) else f"{min(numbers)} to {max(numbers)}"
+
+
+def markdown(rows):
+    if len(rows) < 2:
+        return "Nothing is measured yet."
+    return study.table(rows[0], rows[1:], "<" * len(rows[0])).rstrip("\n")
+
+
+def csv_text(rows):
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows(rows)
+    return out.getvalue()
+
+
+def commentary(file):
+    """What a person wrote: each paragraph that begins *so.* is folded under these words, with the tables that follow it."""
+    if not file.exists():
+        return "Nothing is written yet."
+    parts = re.split(r"\n\n(?=\*[^*\n]+\*)", file.read_text(encoding="utf-8").strip())
+    folded = []
+    for part in parts:
+        begin = re.match(r"\*([^*\n]+)\*\s*", part)
+        summary = re.sub(r"`([^`]+)`", r"<code>\1</code>", begin.group(1)) if begin else ""
+        folded.append(f"<details><summary>{summary}</summary>\n\n{part[begin.end():].strip()}\n\n</details>" if begin else part)
+    return "\n\n".join(folded)

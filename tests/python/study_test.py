@@ -1,0 +1,74 @@
+"""What pages of results/ share: statistics beside textbooks and R, and a check that tells of other files than the data give."""
+
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "results"))
+
+import study  # noqa: E402
+
+
+class Statistics(unittest.TestCase):
+    def test_the_rank_test_is_that_of_the_textbook(self):
+        """The example of scipy.stats.mannwhitneyu, from Conover's textbook: U = 17, exact p = 1/9."""
+        row, = study.pairs({"males": [19, 22, 16, 29, 24], "females": [20, 11, 17, 12]})
+        self.assertAlmostEqual(14 / 126, row["p"], 12)
+        self.assertEqual(17 / 20, row["a"])
+
+    def test_equal_values_are_no_evidence(self):
+        row, = study.pairs({"a": [2, 2, 2], "b": [2, 2, 2, 2]})
+        self.assertEqual((1, 0.5), (row["p"], row["a"]))
+
+    def test_holms_correction_and_verdicts(self):
+        low = list(range(10))
+        a, b, c = study.pairs({"low": low, "high": [x + 100 for x in low], "none": [], "between": [x + 0.5 for x in low]})
+        self.assertEqual("high further than low (p < 0.001, A = 0.00)", a["verdict"])
+        self.assertAlmostEqual(3 * 2 / 184_756, a["p_holm"], 15)
+        self.assertTrue(b["verdict"].startswith("no difference seen (p = "), b["verdict"])
+        self.assertEqual("high further than between (p < 0.001, A = 1.00)", c["verdict"])
+        few, = study.pairs({"a": [1, 2, 3], "b": [11, 12, 13]})
+        self.assertEqual("too few to tell", few["verdict"])
+
+    def test_intervals_of_few_values_are_exact(self):
+        """The median of five drawn of 1, 2, … 5 is 1 with a chance of 0.058, more than a tail of 2.5 %: the interval is all of it."""
+        self.assertEqual((3, 1, 5), study.median_interval([3, 1, 5, 2, 4]))
+        self.assertEqual((10, 8, 12), study.median_interval([11, 12, 13], [1, 2, 3]))
+        self.assertTrue(math.isnan(study.median_interval([7])[1]))
+
+    def test_numbers_in_words(self):
+        self.assertEqual(["0.13", "0.0", "-0.1"], [study.fixed(0.125, 2), study.fixed(-0.04, 1), study.fixed(-0.05, 1)])
+        self.assertEqual(["1.00 ± 0.02", "1.0000 ± 0.0004", "1.00 ± 0.00"], [study.with_error(1, error, 2) for error in (0.02, 0.0004, 0)])
+
+    def test_random_numbers_are_those_of_java(self):
+        """new Random(20190101).ints(10, 0, 10), twice; ints(3, 0, 8) by low bits."""
+        java = study.Random(20190101)
+        self.assertEqual([[4, 7, 3, 4, 6, 4, 9, 7, 0, 8], [4, 3, 5, 8, 2, 3, 3, 6, 3, 6]], [java.ints(10, 10).tolist() for _ in range(2)])
+
+
+class Check(unittest.TestCase):
+    def check(self, root):
+        return subprocess.run([sys.executable, root / "results/precision/make.py", "--check"], capture_output=True, text=True, check=False,
+                              env={"PYTHONPATH": str(root / "results")})
+
+    def test_tells_of_what_the_data_do_not_give(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            shutil.copytree(ROOT / "results/precision", root / "results/precision")
+            shutil.copy(ROOT / "results/study.py", root / "results/study.py")
+            self.assertEqual((0, ""), ((done := self.check(root)).returncode, done.stderr))
+            data = root / "results/precision/precision.csv"
+            text = data.read_text().splitlines(keepends=True)
+            data.write_text("".join(line for line in text if "tank-creature-1,flex" not in line))
+            done = self.check(root)
+            self.assertEqual(1, done.returncode)
+            self.assertRegex(done.stderr, r"^\S*precision-tank-creature-1.png: is not what make.py makes of the data; run: results/redo.sh precision\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()
