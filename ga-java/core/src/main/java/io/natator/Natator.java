@@ -24,7 +24,7 @@ import java.nio.file.Path;
  * System.out.println(outcome.state().best().result().distance());
  * }</pre>
  *
- * <p>Bad input is an {@link io.natator.config.InvalidInputException}, a request that the simulator refuses a
+ * <p>Bad input is an {@link io.natator.base.InvalidInputException}, a request that the simulator refuses a
  * {@link io.natator.simulator.RequestRejectedException}, a run most of whose evaluations fail an
  * {@link io.natator.evolution.EvolutionFailedException}; each says in one line what is wrong. All methods throw
  * {@link InterruptedException} or {@link io.natator.evolution.EvolutionStoppedException} if the calling thread is
@@ -47,7 +47,7 @@ public final class Natator {
      * All processors, with processes kept alive and without a cache of evaluations; the simulator where
      * {@link SimulatorLocator} finds it.
      *
-     * @throws io.natator.config.InvalidInputException if it finds none
+     * @throws io.natator.base.InvalidInputException if it finds none
      */
     public static ExecutionSettings onThisMachine() {
         return ExecutionSettings.of(SimulatorLocator.locate(null));

@@ -1,10 +1,10 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.RequestRejectedException;

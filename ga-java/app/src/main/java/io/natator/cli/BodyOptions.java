@@ -1,10 +1,10 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.BodyEvolution;
 import io.natator.config.Evolved;
-import io.natator.config.InvalidInputException;
 import io.natator.simulator.SceneInfo;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;

@@ -1,12 +1,12 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.flow.WaterCheck;
 import io.natator.run.ControlRuns;

@@ -1,12 +1,12 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.compare.RunComparison;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.file.AtomicFile;
 import io.natator.run.EvolutionRun;

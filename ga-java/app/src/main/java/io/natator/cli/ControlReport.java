@@ -1,8 +1,8 @@
 package io.natator.cli;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Numbers;
 import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
 import java.util.stream.Collectors;

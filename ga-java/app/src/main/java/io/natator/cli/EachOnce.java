@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.HashSet;

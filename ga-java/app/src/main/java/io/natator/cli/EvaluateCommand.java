@@ -1,6 +1,9 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.MergePatch;
+import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
@@ -9,10 +12,7 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.MergePatch;
-import io.natator.config.Numbers;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -7,7 +8,6 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.config.Preset;
 import io.natator.file.OutputFolder;

@@ -1,9 +1,9 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.simulator.ProgramInfo;

@@ -1,8 +1,8 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.simulator.RefusedSceneException;
 import java.io.IOException;

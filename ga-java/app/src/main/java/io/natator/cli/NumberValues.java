@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.List;
 import picocli.CommandLine;
 import picocli.CommandLine.Model.ArgSpec;

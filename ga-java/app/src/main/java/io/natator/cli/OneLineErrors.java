@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.evolution.EvolutionFailedException;
 import io.natator.simulator.ProgramEnd;
 import io.natator.simulator.RequestRejectedException;

@@ -1,13 +1,13 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.MergePatch;
+import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
-import io.natator.config.InvalidInputException;
-import io.natator.config.MergePatch;
-import io.natator.config.Numbers;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.SceneDigest;
@@ -8,7 +9,6 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
 import java.nio.file.Path;

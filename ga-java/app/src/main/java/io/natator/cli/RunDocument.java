@@ -1,14 +1,14 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.body.BodyText;
 import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;

@@ -1,9 +1,9 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
-import io.natator.config.Numbers;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.GeneRange;
 import io.natator.evolution.EvolutionFailedException;

@@ -1,10 +1,10 @@
 package io.natator.cli;
 
+import io.natator.base.Numbers;
 import io.natator.body.BodyText;
 import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import io.natator.file.ShellWord;

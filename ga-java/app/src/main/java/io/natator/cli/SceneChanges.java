@@ -2,8 +2,8 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
 import java.nio.file.Files;

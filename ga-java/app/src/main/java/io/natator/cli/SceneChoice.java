@@ -1,7 +1,7 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Preset;
 import io.natator.simulator.RefusedSceneException;
 import java.nio.file.Path;

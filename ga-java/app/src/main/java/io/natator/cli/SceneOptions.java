@@ -1,7 +1,7 @@
 package io.natator.cli;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
-import io.natator.config.InvalidInputException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
@@ -10,7 +11,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;

@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;

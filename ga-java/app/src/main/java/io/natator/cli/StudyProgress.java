@@ -1,7 +1,7 @@
 package io.natator.cli;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.RunFolder;
-import io.natator.config.Numbers;
 import io.natator.evolution.Individual;
 import io.natator.run.EvolutionRun;
 import io.natator.run.RunQueue;

@@ -2,16 +2,16 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
-import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.RefusedSceneException;

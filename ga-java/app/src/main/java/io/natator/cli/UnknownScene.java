@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Preset;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.RefusedSceneException;

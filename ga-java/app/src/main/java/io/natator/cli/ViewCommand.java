@@ -1,14 +1,14 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;

@@ -1,6 +1,6 @@
 package io.natator.compare;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.List;
 import java.util.Objects;
 import java.util.stream.Stream;

@@ -1,6 +1,6 @@
 package io.natator.compare;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.Random;
 import java.util.function.Function;
 import org.apache.commons.statistics.descriptive.Median;

@@ -2,11 +2,11 @@ package io.natator.compare;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.Numbers;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import io.natator.evolution.Individual;
 import io.natator.run.FreshStarts;
 import io.natator.simulator.Evaluator;

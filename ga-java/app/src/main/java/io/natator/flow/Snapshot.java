@@ -1,6 +1,6 @@
 package io.natator.flow;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.file.CsvReader;
 import java.nio.file.Path;
 import java.util.ArrayList;

@@ -3,8 +3,8 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.Numbers;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;

@@ -1,6 +1,6 @@
 package io.natator.body;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;

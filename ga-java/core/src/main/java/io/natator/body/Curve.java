@@ -3,7 +3,7 @@ package io.natator.body;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.UnaryOperator;

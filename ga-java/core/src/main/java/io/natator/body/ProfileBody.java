@@ -6,8 +6,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import io.natator.config.InvalidInputException;
-import io.natator.config.MergePatch;
+import io.natator.base.InvalidInputException;
+import io.natator.base.MergePatch;
 import java.util.ArrayList;
 import java.util.List;
 

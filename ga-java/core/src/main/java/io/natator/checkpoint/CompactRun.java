@@ -1,6 +1,6 @@
 package io.natator.checkpoint;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;

@@ -38,7 +38,7 @@ public record Program(String version, String commit, String instructionSet, Back
     /**
      * The program of a run folder; null if the folder does not say.
      *
-     * @throws io.natator.config.InvalidInputException if {@code environment.json} is damaged
+     * @throws io.natator.base.InvalidInputException if {@code environment.json} is damaged
      */
     public static Program of(Path run) {
         Path file = run.resolve(RunFolder.ENVIRONMENT);

@@ -1,8 +1,8 @@
 package io.natator.checkpoint;
 
+import io.natator.base.Numbers;
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Numbers;
 import io.natator.config.SettingsChange;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Recorded;

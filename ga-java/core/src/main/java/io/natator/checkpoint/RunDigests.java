@@ -1,8 +1,8 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.file.AtomicFile;
 import io.natator.simulator.Sha256;

@@ -1,10 +1,10 @@
 package io.natator.checkpoint;
 
+import io.natator.base.InvalidInputException;
 import io.natator.body.Genome;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;

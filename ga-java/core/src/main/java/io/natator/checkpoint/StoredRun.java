@@ -2,11 +2,11 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;

@@ -1,7 +1,7 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SwimmingNumbers;

@@ -1,6 +1,7 @@
 package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.base.InvalidInputException;
 import io.natator.body.Genome;
 import io.natator.body.ProfileBody;
 import io.natator.encoding.Encoding;

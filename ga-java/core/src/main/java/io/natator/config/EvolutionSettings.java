@@ -2,6 +2,8 @@ package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.body.Genome;
 import io.natator.encoding.Encoding;
 import io.soabase.recordbuilder.core.RecordBuilder;

@@ -1,5 +1,6 @@
 package io.natator.config;
 
+import io.natator.base.InvalidInputException;
 import io.soabase.recordbuilder.core.RecordBuilder;
 import java.nio.file.Path;
 import java.time.Duration;

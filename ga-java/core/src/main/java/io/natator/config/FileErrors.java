@@ -1,5 +1,6 @@
 package io.natator.config;
 
+import io.natator.base.InvalidInputException;
 import java.io.IOException;
 import java.io.InputStream;
 import java.nio.ByteBuffer;

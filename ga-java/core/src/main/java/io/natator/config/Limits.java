@@ -1,5 +1,7 @@
 package io.natator.config;
 
+import io.natator.base.InvalidInputException;
+
 /** What a number that the user gives may be; far above all use, so that a slip of the keyboard is refused at once. */
 public final class Limits {
 

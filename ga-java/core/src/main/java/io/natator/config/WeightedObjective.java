@@ -1,6 +1,8 @@
 package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;

@@ -1,7 +1,7 @@
 package io.natator.encoding;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.Collections;
 import java.util.List;
 import java.util.Objects;

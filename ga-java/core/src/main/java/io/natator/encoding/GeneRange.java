@@ -1,6 +1,6 @@
 package io.natator.encoding;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import java.util.List;
 
 /**

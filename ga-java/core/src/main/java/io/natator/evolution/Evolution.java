@@ -1,9 +1,9 @@
 package io.natator.evolution;
 
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
-import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;

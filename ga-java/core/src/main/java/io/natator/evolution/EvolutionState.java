@@ -1,9 +1,9 @@
 package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
-import io.natator.config.Numbers;
 import java.util.List;
 import java.util.Objects;
 

@@ -1,8 +1,8 @@
 package io.natator.file;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import java.io.ByteArrayOutputStream;

@@ -1,7 +1,7 @@
 package io.natator.file;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.FileErrors;
-import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;

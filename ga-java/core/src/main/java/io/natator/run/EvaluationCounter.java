@@ -1,9 +1,9 @@
 package io.natator.run;
 
+import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
-import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;

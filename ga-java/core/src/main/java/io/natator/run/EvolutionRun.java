@@ -1,5 +1,6 @@
 package io.natator.run;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
@@ -10,7 +11,6 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
-import io.natator.config.InvalidInputException;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
@@ -54,7 +54,7 @@ public final class EvolutionRun {
     /**
      * The execution with a time limit that suits the scene, if it has none.
      *
-     * @throws io.natator.config.InvalidInputException if the simulator does not know the scene
+     * @throws io.natator.base.InvalidInputException if the simulator does not know the scene
      * @throws InterruptedException                    if the calling thread is interrupted
      */
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)

@@ -1,10 +1,10 @@
 package io.natator.run;
 
+import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.SettingsChange;
 import java.nio.file.Path;
 

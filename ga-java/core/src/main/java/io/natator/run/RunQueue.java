@@ -17,7 +17,7 @@ public final class RunQueue {
      * A queue in which the runs are begun in this order. Writes nothing.
      *
      * @param simulator the native program, which knows the scenes
-     * @throws io.natator.config.InvalidInputException if a scene was changed since a run in it was begun that is to go on
+     * @throws io.natator.base.InvalidInputException if a scene was changed since a run in it was begun that is to go on
      * @throws InterruptedException                    if the calling thread is interrupted
      */
     public RunQueue(List<PlannedRun> runs, Path simulator) throws InterruptedException {

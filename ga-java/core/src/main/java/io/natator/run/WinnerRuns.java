@@ -2,11 +2,11 @@ package io.natator.run;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.config.MergePatch;
 import io.natator.evolution.Starts;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;

@@ -1,7 +1,7 @@
 package io.natator.simulator;
 
+import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Numbers;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;

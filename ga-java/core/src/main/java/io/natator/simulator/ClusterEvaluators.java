@@ -1,7 +1,7 @@
 package io.natator.simulator;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import java.util.ServiceLoader;
 
 /** What opens evaluators of mode spark: a service, so that this module needs nothing of Apache Spark. */

@@ -58,7 +58,7 @@ public interface Evaluator extends AutoCloseable {
      * The evaluator that these settings ask for.
      *
      * @param execution with a time limit
-     * @throws io.natator.config.InvalidInputException if this program cannot do it, or a cluster is not to be had
+     * @throws io.natator.base.InvalidInputException if this program cannot do it, or a cluster is not to be had
      */
     static Evaluator open(ExecutionSettings execution) {
         return switch (execution.mode()) {

@@ -1,6 +1,6 @@
 package io.natator.simulator;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import java.util.Arrays;
 import java.util.stream.Collectors;
 

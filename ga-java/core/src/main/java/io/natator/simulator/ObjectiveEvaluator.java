@@ -1,6 +1,6 @@
 package io.natator.simulator;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Objective;
 import io.natator.config.WeightedObjective;
 import java.util.List;

@@ -3,7 +3,7 @@ package io.natator.simulator;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.core.JsonProcessingException;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
 import java.nio.file.Path;
 import java.time.Duration;

@@ -1,6 +1,6 @@
 package io.natator.simulator;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 
 /** The simulator works, but does not take a scene; the message says why. */
 public final class RefusedSceneException extends InvalidInputException {

@@ -1,6 +1,6 @@
 package io.natator.simulator;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import java.net.URISyntaxException;
 import java.nio.file.Files;
 import java.nio.file.Path;

@@ -1,8 +1,8 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Numbers;
 import java.util.ArrayList;
 import java.util.List;
 

@@ -1,7 +1,7 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.Convergence;
-import io.natator.config.Numbers;
 import io.natator.simulator.FinerLevel;
 import java.util.List;
 import java.util.function.DoubleUnaryOperator;

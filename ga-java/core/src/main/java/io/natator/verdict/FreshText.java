@@ -1,11 +1,11 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Judge;
-import io.natator.config.Numbers;
 import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;

@@ -1,11 +1,11 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.List;

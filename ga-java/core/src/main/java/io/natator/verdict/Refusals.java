@@ -1,6 +1,6 @@
 package io.natator.verdict;
 
-import io.natator.config.Numbers;
+import io.natator.base.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import java.util.ArrayList;

@@ -1,10 +1,10 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Program;
 import io.natator.checkpoint.SceneDigest;
 import io.natator.config.Backend;
-import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Path;
 

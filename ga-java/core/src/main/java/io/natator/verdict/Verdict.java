@@ -2,11 +2,11 @@ package io.natator.verdict;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
+import io.natator.base.Numbers;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
 import java.util.Locale;

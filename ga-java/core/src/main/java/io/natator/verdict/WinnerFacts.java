@@ -1,10 +1,10 @@
 package io.natator.verdict;
 
+import io.natator.base.Numbers;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SwimmingNumbers;
 import java.nio.file.Path;

@@ -3,6 +3,7 @@ package io.natator.body;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.config.BodyEvolution;
@@ -10,7 +11,6 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;

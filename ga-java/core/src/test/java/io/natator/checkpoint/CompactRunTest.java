@@ -3,10 +3,10 @@ package io.natator.checkpoint;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Judge;
 import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;

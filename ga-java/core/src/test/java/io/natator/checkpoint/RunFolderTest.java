@@ -4,9 +4,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.InvalidInputException;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;

@@ -4,11 +4,11 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
-import io.natator.config.Judge;
 import io.natator.config.Json;
+import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;

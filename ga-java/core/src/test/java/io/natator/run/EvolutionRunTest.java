@@ -4,6 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.base.InvalidInputException;
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
@@ -15,7 +16,6 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Judge;
 import io.natator.config.Objective;

@@ -4,9 +4,9 @@ import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.simulator.SimulationResult.Status;
 import java.io.IOException;

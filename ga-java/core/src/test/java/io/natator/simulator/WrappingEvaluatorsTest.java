@@ -3,7 +3,7 @@ package io.natator.simulator;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.WeightedObjective;
 import java.util.List;
 import java.util.function.Consumer;

@@ -1,8 +1,8 @@
 package io.natator.spark;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.simulator.Sha256;
 import java.io.IOException;
 import java.io.UncheckedIOException;

@@ -1,8 +1,8 @@
 package io.natator.spark;
 
+import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.simulator.BatchSimulator;
 import io.natator.simulator.ProcessSimulator;

@@ -27,7 +27,7 @@ final class SceneFiles {
     /**
      * The request with the name of such a file as its scene.
      *
-     * @throws io.natator.config.InvalidInputException if the simulator does not know the scene
+     * @throws io.natator.base.InvalidInputException if the simulator does not know the scene
      */
     SimulationRequest sent(SimulationRequest request) throws InterruptedException {
         return withScene(request, file(request.scene(), request.overrides()));

@@ -1,10 +1,10 @@
 package io.natator.spark;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.base.Numbers;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProcessSimulator;
 import io.natator.simulator.ProgramEnd;

@@ -1,9 +1,9 @@
 package io.natator.replay;
 
-import io.natator.config.InvalidInputException;
-import io.natator.file.OutputFile;
+import io.natator.base.InvalidInputException;
+import io.natator.base.Numbers;
 import io.natator.config.Json;
-import io.natator.config.Numbers;
+import io.natator.file.OutputFile;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;

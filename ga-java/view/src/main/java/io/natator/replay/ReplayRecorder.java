@@ -1,6 +1,6 @@
 package io.natator.replay;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamMessage;

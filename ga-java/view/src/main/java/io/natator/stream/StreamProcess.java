@@ -1,7 +1,7 @@
 package io.natator.stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.simulator.ErrorTail;
 import io.natator.simulator.ProcessGroup;
 import io.natator.simulator.RefusedSceneException;

@@ -1,12 +1,12 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.MergePatch;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.MergePatch;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
@@ -68,7 +68,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     /**
      * Reads a run folder as it is now; a run may be under way in it.
      *
-     * @throws io.natator.config.InvalidInputException if a file in it is damaged
+     * @throws io.natator.base.InvalidInputException if a file in it is damaged
      */
     static RunAnswer of(int id, StoredRun run) {
         EvolutionSettings settings = run.settings();

@@ -1,7 +1,7 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;

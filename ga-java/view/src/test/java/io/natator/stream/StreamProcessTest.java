@@ -4,7 +4,7 @@ import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Scheme;
 import io.natator.simulator.RequestRejectedException;
 import java.io.IOException;

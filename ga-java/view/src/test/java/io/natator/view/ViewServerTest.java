@@ -4,7 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.config.InvalidInputException;
+import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.io.UncheckedIOException;

@@ -1,4 +1,4 @@
-package io.natator.config;
+package io.natator.base;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

@@ -1,4 +1,4 @@
-package io.natator.config;
+package io.natator.base;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;

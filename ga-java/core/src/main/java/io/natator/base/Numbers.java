@@ -1,4 +1,4 @@
-package io.natator.config;
+package io.natator.base;
 
 import java.math.BigDecimal;
 import java.math.MathContext;

@@ -1,4 +1,4 @@
-package io.natator.config;
+package io.natator.base;
 
 /** Bad usage or input: the message is one line that says what, where and what was expected. Exit status 2. */
 public class InvalidInputException extends RuntimeException {

@@ -1,0 +1,2 @@
+/** What all packages may use and that uses none of them: numbers as text, bad input, patches of JSON. */
+package io.natator.base;
