@@ -5,13 +5,13 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
+import io.natator.process.Evaluator;
+import io.natator.process.SceneInfo;
+import io.natator.process.SimulatorLocator;
+import io.natator.process.TimeLimit;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
 import io.natator.run.EvolutionRun;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.SimulatorLocator;
-import io.natator.simulator.TimeLimit;
 import java.nio.file.Path;
 
 /**
@@ -25,7 +25,7 @@ import java.nio.file.Path;
  * }</pre>
  *
  * <p>Bad input is an {@link io.natator.base.InvalidInputException}, a request that the simulator refuses a
- * {@link io.natator.simulator.RequestRejectedException}, a run most of whose evaluations fail an
+ * {@link io.natator.protocol.RequestRejectedException}, a run most of whose evaluations fail an
  * {@link io.natator.evolution.EvolutionFailedException}; each says in one line what is wrong. All methods throw
  * {@link InterruptedException} or {@link io.natator.evolution.EvolutionStoppedException} if the calling thread is
  * interrupted; a run can then be continued.

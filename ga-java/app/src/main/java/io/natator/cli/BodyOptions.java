@@ -5,7 +5,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.BodyEvolution;
 import io.natator.config.Evolved;
-import io.natator.simulator.SceneInfo;
+import io.natator.process.SceneInfo;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;
 

@@ -3,9 +3,9 @@ package io.natator.cli;
 import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.EvolutionFailedException;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
+import io.natator.process.Evaluator;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.stream.LongStream;
 

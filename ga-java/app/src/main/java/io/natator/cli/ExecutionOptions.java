@@ -6,7 +6,7 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
-import io.natator.simulator.ProgramInfo;
+import io.natator.process.ProgramInfo;
 import java.time.Duration;
 import java.util.List;
 import picocli.CommandLine.Mixin;

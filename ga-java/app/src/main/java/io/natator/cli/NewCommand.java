@@ -4,7 +4,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
-import io.natator.simulator.RefusedSceneException;
+import io.natator.protocol.RefusedSceneException;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.UncheckedIOException;

@@ -2,8 +2,8 @@ package io.natator.cli;
 
 import io.natator.base.InvalidInputException;
 import io.natator.evolution.EvolutionFailedException;
-import io.natator.simulator.ProgramEnd;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.process.ProgramEnd;
+import io.natator.protocol.RequestRejectedException;
 import java.io.UncheckedIOException;
 import java.nio.file.InvalidPathException;
 import java.util.regex.Pattern;

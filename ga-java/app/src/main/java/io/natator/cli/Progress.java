@@ -5,7 +5,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.io.PrintStream;
 import java.io.PrintWriter;
 import java.util.Locale;

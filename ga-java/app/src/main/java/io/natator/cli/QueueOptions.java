@@ -5,9 +5,9 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
+import io.natator.process.Evaluator;
 import io.natator.run.EvolutionRun;
 import io.natator.run.RunQueue;
-import io.natator.simulator.Evaluator;
 import java.io.PrintWriter;
 import picocli.CommandLine.Option;
 

@@ -12,7 +12,7 @@ import io.natator.config.Json;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
-import io.natator.simulator.SimulationRequest;
+import io.natator.protocol.SimulationRequest;
 import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Measure;

@@ -8,7 +8,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import io.natator.file.ShellWord;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Refusals;
 import io.natator.verdict.Verdict;

@@ -3,7 +3,7 @@ package io.natator.cli;
 import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Preset;
-import io.natator.simulator.RefusedSceneException;
+import io.natator.protocol.RefusedSceneException;
 import java.nio.file.Path;
 import java.util.Arrays;
 import picocli.CommandLine.Model.CommandSpec;

@@ -18,7 +18,7 @@ import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
 import io.natator.evolution.Recorded;
 import io.natator.file.ShellWord;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.ConvergenceText;
 import java.io.PrintWriter;

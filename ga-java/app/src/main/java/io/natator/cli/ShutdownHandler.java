@@ -4,8 +4,8 @@ import io.natator.base.Numbers;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.ProgramEnd;
+import io.natator.process.Evaluator;
+import io.natator.process.ProgramEnd;
 
 /**
  * Ends evolutions early, after a time or when this program is told to end: it closes their evaluator. Then they stop

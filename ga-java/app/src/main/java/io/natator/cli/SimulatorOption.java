@@ -1,7 +1,7 @@
 package io.natator.cli;
 
 import io.natator.cli.Section.Topic;
-import io.natator.simulator.SimulatorLocator;
+import io.natator.process.SimulatorLocator;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;
 

@@ -2,9 +2,9 @@ package io.natator.cli;
 
 import io.natator.base.InvalidInputException;
 import io.natator.config.Preset;
-import io.natator.simulator.ProgramInfo;
-import io.natator.simulator.RefusedSceneException;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.process.ProgramInfo;
+import io.natator.protocol.RefusedSceneException;
+import io.natator.protocol.RequestRejectedException;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;

@@ -3,7 +3,7 @@ package io.natator.compare;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.WeightedObjective;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.Collection;
 import java.util.HashSet;
 import java.util.List;

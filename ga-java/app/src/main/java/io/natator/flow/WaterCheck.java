@@ -1,8 +1,8 @@
 package io.natator.flow;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.TrajectoryRecorder;
+import io.natator.process.TrajectoryRecorder;
+import io.natator.protocol.SimulationRequest;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;

@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.simulator.FakeSimulator;
+import io.natator.process.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;

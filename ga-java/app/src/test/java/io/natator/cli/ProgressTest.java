@@ -9,7 +9,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.io.ByteArrayOutputStream;
 import java.io.PrintStream;
 import java.io.PrintWriter;

@@ -8,7 +8,7 @@ import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
-import io.natator.simulator.ProgramInfo;
+import io.natator.process.ProgramInfo;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;

@@ -5,7 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.JavaCommand;
 import io.natator.config.Json;
-import io.natator.simulator.FakeSimulator;
+import io.natator.process.FakeSimulator;
 import java.io.BufferedReader;
 import java.io.IOException;
 import java.io.PrintWriter;

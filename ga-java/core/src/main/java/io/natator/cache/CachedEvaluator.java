@@ -1,9 +1,9 @@
 package io.natator.cache;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
+import io.natator.process.Evaluator;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -32,7 +32,7 @@ public final class CachedEvaluator implements Evaluator {
      * Wraps an evaluator, which is closed with this one.
      *
      * @param execution how the evaluator works
-     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
     public CachedEvaluator(Evaluator evaluator, EvaluationCache cache, ExecutionSettings execution)

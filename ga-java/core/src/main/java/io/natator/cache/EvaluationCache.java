@@ -1,10 +1,10 @@
 package io.natator.cache;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.base.Sha256;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
-import io.natator.simulator.Sha256;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.nio.charset.CharacterCodingException;
 import java.nio.file.Files;

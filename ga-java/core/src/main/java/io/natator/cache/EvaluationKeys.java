@@ -1,14 +1,14 @@
 package io.natator.cache;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.base.Sha256;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
-import io.natator.simulator.ProgramInfo;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SceneMemory;
-import io.natator.simulator.Sha256;
-import io.natator.simulator.SimulationRequest;
+import io.natator.process.ProgramInfo;
+import io.natator.process.SceneInfo;
+import io.natator.process.SceneMemory;
+import io.natator.protocol.SimulationRequest;
 import java.nio.file.Path;
 import java.util.Map;
 import java.util.TreeMap;

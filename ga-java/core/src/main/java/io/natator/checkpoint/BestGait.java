@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.Objects;
 

@@ -45,7 +45,7 @@ public record Environment(String natator, String simulator, String simulatorSha2
      * @param sceneSha256 digest of the run's scene, or null
      * @param settings    of the run, or null
      *
-     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Environment present(ExecutionSettings execution, String sceneSha256, EvolutionSettings settings)

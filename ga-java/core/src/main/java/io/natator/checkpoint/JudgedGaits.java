@@ -6,7 +6,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.evolution.Estimate;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.Surest;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashMap;

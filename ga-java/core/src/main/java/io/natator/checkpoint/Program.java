@@ -1,10 +1,10 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
+import io.natator.base.Sha256;
 import io.natator.config.Backend;
 import io.natator.config.Json;
-import io.natator.simulator.ProgramInfo;
-import io.natator.simulator.Sha256;
+import io.natator.process.ProgramInfo;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;

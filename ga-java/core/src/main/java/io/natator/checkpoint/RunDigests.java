@@ -2,10 +2,10 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
+import io.natator.base.Sha256;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
 import io.natator.file.AtomicFile;
-import io.natator.simulator.Sha256;
 import java.io.BufferedReader;
 import java.io.IOException;
 import java.io.RandomAccessFile;

@@ -15,7 +15,7 @@ import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
 import io.natator.file.OutputFolder;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;

@@ -4,10 +4,10 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.InvalidInputException;
+import io.natator.base.Sha256;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.Sha256;
+import io.natator.process.SceneInfo;
 import java.nio.file.Path;
 import java.util.Objects;
 
@@ -25,7 +25,7 @@ public final class SceneDigest {
      * @param simulator the native program
      * @return SHA-256 in hexadecimal digits
      * @throws InvalidInputException                         if the simulator does not know the scene
-     * @throws io.natator.simulator.RequestRejectedException if it cannot be run
+     * @throws io.natator.protocol.RequestRejectedException if it cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {

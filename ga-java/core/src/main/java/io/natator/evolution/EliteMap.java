@@ -1,6 +1,6 @@
 package io.natator.evolution;
 
-import io.natator.simulator.Effort;
+import io.natator.protocol.Effort;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.IntSummaryStatistics;

@@ -2,7 +2,7 @@ package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.Objects;
 

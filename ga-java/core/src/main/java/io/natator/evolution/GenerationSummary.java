@@ -2,7 +2,7 @@ package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonPropertyOrder;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;

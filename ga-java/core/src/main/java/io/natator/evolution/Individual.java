@@ -1,8 +1,8 @@
 package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
-import io.natator.simulator.Effort;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.Effort;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.Objects;
 

@@ -1,7 +1,7 @@
 package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.Comparator;

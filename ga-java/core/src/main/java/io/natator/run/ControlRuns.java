@@ -9,11 +9,11 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.ProgramInfo;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.VacuumRequests;
+import io.natator.process.Evaluator;
+import io.natator.process.ProgramInfo;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
 

@@ -16,14 +16,14 @@ import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
-import io.natator.simulator.BodyCheckEvaluator;
-import io.natator.simulator.EffortEvaluator;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.NetEvaluator;
-import io.natator.simulator.ObjectiveEvaluator;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.TimeLimit;
+import io.natator.fitness.BodyCheckEvaluator;
+import io.natator.fitness.EffortEvaluator;
+import io.natator.fitness.NetEvaluator;
+import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.process.Evaluator;
+import io.natator.process.SceneInfo;
+import io.natator.process.TimeLimit;
+import io.natator.protocol.SimulationResult;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
@@ -79,7 +79,7 @@ public final class EvolutionRun {
      * runs can share it.
      *
      * @param execution with a time limit
-     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Evaluator open(ExecutionSettings execution) throws InterruptedException {

@@ -1,7 +1,7 @@
 package io.natator.run;
 
 import io.natator.evolution.EvolutionStoppedException;
-import io.natator.simulator.Evaluator;
+import io.natator.process.Evaluator;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.ConcurrentLinkedQueue;

@@ -4,7 +4,7 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
-import io.natator.simulator.Evaluator;
+import io.natator.process.Evaluator;
 import java.nio.file.Path;
 import java.util.List;
 

@@ -8,11 +8,11 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.evolution.Individual;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.RequestRejectedException;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.VacuumRequests;
+import io.natator.process.Evaluator;
+import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
 

@@ -2,7 +2,7 @@ package io.natator.verdict;
 
 import io.natator.base.Numbers;
 import io.natator.checkpoint.Convergence;
-import io.natator.simulator.FinerLevel;
+import io.natator.protocol.FinerLevel;
 import java.util.List;
 import java.util.function.DoubleUnaryOperator;
 import java.util.stream.Collectors;

@@ -6,7 +6,7 @@ import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.List;
 

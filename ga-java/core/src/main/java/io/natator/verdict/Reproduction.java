@@ -5,7 +5,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Program;
 import io.natator.checkpoint.SceneDigest;
 import io.natator.config.Backend;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
 
 /** Whether a program of today repeats what a run folder has stored of its best gait. */

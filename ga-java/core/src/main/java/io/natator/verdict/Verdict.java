@@ -7,7 +7,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.Locale;
 

@@ -2,9 +2,9 @@ package io.natator.cache;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.SimulationResult.Status;
-import io.natator.simulator.SwimmingNumbers;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResult.Status;
+import io.natator.protocol.SwimmingNumbers;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;

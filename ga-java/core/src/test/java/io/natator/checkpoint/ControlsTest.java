@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;

@@ -4,7 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.config.Judge;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import io.natator.verdict.FreshText;
 import java.util.List;
 import org.junit.jupiter.params.ParameterizedTest;

@@ -1,18 +1,18 @@
 package io.natator.evolution;
 
-import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
-import static io.natator.simulator.Processes.assertThatOpenFilesAreAtMost;
-import static io.natator.simulator.Processes.openFiles;
+import static io.natator.process.Processes.assertThatNoChildIsLeft;
+import static io.natator.process.Processes.assertThatOpenFilesAreAtMost;
+import static io.natator.process.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.SimulationResult.Status;
+import io.natator.process.Evaluator;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResult.Status;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;

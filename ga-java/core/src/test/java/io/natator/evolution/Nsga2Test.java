@@ -10,9 +10,9 @@ import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.simulator.ObjectiveEvaluator;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.WorkerPool;
+import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.process.WorkerPool;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 

@@ -3,10 +3,10 @@ package io.natator.evolution;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
-import io.natator.simulator.EffortEvaluator;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.ObjectiveEvaluator;
-import io.natator.simulator.WorkerPool;
+import io.natator.fitness.EffortEvaluator;
+import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.process.Evaluator;
+import io.natator.process.WorkerPool;
 import java.util.ArrayList;
 import java.util.List;
 

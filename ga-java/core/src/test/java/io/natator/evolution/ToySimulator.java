@@ -1,10 +1,10 @@
 package io.natator.evolution;
 
 import io.natator.encoding.Gait;
-import io.natator.simulator.Course;
-import io.natator.simulator.SimulationRequest;
-import io.natator.simulator.SimulationResult;
-import io.natator.simulator.Simulator;
+import io.natator.process.Simulator;
+import io.natator.protocol.Course;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
 import java.util.SplittableRandom;
 import java.util.concurrent.atomic.AtomicInteger;
 

@@ -5,7 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;

@@ -12,7 +12,7 @@ import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Judge;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.jupiter.api.Test;

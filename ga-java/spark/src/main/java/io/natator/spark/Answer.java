@@ -1,6 +1,6 @@
 package io.natator.spark;
 
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.List;
 
 /**

@@ -1,9 +1,9 @@
 package io.natator.spark;
 
 import io.natator.base.InvalidInputException;
+import io.natator.base.Sha256;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.simulator.Sha256;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;

@@ -1,7 +1,7 @@
 package io.natator.spark;
 
 import io.natator.config.Backend;
-import io.natator.simulator.SimulationRequest;
+import io.natator.protocol.SimulationRequest;
 
 /**
  * What an executor has to know besides the requests; crosses the wire as JSON.

@@ -1,7 +1,6 @@
 package io.natator.spark;
 
-import io.natator.simulator.PartSize;
-import io.natator.simulator.SimulationRequest;
+import io.natator.protocol.SimulationRequest;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;

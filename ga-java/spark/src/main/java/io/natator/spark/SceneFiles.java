@@ -1,8 +1,8 @@
 package io.natator.spark;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationRequest;
+import io.natator.process.SceneInfo;
+import io.natator.protocol.SimulationRequest;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;

@@ -1,6 +1,6 @@
 package io.natator.spark;
 
-import io.natator.simulator.Sha256;
+import io.natator.base.Sha256;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.Set;

@@ -1,8 +1,8 @@
 package io.natator.spark;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.simulator.ClusterEvaluators;
-import io.natator.simulator.Evaluator;
+import io.natator.process.ClusterEvaluators;
+import io.natator.process.Evaluator;
 
 /** Opens evaluators on the cluster of this program. */
 public final class SparkEvaluators implements ClusterEvaluators {

@@ -3,7 +3,7 @@ package io.natator.spark;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.cli.Main;
-import io.natator.simulator.FakeSimulator;
+import io.natator.process.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;

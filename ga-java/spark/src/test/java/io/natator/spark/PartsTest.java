@@ -5,7 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import io.natator.encoding.Gait;
-import io.natator.simulator.SimulationRequest;
+import io.natator.protocol.SimulationRequest;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;

@@ -2,10 +2,10 @@ package io.natator.stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
-import io.natator.simulator.ErrorTail;
-import io.natator.simulator.ProcessGroup;
-import io.natator.simulator.RefusedSceneException;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.process.ErrorTail;
+import io.natator.process.ProcessGroup;
+import io.natator.protocol.RefusedSceneException;
+import io.natator.protocol.RequestRejectedException;
 import java.io.BufferedInputStream;
 import java.io.IOException;
 import java.io.InterruptedIOException;

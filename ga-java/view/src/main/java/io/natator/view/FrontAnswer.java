@@ -8,7 +8,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Objective;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;

@@ -11,7 +11,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
-import io.natator.simulator.SimulationResult;
+import io.natator.protocol.SimulationResult;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
 import java.nio.file.Path;

@@ -3,7 +3,7 @@ package io.natator.view;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.kinematics.FishMode;
-import io.natator.simulator.ProgramInfo;
+import io.natator.process.ProgramInfo;
 import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.List;

@@ -3,7 +3,7 @@ package io.natator.view;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.protocol.RequestRejectedException;
 import io.natator.stream.StreamException;
 import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamProcess;

@@ -1,12 +1,12 @@
 package io.natator.stream;
 
-import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static io.natator.process.Processes.assertThatNoChildIsLeft;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.base.InvalidInputException;
 import io.natator.config.Scheme;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.protocol.RequestRejectedException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;

@@ -6,7 +6,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.simulator.Processes;
+import io.natator.process.Processes;
 import java.nio.ByteBuffer;
 import java.time.Duration;
 import java.util.ArrayList;

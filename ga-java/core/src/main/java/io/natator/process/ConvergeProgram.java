@@ -1,0 +1,101 @@
+package io.natator.process;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
+import io.natator.protocol.FinerLevel;
+import io.natator.protocol.RefusedSceneException;
+import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulatorFailure;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Consumer;
+import java.util.stream.Collectors;
+
+/** Asks {@code natator-sim converge} how far a swim depends on the sizes of its steps. */
+public final class ConvergeProgram {
+
+    /** Half the spacing takes eight times as many particles. */
+    private static final int TIMES_AS_LONG = 16;
+    /** It has an answer, without the runs that became unstable. */
+    private static final int UNSTABLE = 3;
+    private static final String PROGRESS = NativeProgram.Output.NAME + NativeProgram.Output.PROGRESS;
+
+    private final ExecutionSettings execution;
+
+    /** Who is told of the program's work while it lasts. */
+    public interface Listener {
+
+        /** A run has ended; which, and how far it came. */
+        void ran(String run);
+
+        /** A line of the table for people, which comes at the end. */
+        void table(String line);
+    }
+
+    /**
+     * Of an execution.
+     *
+     * @param execution with a time limit for one evaluation; each run has as many threads as it has workers
+     */
+    public ConvergeProgram(ExecutionSettings execution) {
+        this.execution = execution;
+    }
+
+    /**
+     * Runs a swim as it is asked for and at finer levels, all from the same starts.
+     *
+     * @param starts how many, at least 2
+     * @param levels beside its own, each once
+     * @return what the program says, see sim-native/protocol/converge.md
+     * @throws RefusedSceneException    if the program refuses that
+     * @throws RequestRejectedException if it fails
+     * @throws InterruptedException     if the calling thread is interrupted
+     */
+    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
+        return call(request, starts, levels, List.of(), line -> { });
+    }
+
+    /**
+     * The same, telling of it while it lasts and keeping each run.
+     *
+     * @param runs     gets a line for each run; those that it has already are not done again
+     * @param listener called in another thread
+     */
+    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs, Listener listener)
+            throws InterruptedException {
+        Consumer<String> lines = line -> {
+            if (line.startsWith(PROGRESS)) {
+                listener.ran(line.substring(PROGRESS.length()));
+            } else if (!line.startsWith(NativeProgram.Output.NAME)) {
+                listener.table(line);
+            }
+        };
+        return call(request, starts, levels, List.of("--output", runs.toString()), lines);
+    }
+
+    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more, Consumer<String> lines)
+            throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
+                "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend", execution.backend().argument()));
+        arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
+                : List.of("--device", "" + execution.device()));
+        arguments.addAll(more);
+        Duration limit = execution.timeout().multipliedBy((long) TIMES_AS_LONG * starts * (1 + levels.size()));
+        String subject = "scene " + request.scene() + " at other levels";
+        try (NativeProgram program = new NativeProgram(execution.simulator(), limit)) {
+            NativeProgram.Output output = program.call(arguments, "", lines);
+            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
+                throw output.failure(subject);
+            }
+            return Json.parse(output.text(), JsonNode.class);
+        } catch (SimulatorFailure | JsonProcessingException e) {
+            throw new RequestRejectedException(subject + ": " + e.getMessage(), false);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+package io.natator.process;
+
+import io.natator.config.ExecutionSettings;
+import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Consumer;
+
+/**
+ * Carries out evaluations, many at a time. Takes calls from several threads at once; the results depend on nothing but
+ * the requests.
+ */
+public interface Evaluator extends AutoCloseable {
+
+    /**
+     * Evaluates all requests. What goes wrong in one evaluation alone (a crash, a hang, garbage) is not an exception
+     * but a result with {@link SimulationResult.Status#FAILED}.
+     *
+     * @param requests each with an id of its own
+     * @param whenDone called on the calling thread for each result as soon as it is there, in any order
+     * @throws RequestRejectedException if the simulator refuses a request or cannot be started; the other evaluations
+     *                                  are abandoned
+     * @throws InterruptedException     if the calling thread is interrupted or this evaluator is closed; the
+     *                                  evaluations are abandoned
+     */
+    void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
+            throws InterruptedException;
+
+    /** Abandons evaluations that are under way, whose callers get an {@link InterruptedException}. */
+    @Override
+    void close();
+
+    /**
+     * As {@link #evaluateAll}, with the results in the order of the requests: each as soon as it and all before it are
+     * there. So nothing after this point can depend on the number of workers.
+     */
+    default void evaluateInOrder(List<SimulationRequest> requests, Consumer<SimulationResult> inOrder)
+            throws InterruptedException {
+        Map<Long, SimulationResult> early = new HashMap<>();
+        int[] next = {0};
+        evaluateAll(requests, result -> {
+            early.put(result.id(), result);
+            while (next[0] < requests.size() && early.containsKey(requests.get(next[0]).id())) {
+                inOrder.accept(early.remove(requests.get(next[0]++).id()));
+            }
+        });
+    }
+
+    /** One evaluation. */
+    default SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+        List<SimulationResult> results = new ArrayList<>();
+        evaluateAll(List.of(request), results::add);
+        return results.get(0);
+    }
+
+    /**
+     * The evaluator that these settings ask for.
+     *
+     * @param execution with a time limit
+     * @throws io.natator.base.InvalidInputException if this program cannot do it, or a cluster is not to be had
+     */
+    static Evaluator open(ExecutionSettings execution) {
+        return switch (execution.mode()) {
+            case PROCESS -> new WorkerPool(new ProcessSimulator(execution), execution.workers());
+            case RESIDENT -> new WorkerPool(new ResidentSimulator(execution), execution.workers());
+            case BATCH -> new BatchSimulator(execution);
+            case SPARK -> ClusterEvaluators.open(execution);
+        };
+    }
+}

@@ -1,0 +1,69 @@
+package io.natator.protocol;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.base.MergePatch;
+import io.natator.body.Swimmer;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.soabase.recordbuilder.core.RecordBuilder;
+
+/**
+ * What to simulate; the JSON form is {@code sim-native/protocol/request.schema.json}.
+ *
+ * @param id           repeated in the result, at least 0
+ * @param scene        named scene or path of a scene file
+ * @param gait         how the muscles move, or null for a scene without actuators
+ * @param duration     simulated time in seconds, or null for the scene's own
+ * @param scheme       or null for the scene's own
+ * @param overrides    JSON Merge Patch on the scene, or null
+ * @param perturbation shift of the starting positions, or null for none
+ * @param start        which of many starts, at least 0, or null for the scene's own; not together with a perturbation
+ */
+@JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
+public record SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme,
+        JsonNode overrides, Perturbation perturbation, Integer start)
+        implements SimulationRequestBuilder.With {
+
+    /** A request that leaves the starting positions as they are. */
+    public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
+        this(id, scene, gait, duration, scheme, overrides, null, null);
+    }
+
+    /** A request from the scene's own start, with its positions shifted. */
+    public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides,
+            Perturbation perturbation) {
+        this(id, scene, gait, duration, scheme, overrides, perturbation, null);
+    }
+
+    /** A gait in a scene as it is, or null where nothing has muscles. */
+    public static SimulationRequest of(String scene, Gait gait) {
+        return new SimulationRequest(0, scene, gait, null, null, null);
+    }
+
+    /**
+     * What a run asks of a swimmer, from the scene's own start.
+     *
+     * @param settings of the run
+     */
+    public static SimulationRequest of(long id, EvolutionSettings settings, Swimmer swimmer) {
+        return new SimulationRequest(id, settings.scene(), swimmer.gait(), settings.duration(), settings.scheme(),
+                MergePatch.both(settings.overrides(), swimmer.body()));
+    }
+
+    /** This request in a scene that is changed further; null for no change. */
+    public SimulationRequest withChange(JsonNode change) {
+        return withOverrides(MergePatch.both(overrides, change));
+    }
+
+    /** This request without early stops: neither a wall nor lack of progress ends it. Arriving at a goal that stops still does. */
+    public SimulationRequest withoutStops() {
+        ObjectNode patch = JsonNodeFactory.instance.objectNode();
+        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
+        return withChange(patch);
+    }
+}

@@ -1,0 +1,198 @@
+package io.natator.process;
+
+import static io.natator.process.Processes.assertThatNoChildIsLeft;
+import static io.natator.process.Processes.assertThatOpenFilesAreAtMost;
+import static io.natator.process.Processes.openFiles;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.ExecutionSettings;
+import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResult.Status;
+import io.natator.protocol.SwimmingNumbers;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ProcessSimulatorTest {
+
+    /** For an answer, s; reached by failures only. */
+    private static final double PATIENCE = 300;
+
+    @TempDir
+    private Path folder;
+
+    private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+            return simulator.evaluate(FakeSimulator.request(7, scene));
+        }
+    }
+
+    @Test
+    void readsAResultAndIgnoresUnknownFields() throws InterruptedException {
+        SimulationResult result = evaluate("thesis/creature-1", PATIENCE);
+
+        assertThat(result).isEqualTo(new SimulationResult(7L, Status.OK, -1.3925, "completed", 4.0, 240, "flex",
+                "float", "0000000052ffdd20", null, null));
+        assertThat(result.fitness()).isZero();
+        assertThat(result.speed()).isEqualTo(-1.3925 / 4);
+    }
+
+    @Test
+    void readsTheMechanicsOfASwim() throws InterruptedException {
+        SimulationResult result = evaluate("pool/creature-1", PATIENCE);
+
+        assertThat(result.swimming()).isEqualTo(new SwimmingNumbers(0.25, 0.3125, 131.4, 409.6, null, null));
+        assertThat(result.work()).isEqualTo(0.75);
+        assertThat(result.withId(8L).withVacuumDrift(0.5)).as("in all else the same")
+                .isEqualTo(new SimulationResult(8L, Status.OK, result.distance(), result.stopped(), result.simulated(),
+                        result.frames(), "conserving", "float", result.hash(), null, null, result.swimming(), 0.75, 0.5));
+    }
+
+    @Test
+    void readsAnUnstableResult() throws InterruptedException {
+        SimulationResult result = evaluate("fault/unstable", PATIENCE);
+
+        assertThat(result.status()).isEqualTo(Status.UNSTABLE);
+        assertThat(result.distance()).isNull();
+        assertThat(result.fitness()).isZero();
+        assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "frame", 0.5, "tank"));
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "fault/crash|exit status 139", "fault/exit|out of luck", "fault/silent|no valid result",
+        "fault/garbage|buffer overflow", "fault/half|no valid result", "fault/loud|more than 1048576 bytes",
+        "fault/wrong-id|id is 8, not 7", "fault/wrong-exit|status ok with exit status 3", "fault/nan|NaN",
+        "fault/infinite|found the number 1e999", "fault/two-lines|no valid result",
+        "fault/held-open|output still open"})
+    void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
+        SimulationResult result = evaluate(scene, PATIENCE);
+
+        assertThat(result.status()).isEqualTo(Status.FAILED);
+        assertThat(result.error()).contains(reason).doesNotContain("\n");
+        assertThat(result.fitness()).isZero();
+        assertThat(result.id()).isEqualTo(7);
+    }
+
+    @Test
+    void aHangingProcessIsKilledWithItsChildren() throws InterruptedException {
+        SimulationResult result = evaluate("fault/hang", 0.4);
+
+        assertThat(result.status()).isEqualTo(Status.FAILED);
+        assertThat(result.error()).isEqualTo("no answer within 0.4 s");
+        assertThatNoChildIsLeft();
+    }
+
+    /** A request larger than a pipe holds, to a program that does not read it. */
+    @Test
+    void aProgramThatDoesNotReadCannotBlockTheCaller() throws InterruptedException, IOException {
+        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
+        assertThat(deaf.toFile().setExecutable(true)).isTrue();
+        ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
+        SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
+
+        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+            assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
+        }
+        assertThatNoChildIsLeft();
+    }
+
+    @Test
+    void triesOnceMore() throws InterruptedException {
+        assertThat(evaluate("fault/once", PATIENCE).status()).isEqualTo(Status.OK);
+        assertThat(folder.resolve("seen-7")).exists();
+    }
+
+    @Test
+    void drainsWhatTheProgramLogs() throws InterruptedException {
+        assertThat(evaluate("fault/loud-errors", PATIENCE).distance()).isEqualTo(0.5);
+    }
+
+    /** As on a machine that has other work; nobody holds the pipes open any more. */
+    @Test
+    void whatIsReadLateIsReadWhole() throws Exception {
+        Path program = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
+        assertThat(program.toFile().setExecutable(true)).isTrue();
+        try (NativeProgram late = new NativeProgram(program, Duration.ofMinutes(5))) {
+            NativeProgram.Output output = late.call(List.of(), "", line -> sleep(3));
+
+            assertThat(output).isEqualTo(new NativeProgram.Output(0, "told\n", "why"));
+        }
+    }
+
+    private static void sleep(int seconds) {
+        try {
+            TimeUnit.SECONDS.sleep(seconds);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    @Test
+    void aRejectedRequestIsNotTriedAgainButToldOf() {
+        assertThatThrownBy(() -> evaluate("fault/rejected", PATIENCE))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
+                .hasMessage("gait.frequency is 70; expected a number up to 60");
+    }
+
+    @Test
+    void aMissingDeviceIsNoBadInput() {
+        assertThatThrownBy(() -> evaluate("fault/no-device", PATIENCE))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse());
+    }
+
+    @Test
+    void aProgramThatCannotStartIsNoFaultOfTheRequest() throws IOException {
+        Path program = Files.writeString(folder.resolve("program"), "not a program");
+        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
+            assertThatThrownBy(() -> simulator.evaluate(FakeSimulator.request(1, "a")))
+                    .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
+                    .hasMessageStartingWith("cannot start " + program);
+        }
+    }
+
+    @Test
+    void interruptionKillsTheProcess() throws InterruptedException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+            Thread caller = new Thread(() -> {
+                try {
+                    simulator.evaluate(FakeSimulator.request(1, "fault/hang"));
+                } catch (InterruptedException e) {
+                    Thread.currentThread().interrupt();
+                }
+            });
+            caller.start();
+            Processes.awaitChild();
+            caller.interrupt();
+            caller.join();
+        }
+        assertThatNoChildIsLeft();
+    }
+
+    @Test
+    void manyCallsLeakNeitherProcessesNorFileHandles() throws InterruptedException, IOException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+            simulator.evaluate(FakeSimulator.request(0, "fault/half"));
+            long before = openFiles();
+            for (int i = 1; i <= 20; i++) {
+                simulator.evaluate(FakeSimulator.request(i, i % 2 == 0 ? "fault/half" : "thesis/creature-1"));
+            }
+            assertThatOpenFilesAreAtMost(before + 3);
+        }
+        assertThatNoChildIsLeft();
+    }
+}

@@ -1,0 +1,154 @@
+package io.natator.process;
+
+import static io.natator.process.Processes.assertThatNoChildIsLeft;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.base.InvalidInputException;
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
+import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResult.Status;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.LongStream;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ServeCommandsTest {
+
+    @TempDir
+    private Path folder;
+    private Path fake;
+
+    @BeforeEach
+    void fakeSimulator() {
+        fake = FakeSimulator.in(folder);
+    }
+
+    private ExecutionSettings settings(SimulatorMode mode, String... commands) {
+        return new ExecutionSettings(fake, mode, Backend.CPU, List.of(0), 2, Duration.ofMinutes(5), null, List.of(commands), null);
+    }
+
+    /** A command that leaves a line in the file `name` when it is started. */
+    private String marked(String name) {
+        return marked(name, "");
+    }
+
+    /** One that then does something else first. */
+    private String marked(String name, String first) {
+        return "echo started >>" + folder.resolve(name) + "; " + first + "exec " + fake + " serve";
+    }
+
+    private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
+            throws InterruptedException {
+        List<SimulationResult> results = new ArrayList<>();
+        try (Evaluator evaluator = Evaluator.open(settings)) {
+            evaluator.evaluateInOrder(LongStream.range(0, requests)
+                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList(), results::add);
+        }
+        assertThatNoChildIsLeft();
+        return results;
+    }
+
+    /** Each waits for the other to be started, so that none is left idle before. */
+    @Test
+    void commandsShareTheEvaluations() throws InterruptedException, IOException {
+        String both = "until [ -e " + folder.resolve("a") + " ] && [ -e " + folder.resolve("b") + " ]; do sleep 0.01; done; ";
+
+        List<SimulationResult> results = evaluate(settings(SimulatorMode.RESIDENT, marked("a", both), marked("b", both)), 6);
+
+        assertThat(results).allSatisfy(result -> assertThat(result.distance()).isEqualTo(-1.3925)).hasSize(6);
+        assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
+        assertThat(Files.readAllLines(folder.resolve("b"))).hasSize(1);
+    }
+
+    @Test
+    void aBatchGoesToTheCommand() throws InterruptedException, IOException {
+        assertThat(evaluate(settings(SimulatorMode.BATCH, marked("a")), 5)).extracting(SimulationResult::status)
+                .containsOnly(Status.OK).hasSize(5);
+        assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
+    }
+
+    @Test
+    void aMachineThatIsAwayHarmsNothing() throws InterruptedException, IOException {
+        String away = "echo tried >>" + folder.resolve("away") + "; echo no route to host >&2; exit 255";
+
+        assertThat(evaluate(settings(SimulatorMode.RESIDENT, away, marked("a")), 20)).extracting(SimulationResult::status)
+                .containsOnly(Status.OK).hasSize(20);
+        assertThat(Files.readAllLines(folder.resolve("away"))).as("attempts there").hasSizeBetween(1, 2);
+    }
+
+    @Test
+    void withoutAnyMachineResultsSayWhy() throws InterruptedException {
+        assertThat(evaluate(settings(SimulatorMode.RESIDENT, "echo no route to host >&2; exit 255"), 1)).singleElement()
+                .satisfies(result -> {
+                    assertThat(result.status()).isEqualTo(Status.FAILED);
+                    assertThat(result.error()).contains("exit status 255", "no route to host");
+                });
+    }
+
+    @ParameterizedTest
+    @EnumSource(value = SimulatorMode.class, names = {"RESIDENT", "BATCH"})
+    void aProgramThatSwimsOtherwiseIsRefused(SimulatorMode mode) {
+        String other = fake + " serve | sed -u 's/\"hash\":\"./\"hash\":\"f/'";
+
+        assertThatThrownBy(() -> evaluate(settings(mode, other), 1))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
+                .hasMessageMatching("--simulator-command \".*\" swims otherwise than this program \\(hash f.*, not 0.*, "
+                        + "after 0.05 s\\): another version, instruction set .NATATOR_ISA. or kind of GPU");
+    }
+
+    @Test
+    void settingsThatDoNotGoTogetherAreRefused() {
+        assertThatThrownBy(() -> settings(SimulatorMode.PROCESS, "ssh a natator-sim serve"))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not process");
+        assertThatThrownBy(() -> settings(SimulatorMode.RESIDENT, " ")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator command is blank; expected a command line");
+    }
+
+    @Test
+    void settingsForAClusterThatDoNotGoTogetherAreRefused() {
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK, "ssh a natator-sim serve")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not spark");
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, List.of(0), 1, null, null, List.of(),
+                "local[2]")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
+        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(), "local[2]")
+                .withMode(SimulatorMode.RESIDENT).master()).isNull();
+    }
+
+    @Test
+    void devicesThatAreNoneAreRefused() {
+        for (List<Integer> devices : List.of(List.<Integer>of(), List.of(-1), List.of(1, 1))) {
+            assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CUDA, devices, 1, null, null,
+                    List.of(), null)).isInstanceOf(InvalidInputException.class)
+                    .hasMessage("devices are " + devices + "; expected whole numbers from 0, each once");
+        }
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
+                List.of(), null)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
+    }
+
+    @Test
+    void aProgramWithoutSparkSaysWhichOneHasIt() {
+        assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK))).isInstanceOf(InvalidInputException.class)
+                .hasMessage("this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
+                        + "(ga-java/docs/cluster.md)");
+    }
+}
