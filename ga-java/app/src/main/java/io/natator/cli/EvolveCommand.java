@@ -116,7 +116,15 @@ final class EvolveCommand implements Callable<Integer> {
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
-        beginRun(RunFolder.create(directory, settings), preview, execution, stopAfter);
+        RunFolder folder = RunFolder.create(directory, settings);
+        try (folder) {
+            preview.printAnyway(directory, spec.commandLine().getOut());
+            new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        } catch (InvalidInputException | RequestRejectedException e) {
+            // What is refused with the first evaluation leaves no folder that would be in the way of the corrected command.
+            RunFolder.deleteUnlessBegun(directory);
+            throw e;
+        }
         return ExitCode.OK;
     }
 
@@ -139,17 +147,6 @@ final class EvolveCommand implements Callable<Integer> {
         spec.commandLine().getOut().println((all ? runs.size() : runs.stream().filter(PlannedRun::isFinished).count()) + " of " + runs.size()
                 + " runs finished in " + outputDir + (all ? "" : "; the same command continues"));
         return ExitCode.OK;
-    }
-
-    /** Evolves; what is refused with the first evaluation leaves no folder that would be in the way of the corrected command. */
-    private void beginRun(RunFolder folder, RunPreview preview, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
-        try (folder) {
-            preview.printAnyway(folder.directory(), spec.commandLine().getOut());
-            new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
-        } catch (InvalidInputException | RequestRejectedException e) {
-            RunFolder.deleteUnlessBegun(folder.directory());
-            throw e;
-        }
     }
 
     static void checkStopAfter(Double seconds) {

@@ -128,9 +128,8 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
 
     /** The thesis' settings for a scene, with seed 1 and the corrected operators, on the processor. */
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
-        return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
-                Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
-                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null);
+        return EvolutionSettingsBuilder.builder().scene(scene).encoding(encoding).actuators(actuators).population(Preset.THESIS.population())
+                .generations(Preset.THESIS.generations()).seed(1).gaussianDeviation(0.05).build();
     }
 
     /** These settings with another number of generations. */

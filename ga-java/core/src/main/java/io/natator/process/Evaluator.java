@@ -30,7 +30,10 @@ public interface Evaluator extends AutoCloseable {
     void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
             throws InterruptedException;
 
-    /** Abandons evaluations that are under way, whose callers get an {@link InterruptedException}. */
+    /**
+     * Abandons evaluations that are under way, whose callers get an {@link InterruptedException}. What wraps an evaluator closes that too, so
+     * that of both only one need be closed.
+     */
     @Override
     void close();
 

@@ -24,11 +24,11 @@ import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.process.TimeLimit;
 import io.natator.protocol.SimulationResult;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
-import java.util.function.LongSupplier;
 
 /** Carries out the evolution of a run folder from wherever it stands to its end. */
 public final class EvolutionRun {
@@ -108,34 +108,33 @@ public final class EvolutionRun {
      */
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
-        String scene = SceneDigest.of(settings, execution.simulator());
-        SceneDigest.check(folder.directory(), settings, scene);
+        String digest = SceneDigest.of(settings, execution.simulator());
+        SceneDigest.check(folder.directory(), settings, digest);
         if (!StoredRun.isFinished(folder.directory())) {
-            folder.write(Environment.present(execution, scene, settings));
+            folder.write(Environment.present(execution, digest, settings));
         }
-        if (evaluator instanceof CachedEvaluator shared) {
-            CachedEvaluator own = shared.counting();
-            return run(execution, own, own::found, List.of(listeners));
-        }
-        return run(execution, evaluator, () -> 0, List.of(listeners));
-    }
-
-    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found, List<EvolutionListener> listeners)
-            throws InterruptedException {
+        // Runs that share an evaluator count for themselves what they find in its cache.
+        CachedEvaluator cached = evaluator instanceof CachedEvaluator shared ? shared.counting() : null;
+        Evaluator own = cached == null ? evaluator : cached;
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         checkFitness(settings, scene);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        EvaluationCounter counter = new EvaluationCounter(folder, duration, found);
+        EvaluationCounter counter = new EvaluationCounter(folder, duration, cached == null ? () -> 0 : cached::found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
         if (settings.vacuumCheck()) {
-            all.add(new VacuumCheck(folder, evaluator));
+            all.add(new VacuumCheck(folder, own));
         }
-        all.addAll(listeners);
-        Evaluator checked = settings.evolve() == null ? evaluator
-                : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
+        all.addAll(List.of(listeners));
+        Evaluator checked = settings.evolve() == null ? own
+                : new BodyCheckEvaluator(own, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded())
                 .run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
+        return outcome(state, own, scene, execution.simulator());
+    }
+
+    /** Writes what came of the run, its winner examined. */
+    private Outcome outcome(EvolutionState state, Evaluator evaluator, SceneInfo scene, Path simulator) throws InterruptedException {
         BestGait known = StoredRun.best(folder.directory());
         if (known != null && state.best() != null && known.isExamined(state.best())) {
             folder.writeTable(state);
@@ -143,7 +142,7 @@ public final class EvolutionRun {
         }
         BestGait best = folder.writeResults(state);
         if (best != null) {
-            best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,
+            best = examined(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
                     best.body() == null ? scene.bodyLength() : Double.valueOf(settings.bodyLength(best.body())));
             folder.write(best);
         }
