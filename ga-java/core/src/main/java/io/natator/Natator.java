@@ -97,7 +97,7 @@ public final class Natator {
     private EvolutionRun.Outcome run(RunFolder folder, EvolutionListener... listeners) throws InterruptedException {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(
-                    execution.withBackend(folder.settings().backend()), folder.settings());
+                    execution.withBackend(folder.settings().budget().backend()), folder.settings());
             try (Evaluator evaluator = EvolutionRun.open(limited)) {
                 return new EvolutionRun(folder).run(limited, evaluator, listeners);
             }

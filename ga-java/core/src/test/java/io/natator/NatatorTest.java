@@ -40,7 +40,7 @@ class NatatorTest {
         EvolutionSettings settings = natator.settings("thesis/creature-2").withSize(10, 4);
 
         assertThat(natator.evaluate(request).distance()).isEqualTo(-1.3925);
-        assertThat(settings.encoding()).isEqualTo(EncodingKind.SPARSE);
+        assertThat(settings.problem().encoding()).isEqualTo(EncodingKind.SPARSE);
         EvolutionRun.Outcome whole = natator.evolve(settings, folder.resolve("whole"));
         assertThatThrownBy(() -> natator.evolve(settings, folder.resolve("stopped"), new EvolutionListener() {
             @Override

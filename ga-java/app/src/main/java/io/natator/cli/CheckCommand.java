@@ -57,7 +57,7 @@ final class CheckCommand implements Callable<Integer> {
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(
-                cacheOptions.in(executionOptions.execution(settings.backend())), settings);
+                cacheOptions.in(executionOptions.execution(settings.budget().backend())), settings);
         run.checkUnchanged(execution.simulator());
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
         Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),

@@ -98,7 +98,7 @@ final class CompareCommand implements Callable<Integer> {
     }
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
-        Backend backend = settings.stream().map(EvolutionSettings::backend).distinct().count() == 1 ? settings.get(0).backend()
+        Backend backend = settings.stream().map(one -> one.budget().backend()).distinct().count() == 1 ? settings.get(0).budget().backend()
                 : Backend.CPU;
         ExecutionSettings execution =
                 EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
@@ -139,7 +139,7 @@ final class CompareCommand implements Callable<Integer> {
         for (int i = 0; i < runs.size(); i++) {
             double[] curve = curves.get(i);
             out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? ""
-                    : runs.get(i).settings().worthText(curve[place - 1]));
+                    : runs.get(i).settings().problem().worthText(curve[place - 1]));
         }
         out.println();
     }

@@ -70,7 +70,7 @@ final class ConvergeCommand implements Callable<Integer> {
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
-                .withBackend(backend != null ? backend : settings.backend()), settings);
+                .withBackend(backend != null ? backend : settings.budget().backend()), settings);
         run.checkUnchanged(execution.simulator());
         JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
                 Convergence.runs(run.directory()), new Told());

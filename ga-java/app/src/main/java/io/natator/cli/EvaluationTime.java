@@ -46,7 +46,7 @@ final class EvaluationTime {
     }
 
     private double seconds(int count, double duration) throws InterruptedException {
-        Swimmer middle = settings.genome().middle();
+        Swimmer middle = settings.problem().genome().middle();
         List<SimulationRequest> requests = LongStream.range(0, count)
                 .mapToObj(id -> SimulationRequest.of(id, settings, middle).withDuration(duration)).toList();
         long start = System.nanoTime();

@@ -111,11 +111,11 @@ final class EvolveCommand implements Callable<Integer> {
         }
         RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
-            Path folder = outputDir != null ? outputDir : freeFolder(settings.scene());
+            Path folder = outputDir != null ? outputDir : freeFolder(settings.problem().scene());
             WholeOutput.print(spec.commandLine(), out -> preview.print(folder, out));
             return ExitCode.OK;
         }
-        Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
+        Path directory = outputDir != null ? outputDir : reserveFolder(settings.problem().scene());
         RunFolder folder = RunFolder.create(directory, settings);
         try (folder) {
             preview.printAnyway(directory, spec.commandLine().getOut());
@@ -137,7 +137,7 @@ final class EvolveCommand implements Callable<Integer> {
         if (StoredRun.exists(outputDir)) {
             throw new InvalidInputException("output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
         }
-        List<PlannedRun> runs = LongStream.range(settings.seed(), settings.seed() + seeds)
+        List<PlannedRun> runs = LongStream.range(settings.search().seed(), settings.search().seed() + seeds)
                 .mapToObj(seed -> new PlannedRun(settings.withSeed(seed), outputDir.resolve("seed-" + seed))).toList();
         runs.forEach(PlannedRun::check);
         long finished = runs.stream().filter(PlannedRun::isFinished).count();

@@ -11,7 +11,7 @@ final class OptimizerName {
 
     /** With the operators of JGAP. */
     static String of(EvolutionSettings settings) {
-        return EnumNames.of(settings.optimizer()) + (settings.optimizer() == OptimizerKind.JGAP
-                ? " (" + EnumNames.of(settings.operators()) + " operators)" : "");
+        return EnumNames.of(settings.search().optimizer()) + (settings.search().optimizer() == OptimizerKind.JGAP
+                ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
     }
 }

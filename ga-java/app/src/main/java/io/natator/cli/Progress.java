@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
@@ -74,7 +75,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
         estimate.evaluated();
         SimulationResult result = evaluation.result();
         // Of several starts, one run says little: there the generation's end tells.
-        if (settings.starts() == 1 && result.status() == SimulationResult.Status.OK
+        if (settings.search().starts() == 1 && result.status() == SimulationResult.Status.OK
                 && (best == null || result.score() > best)) {
             best = result.score();
         }
@@ -85,12 +86,12 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     @Override
     public synchronized void generationFinished(EvolutionState state) {
-        if (settings.starts() > 1) {
+        if (settings.search().starts() > 1) {
             best = state.best() == null ? null : state.best().score();
         }
         if (bar == null) {
             GenerationSummary last = state.history().get(state.history().size() - 1);
-            say(generation() + ", mean " + settings.worthText(last.mean()) + ", " + counts());
+            say(generation() + ", mean " + settings.problem().worthText(last.mean()) + ", " + counts());
         }
     }
 
@@ -109,12 +110,12 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     private String generation() {
         return "generation " + generation
-                + (settings.generations() == EvolutionSettings.NO_LIMIT ? "" : " of " + settings.generations());
+                + (settings.budget().generations() == Budget.NO_LIMIT ? "" : " of " + settings.budget().generations());
     }
 
     private String counts() {
         return String.format(Locale.ROOT, "best %s, evaluations %d of %s, elapsed %s, left %s",
-                best == null ? "-" : settings.worthText(best), estimate.done(), estimate.total(), estimate.elapsed(),
+                best == null ? "-" : settings.problem().worthText(best), estimate.done(), estimate.total(), estimate.elapsed(),
                 estimate.left());
     }
 

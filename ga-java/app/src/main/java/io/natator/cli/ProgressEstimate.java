@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvolutionState;
@@ -51,7 +52,7 @@ final class ProgressEstimate {
                     .forEach(this::count);
         }
         estimate(from == null ? perGeneration(1) : done,
-                settings.generations() - (from == null ? 0 : from.generation()));
+                settings.budget().generations() - (from == null ? 0 : from.generation()));
     }
 
     private void count(int simulations) {
@@ -64,12 +65,12 @@ final class ProgressEstimate {
         if (generation > 0) {
             count(simulations);
         }
-        estimate(done + simulations, settings.generations() - generation);
+        estimate(done + simulations, settings.budget().generations() - generation);
     }
 
     /** Simulations of a generation with so many newborns for each place in the population. */
     private double perGeneration(double newborns) {
-        return newborns * settings.population() * settings.starts() + settings.repeats();
+        return newborns * settings.search().population() * settings.search().starts() + settings.search().repeats();
     }
 
     /**
@@ -79,12 +80,12 @@ final class ProgressEstimate {
      * @param later generations of which nothing is known yet
      */
     private void estimate(double known, int later) {
-        long budget = settings.evaluations() == null ? Long.MAX_VALUE : settings.evaluations();
-        boolean varies = settings.optimizer() == OptimizerKind.JGAP;
+        long budget = settings.budget().evaluations() == null ? Long.MAX_VALUE : settings.budget().evaluations();
+        boolean varies = settings.search().optimizer() == OptimizerKind.JGAP;
         double each = varies ? (USUAL_GENERATIONS * perGeneration(CHILDREN_PER_SELECTED) + children)
                 / (USUAL_GENERATIONS + bred) : perGeneration(1);
         double all = known + later * each;
-        certain = !varies || later == 0 || settings.generations() == EvolutionSettings.NO_LIMIT;
+        certain = !varies || later == 0 || settings.budget().generations() == Budget.NO_LIMIT;
         if (all >= budget) {
             expected = budget;
         } else {
@@ -109,7 +110,7 @@ final class ProgressEstimate {
 
     /** {@link #expected()} with a word for how sure that is: {@code 340}, {@code about 340}, {@code at most 340}. */
     String total() {
-        boolean limited = settings.evaluations() != null && expected() == settings.evaluations();
+        boolean limited = settings.budget().evaluations() != null && expected() == settings.budget().evaluations();
         return (certain ? "" : limited ? "at most " : "about ") + expected();
     }
 
@@ -150,7 +151,7 @@ final class ProgressEstimate {
 
     /** How many evaluations a run takes, as far as that is known before. */
     static long evaluations(EvolutionSettings settings) {
-        return settings.evaluations() != null ? settings.evaluations() : Math.round(settings.starts() * settings.population()
-                * (1 + CHILDREN_PER_SELECTED * settings.generations())) + (long) settings.repeats() * (settings.generations() + 1);
+        return settings.budget().evaluations() != null ? settings.budget().evaluations() : Math.round(settings.search().starts() * settings.search().population()
+                * (1 + CHILDREN_PER_SELECTED * settings.budget().generations())) + (long) settings.search().repeats() * (settings.budget().generations() + 1);
     }
 }

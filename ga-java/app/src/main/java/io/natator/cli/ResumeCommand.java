@@ -74,7 +74,7 @@ final class ResumeCommand implements Callable<Integer> {
             CommandSpec spec) throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
         EvolutionSettings settings = StoredRun.settings(directory);
-        Backend before = settings.backend();
+        Backend before = settings.budget().backend();
         // Asks the simulator, so that where there is none nothing is changed.
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
         SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
@@ -97,7 +97,7 @@ final class ResumeCommand implements Callable<Integer> {
                 : state != null && generations > done && state.isLastOf(folder.settings().withGenerations(generations))
                 ? folder.directory() + " ends after its " + Numbers.count(state.evaluations(), "evaluation")
                         + ", however many --generations it may have" : null);
-        if (generations != folder.settings().generations()) {
+        if (generations != folder.settings().budget().generations()) {
             folder.changeGenerations(generations);
         }
     }

@@ -7,6 +7,7 @@ import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.WeightedObjective;
@@ -52,7 +53,7 @@ final class RunDocument {
     String json() {
         EvolutionSettings settings = run.settings();
         Map<String, Object> document = new LinkedHashMap<>();
-        document.put("title", settings.scene() + ", seed " + settings.seed());
+        document.put("title", settings.problem().scene() + ", seed " + settings.search().seed());
         document.put("unfinished", unfinished());
         document.put("answer", answer());
         document.put("measures", Measure.of(best, controls()).stream()
@@ -60,11 +61,11 @@ final class RunDocument {
         document.put("numbers", numbers());
         document.put("request", SimulationRequest.of(0, settings, best.swimmer()).withoutStops());
         document.put("generations", run.state().history());
-        document.put("worth", settings.objectives() == null ? "distance (scene units)"
-                : "worth by " + WeightedObjective.text(WeightedObjective.leading(settings.objectives())));
+        document.put("worth", settings.problem().objectives() == null ? "distance (scene units)"
+                : "worth by " + WeightedObjective.text(WeightedObjective.leading(settings.problem().objectives())));
         List<Individual> front = run.front();
         if (!front.isEmpty()) {
-            document.put("objectives", settings.objectives().stream().map(one -> EnumNames.of(one.objective())).toList());
+            document.put("objectives", settings.problem().objectives().stream().map(one -> EnumNames.of(one.objective())).toList());
             document.put("population", run.state().population().stream().map(Individual::objectives).filter(Objects::nonNull).toList());
             document.put("front", front.stream().map(Individual::objectives).toList());
         }
@@ -85,7 +86,7 @@ final class RunDocument {
     /** Null of a run that has come to its end. */
     private String unfinished() {
         return run.state().isLastOf(run.settings()) ? null : "This run is not finished. Done are generation " + run.state().generation()
-                + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? "" : " of " + run.settings().generations()) + " and "
+                + (run.settings().budget().generations() == Budget.NO_LIMIT ? "" : " of " + run.settings().budget().generations()) + " and "
                 + Numbers.count(run.state().evaluations(), "evaluation") + "; this is the best gait so far. It goes on by natator resume "
                 + run.directory() + ".";
     }
@@ -129,8 +130,8 @@ final class RunDocument {
         if (best.gait().offset() != null) {
             rows.add(List.of("offsets", RunReport.row(best.gait().offset())));
         }
-        if (run.settings().evolve() != null) {
-            ProfileBody scene = run.settings().evolve().body();
+        if (run.settings().problem().evolve() != null) {
+            ProfileBody scene = run.settings().problem().evolve().body();
             BodyText.of(scene.with(best.body()), scene).forEach((name, text) -> rows.add(List.of("body: " + name, text)));
         }
         FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));

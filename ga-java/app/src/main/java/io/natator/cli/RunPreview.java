@@ -31,14 +31,14 @@ final class RunPreview {
      * @param folder where the run would go
      */
     void print(Path folder, PrintWriter out) throws InterruptedException {
-        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator());
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, settings);
-        double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        double duration = settings.problem().duration() != null ? settings.problem().duration() : scene.duration();
         ProgressEstimate estimate = new ProgressEstimate(settings, System::nanoTime);
         out.println(ShowCommand.settings(settings));
         out.printf(Locale.ROOT, "  scene       %s, %s, %.2f s%n", Numbers.count(scene.particles(), "particle"),
                 Numbers.count(scene.actuators(), "actuator"), duration);
-        out.printf("  genes       %s%n", String.join(", ", settings.genome().genes().stream().map(GeneRange::name).toList()));
+        out.printf("  genes       %s%n", String.join(", ", settings.problem().genome().genes().stream().map(GeneRange::name).toList()));
         out.printf("  evaluations %s%n", estimate.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
@@ -65,7 +65,7 @@ final class RunPreview {
 
     private void printTime(ExecutionSettings limited, SceneInfo scene, double duration, long evaluations, PrintWriter out)
             throws InterruptedException {
-        int together = execution.trials(settings.population());
+        int together = execution.trials(settings.search().population());
         try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
             double whole = new EvaluationTime(settings, EvolutionRun.telling(settings, evaluator, scene)).of(together, duration);
             out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d %s %.2f s%n",

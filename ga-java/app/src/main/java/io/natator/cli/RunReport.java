@@ -42,7 +42,7 @@ final class RunReport {
             printRefusals(state);
             return;
         }
-        out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after "
+        out.println("best " + (settings.problem().evolve() == null ? "gait" : "swimmer") + " of " + settings.problem().scene() + " after "
                 + Numbers.count(state.generation(), "generation") + " and " + Numbers.count(state.evaluations(), "evaluation"));
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));
@@ -50,8 +50,8 @@ final class RunReport {
         if (best.gait().offset() != null) {
             line("offset", row(best.gait().offset()));
         }
-        if (settings.evolve() != null) {
-            ProfileBody scene = settings.evolve().body();
+        if (settings.problem().evolve() != null) {
+            ProfileBody scene = settings.problem().evolve().body();
             BodyText.of(scene.with(best.body()), scene).forEach(this::line);
         }
         SimulationResult water = best.result();

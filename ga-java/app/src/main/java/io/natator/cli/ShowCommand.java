@@ -7,6 +7,7 @@ import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.cli.Section.Topic;
+import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
@@ -93,30 +94,30 @@ final class ShowCommand implements Callable<Integer> {
 
     /** On one line, what makes a run another one. */
     static String settings(EvolutionSettings settings) {
-        StringBuilder text = new StringBuilder(settings.scene());
+        StringBuilder text = new StringBuilder(settings.problem().scene());
         text.append(", ").append(OptimizerName.of(settings));
-        text.append(", population ").append(settings.population());
-        if (settings.generations() != EvolutionSettings.NO_LIMIT) {
-            text.append(", ").append(Numbers.count(settings.generations(), "generation"));
+        text.append(", population ").append(settings.search().population());
+        if (settings.budget().generations() != Budget.NO_LIMIT) {
+            text.append(", ").append(Numbers.count(settings.budget().generations(), "generation"));
         }
-        if (settings.evaluations() != null) {
-            text.append(", ").append(Numbers.count(settings.evaluations(), "evaluation"));
+        if (settings.budget().evaluations() != null) {
+            text.append(", ").append(Numbers.count(settings.budget().evaluations(), "evaluation"));
         }
-        text.append(settings.evolve() == null ? "" : settings.evolve().what() == Evolved.BODY ? ", bodies with one gait"
+        text.append(settings.problem().evolve() == null ? "" : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait"
                 : ", gaits and bodies");
-        text.append(", seed ").append(settings.seed());
-        text.append(", ").append(EnumNames.of(settings.encoding())).append(" genes");
-        if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
-            text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
+        text.append(", seed ").append(settings.search().seed());
+        text.append(", ").append(EnumNames.of(settings.problem().encoding())).append(" genes");
+        if (settings.search().optimizer() == OptimizerKind.JGAP && settings.search().gaussianDeviation() != 0.05) {
+            text.append(", Gaussian deviation ").append(settings.search().gaussianDeviation());
         }
-        text.append(settings.starts() == 1 ? "" : ", " + EnumNames.of(settings.judge()) + " of " + settings.starts()
+        text.append(settings.search().starts() == 1 ? "" : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts()
                 + " starts");
-        text.append(settings.objectives() == null ? "" : ", objectives " + WeightedObjective.text(settings.objectives()));
-        text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
-        text.append(", backend ").append(settings.backend().argument());
-        text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));
-        text.append(settings.duration() == null ? "" : ", " + settings.duration() + " s");
-        text.append(settings.overrides() == null ? "" : ", overrides " + settings.overrides());
+        text.append(settings.problem().objectives() == null ? "" : ", objectives " + WeightedObjective.text(settings.problem().objectives()));
+        text.append(settings.problem().fitness() == FitnessKind.NET ? ", net fitness" : "");
+        text.append(", backend ").append(settings.budget().backend().argument());
+        text.append(settings.problem().scheme() == null ? "" : ", scheme " + settings.problem().scheme().name().toLowerCase(Locale.ROOT));
+        text.append(settings.problem().duration() == null ? "" : ", " + settings.problem().duration() + " s");
+        text.append(settings.problem().overrides() == null ? "" : ", overrides " + settings.problem().overrides());
         return text.toString();
     }
 
@@ -128,8 +129,8 @@ final class ShowCommand implements Callable<Integer> {
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
-                run.settings().worthText(last.best()), run.settings().worthText(last.mean()),
-                run.settings().worthText(last.median()),
+                run.settings().problem().worthText(last.best()), run.settings().problem().worthText(last.mean()),
+                run.settings().problem().worthText(last.median()),
                 run.state().isLastOf(run.settings()) ? "finished" : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
@@ -147,7 +148,7 @@ final class ShowCommand implements Callable<Integer> {
             return;
         }
         out.println("of several objectives, the gaits that no other is better than in all");
-        out.println("  " + run.settings().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
+        out.println("  " + run.settings().problem().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
                 .collect(Collectors.joining()) + "runs  genes");
         for (Individual one : front) {
             out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", Numbers.worth(value)))

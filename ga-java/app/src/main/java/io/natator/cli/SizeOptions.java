@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.cli.Section.Topic;
+import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Judge;
 import io.natator.config.Preset;
@@ -50,6 +51,6 @@ final class SizeOptions {
     /** With a number of evaluations alone, that is what ends the run. */
     private int generations() {
         return generations != null ? generations
-                : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
+                : evaluations != null ? Budget.NO_LIMIT : preset.generations();
     }
 }

@@ -64,8 +64,8 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
      */
     static SwimSource of(StoredRun run, Swimmer swimmer, BestGait best) {
         EvolutionSettings settings = run.settings();
-        return new SwimSource(run.directory(), SceneOptions.scene("scene of " + run.directory(), settings.scene()),
-                MergePatch.both(settings.overrides(), swimmer.body()), swimmer.gait(), settings.scheme(), settings.duration(), best);
+        return new SwimSource(run.directory(), SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
+                MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(), settings.problem().scheme(), settings.problem().duration(), best);
     }
 
     private static Swimmer best(StoredRun run) {

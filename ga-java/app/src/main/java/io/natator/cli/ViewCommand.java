@@ -122,7 +122,7 @@ final class ViewCommand implements Callable<Integer> {
     /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
     private Path shownRun() {
         for (Path folder : runs) {
-            if (choice.admits(SceneOptions.scene("scene of " + folder, StoredRun.settings(folder).scene()))) {
+            if (choice.admits(SceneOptions.scene("scene of " + folder, StoredRun.settings(folder).problem().scene()))) {
                 return folder;
             }
         }
@@ -172,15 +172,15 @@ final class ViewCommand implements Callable<Integer> {
 
     private InitialScene start(EvolutionSettings run, Swimmer given, BestGait best, Path program)
             throws InterruptedException {
-        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.problem().scheme();
         Swimmer swimmer = given != null ? given : best != null ? best.swimmer() : new Swimmer(null, null);
         ObjectNode overrides = InitialScene.patch(
-                MergePatch.both(MergePatch.both(run.overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
-        InitialScene start = new InitialScene(run.scene(), overrides, swimmer.gait());
+                MergePatch.both(MergePatch.both(run.problem().overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
+        InitialScene start = new InitialScene(run.problem().scene(), overrides, swimmer.gait());
         if (given != null) {
             checkGait(start, program);
         } else if (sceneOptions.overrides() != null) {
-            SceneInfo.of(run.scene(), overrides, program);
+            SceneInfo.of(run.problem().scene(), overrides, program);
         }
         return start;
     }

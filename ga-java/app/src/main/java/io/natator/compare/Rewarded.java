@@ -38,13 +38,13 @@ record Rewarded(String name, String greater, Function<SimulationResult, Double> 
     }
 
     private static Rewarded of(EvolutionSettings run, Collection<List<SimulationResult>> swims) {
-        if (run.objectives() != null) {
-            return worth("worth by " + WeightedObjective.text(WeightedObjective.leading(run.objectives())));
+        if (run.problem().objectives() != null) {
+            return worth("worth by " + WeightedObjective.text(WeightedObjective.leading(run.problem().objectives())));
         }
         if (swims.stream().flatMap(List::stream).anyMatch(swim -> swim.goals() != null)) {
-            return worth("score by the goals of " + run.scene());
+            return worth("score by the goals of " + run.problem().scene());
         }
-        return run.fitness() == FitnessKind.NET ? worth("distance less the drift in vacuum") : DISTANCE;
+        return run.problem().fitness() == FitnessKind.NET ? worth("distance less the drift in vacuum") : DISTANCE;
     }
 
     private static Rewarded worth(String name) {

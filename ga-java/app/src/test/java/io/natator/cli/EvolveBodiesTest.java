@@ -77,9 +77,9 @@ class EvolveBodiesTest {
 
         StoredRun run = StoredRun.in(folder.resolve("run"));
         BestGait best = run.best();
-        assertThat(run.settings().evolve().body().particles()).isEqualTo(142);
-        assertThat(best.swimmer()).isEqualTo(run.settings().genome().decode(best.genes()));
-        assertThat(best.bodyLength()).isEqualTo(run.settings().bodyLength(best.body()));
+        assertThat(run.settings().problem().evolve().body().particles()).isEqualTo(142);
+        assertThat(best.swimmer()).isEqualTo(run.settings().problem().genome().decode(best.genes()));
+        assertThat(best.bodyLength()).isEqualTo(run.settings().problem().bodyLength(best.body()));
         JsonNode profile = best.body().path("creature").path("profile");
         assertThat(profile.path("length").doubleValue()).isEqualTo(best.genes().get(4)).isBetween(1.125, 1.95);
     }
@@ -91,7 +91,7 @@ class EvolveBodiesTest {
 
         StoredRun run = StoredRun.in(folder.resolve("run"));
         assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
-            double length = run.settings().bodyLength(run.settings().genome().decode(one.genes()).body());
+            double length = run.settings().problem().bodyLength(run.settings().problem().genome().decode(one.genes()).body());
             assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
         });
     }

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
@@ -76,7 +77,7 @@ class ProgressEstimateTest {
         both.generationStarted(0, 10);
         assertThat(both.total()).isEqualTo("at most 35");
 
-        ProgressEstimate alone = estimate(SETTINGS.withSize(10, EvolutionSettings.NO_LIMIT).withEvaluations(35L));
+        ProgressEstimate alone = estimate(SETTINGS.withSize(10, Budget.NO_LIMIT).withEvaluations(35L));
         alone.generationStarted(0, 10);
         assertThat(alone.total()).isEqualTo("35");
 

@@ -43,14 +43,14 @@ public final class JudgedGaits {
         void add(SimulationResult result) {
             List<Double> runs = new ArrayList<>(estimate.runs());
             runs.add(result.score());
-            estimate = new Estimate(settings.judge().of(runs), runs);
+            estimate = new Estimate(settings.search().judge().of(runs), runs);
             measured |= result.status() == SimulationResult.Status.OK;
             unstable |= result.status() == SimulationResult.Status.UNSTABLE;
         }
 
         /** Whether it has all the runs of a newborn, swam in one, and was unstable in none. */
         boolean counts() {
-            return measured && !unstable && estimate.runs().size() >= settings.starts();
+            return measured && !unstable && estimate.runs().size() >= settings.search().starts();
         }
 
         JudgedGait judged() {
@@ -68,15 +68,15 @@ public final class JudgedGaits {
 
     JudgedGaits(EvolutionSettings settings) {
         this.settings = settings;
-        this.genome = settings.genome();
+        this.genome = settings.problem().genome();
     }
 
     void add(EvaluationRecord evaluation) {
         Runs known = gaits.get(evaluation.genes());
-        if (settings.starts() == 1 && known != null && known.counts()) {
+        if (settings.search().starts() == 1 && known != null && known.counts()) {
             return; // The same run again tells nothing new.
         }
-        Runs runs = settings.starts() == 1 || known == null ? new Runs(evaluation) : known;
+        Runs runs = settings.search().starts() == 1 || known == null ? new Runs(evaluation) : known;
         gaits.put(evaluation.genes(), runs);
         ranked.remove(runs);
         runs.add(evaluation.result());
@@ -87,7 +87,7 @@ public final class JudgedGaits {
 
     /** Whom the run would take for its winner, had it ended here; null without any. */
     JudgedGait best() {
-        List<Runs> best = ranked.stream().limit(settings.starts() == 1 ? 1 : Math.max(settings.elites(), 1)).toList();
+        List<Runs> best = ranked.stream().limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();
         return best.isEmpty() ? null : best.get(Surest.of(best.stream().map(one -> one.estimate).toList())).judged();
     }
 

@@ -64,7 +64,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private RunFolder(Path directory, EvolutionSettings settings) {
         this.directory = directory;
         this.settings = settings;
-        this.genome = settings.genome();
+        this.genome = settings.problem().genome();
         this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
         try {
             CompactRun.Last last = CompactRun.last(directory, log.rows());
@@ -226,7 +226,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
     public void changeGenerations(int generations) {
-        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
+        if (dropped > 0 && settings.search().optimizer() == OptimizerKind.CMA_ES) {
             refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
         }
         settings = settings.withGenerations(generations);
@@ -290,7 +290,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         if (state.best() == null) {
             return null;
         }
-        BestGait best = BestGait.of(settings.scene(), state.best(), genome.decode(state.best().genes()));
+        BestGait best = BestGait.of(settings.problem().scene(), state.best(), genome.decode(state.best().genes()));
         write(best);
         return best;
     }

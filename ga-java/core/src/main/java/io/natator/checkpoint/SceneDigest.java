@@ -30,11 +30,11 @@ public final class SceneDigest {
      */
     public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {
         try {
-            JsonNode scene = Json.parse(SceneInfo.definition(settings.scene(), settings.overrides(), simulator), JsonNode.class);
+            JsonNode scene = Json.parse(SceneInfo.definition(settings.problem().scene(), settings.problem().overrides(), simulator), JsonNode.class);
             scene.findParents(WITHOUT_EFFECT).forEach(part -> ((ObjectNode) part).remove(WITHOUT_EFFECT));
             return Sha256.of(Json.line(scene));
         } catch (JsonProcessingException e) {
-            throw new InvalidInputException("simulator does not define scene " + settings.scene() + ": " + Json.reason(e), e);
+            throw new InvalidInputException("simulator does not define scene " + settings.problem().scene() + ": " + Json.reason(e), e);
         }
     }
 
@@ -68,15 +68,15 @@ public final class SceneDigest {
 
     private static void check(Path directory, StoredRun.Begun begun, String digest) {
         if (!begun.sceneSha256().equals(digest)) {
-            throw new InvalidInputException("scene " + begun.settings().scene() + " was changed after " + directory
+            throw new InvalidInputException("scene " + begun.settings().problem().scene() + " was changed after " + directory
                     + " was begun; expected the scene that it was begun with, or a new run");
         }
     }
 
     /** Whether it is known what these settings' scene was when the run was begun. */
     private static boolean isWith(StoredRun.Begun begun, EvolutionSettings settings) {
-        return isKnown(begun) && begun.settings().scene().equals(settings.scene())
-                && Objects.equals(begun.settings().overrides(), settings.overrides());
+        return isKnown(begun) && begun.settings().problem().scene().equals(settings.problem().scene())
+                && Objects.equals(begun.settings().problem().overrides(), settings.problem().overrides());
     }
 
     /**

@@ -242,11 +242,11 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         if (state == null || state.best() == null) {
             return null;
         }
-        String damage = RunDamage.genes(directory, settings.genome(), state);
+        String damage = RunDamage.genes(directory, settings.problem().genome(), state);
         if (damage != null) {
             throw new InvalidInputException(damage);
         }
-        return BestGait.of(settings.scene(), state.best(), settings.genome().decode(state.best().genes()));
+        return BestGait.of(settings.problem().scene(), state.best(), settings.problem().genome().decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
@@ -276,9 +276,9 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      * objective first; else none.
      */
     public List<Individual> front() {
-        boolean several = settings.optimizer() == OptimizerKind.NSGA2 && state != null;
+        boolean several = settings.search().optimizer() == OptimizerKind.NSGA2 && state != null;
         return several ? ParetoRanking.front(state.population(),
-                settings.genome().genes()) : List.of();
+                settings.problem().genome().genes()) : List.of();
     }
 
     /**
@@ -286,7 +286,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      * kinds were others.
      */
     public EliteMap elites() {
-        boolean isMapped = settings.optimizer() == OptimizerKind.MAP_ELITES && state != null
+        boolean isMapped = settings.search().optimizer() == OptimizerKind.MAP_ELITES && state != null
                 && state.population().stream().anyMatch(one -> one.effort() != null);
         return isMapped ? new EliteMap(state.population()) : null;
     }

@@ -72,4 +72,11 @@ public final class Limits {
                     + (value > SECONDS ? ", up to " + (long) SECONDS : ""));
         }
     }
+
+    /** Refuses a setting that is not as expected. */
+    static void require(boolean valid, String name, Object value, String expected) {
+        if (!valid) {
+            throw new InvalidInputException(name + " is " + value + "; expected " + expected);
+        }
+    }
 }

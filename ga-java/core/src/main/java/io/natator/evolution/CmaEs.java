@@ -46,7 +46,7 @@ final class CmaEs implements Optimizer {
 
     @Override
     public void recall(List<Individual> earlier) {
-        int size = settings.population();
+        int size = settings.search().population();
         for (int first = 0; first + size <= earlier.size(); first += size) {
             points();
             known.addAll(earlier.subList(first, first + size));
@@ -63,7 +63,7 @@ final class CmaEs implements Optimizer {
 
     /** The points of the next generation in [0, 1]^n; of a new search if the present one has converged. */
     private List<double[]> points() {
-        Replay replay = new Replay(values(), settings.population());
+        Replay replay = new Replay(values(), settings.search().population());
         try {
             search(replay);
         } catch (GenerationComplete e) {
@@ -76,7 +76,7 @@ final class CmaEs implements Optimizer {
 
     private void search(Replay replay) {
         int dimension = ranges.size();
-        RandomGenerator random = new Well19937c(Seeds.of(settings.seed(), searches));
+        RandomGenerator random = new Well19937c(Seeds.of(settings.search().seed(), searches));
         double[] start = new double[dimension];
         Arrays.setAll(start, i -> random.nextDouble());
         double[] step = new double[dimension];
@@ -86,7 +86,7 @@ final class CmaEs implements Optimizer {
         new CMAESOptimizer(Integer.MAX_VALUE, 0, true, 0, 0, random, false, null).optimize(
                 new ObjectiveFunction(replay), GoalType.MAXIMIZE, MaxEval.unlimited(), new InitialGuess(start),
                 new SimpleBounds(new double[dimension], upper), new CMAESOptimizer.Sigma(step),
-                new CMAESOptimizer.PopulationSize(settings.population()));
+                new CMAESOptimizer.PopulationSize(settings.search().population()));
     }
 
     private List<Double> genes(double[] point) {
@@ -101,9 +101,9 @@ final class CmaEs implements Optimizer {
     /** Signed distances; what was unstable or failed is worth as much as the worst of its generation. */
     private double[] values() {
         double[] values = new double[known.size()];
-        for (int first = 0; first < values.length; first += settings.population()) {
+        for (int first = 0; first < values.length; first += settings.search().population()) {
             List<Individual> generation =
-                    known.subList(first, Math.min(first + settings.population(), known.size()));
+                    known.subList(first, Math.min(first + settings.search().population(), known.size()));
             double worst = generation.stream().filter(Individual::isMeasured).mapToDouble(Individual::score).min()
                     .orElse(0.0);
             for (int i = 0; i < generation.size(); i++) {

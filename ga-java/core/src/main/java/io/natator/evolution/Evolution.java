@@ -50,7 +50,7 @@ public final class Evolution {
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             Recorded recorded) {
         this.settings = settings;
-        this.genome = settings.genome();
+        this.genome = settings.problem().genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
         this.recorded = recorded;
@@ -85,7 +85,7 @@ public final class Evolution {
     }
 
     private long budgetLeft() {
-        return settings.evaluations() == null ? Long.MAX_VALUE : Math.max(settings.evaluations() - evaluations, 0);
+        return settings.budget().evaluations() == null ? Long.MAX_VALUE : Math.max(settings.budget().evaluations() - evaluations, 0);
     }
 
     /** The state after a generation, announced to the listeners. */
@@ -94,11 +94,11 @@ public final class Evolution {
         List<Individual> champions = null;
         List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
-        if (settings.starts() > 1) {
+        if (settings.search().starts() > 1) {
             Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
                     before == null || before.refused() == null ? List.of() : before.refused());
             champions = race.run();
-            if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
+            if (budgetLeft() > 0 && budgetLeft() < settings.search().starts()) {
                 champions = race.useUp((int) budgetLeft());
             }
             population = bred.stream().map(race::known).toList();
@@ -129,15 +129,15 @@ public final class Evolution {
 
     /** New genomes as individuals: each run from all starts of the generation. */
     private List<Individual> evaluate(List<List<Double>> proposed) {
-        int starts = settings.starts();
+        int starts = settings.search().starts();
         List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
         born.addAll(genomes);
-        int planned = (int) Math.min((long) genomes.size() * starts + settings.repeats(), budgetLeft());
+        int planned = (int) Math.min((long) genomes.size() * starts + settings.search().repeats(), budgetLeft());
         listeners.forEach(listener -> listener.generationStarted(generation, planned));
         List<Run> runs = new ArrayList<>();
         for (List<Double> genes : genomes) {
             for (int k = 0; k < starts; k++) {
-                runs.add(new Run(genes, starts == 1 ? null : Starts.of(settings.seed(), generation, k)));
+                runs.add(new Run(genes, starts == 1 ? null : Starts.of(settings.search().seed(), generation, k)));
             }
         }
         return newborns(genomes, simulate(runs));
@@ -145,26 +145,26 @@ public final class Evolution {
 
     /** Individuals of several runs each, which stand one after another. */
     private List<Individual> newborns(List<List<Double>> genomes, List<SimulationResult> results) {
-        int starts = settings.starts();
+        int starts = settings.search().starts();
         List<Individual> newborns = new ArrayList<>();
         for (int i = 0; i < genomes.size(); i++) {
             List<SimulationResult> own = results.subList(i * starts, (i + 1) * starts);
             SimulationResult shown = own.stream().filter(one -> one.status() == SimulationResult.Status.OK).findFirst()
                     .orElse(own.get(0));
             newborns.add(new Individual(genomes.get(i), 0, shown,
-                    starts == 1 ? null : Estimate.of(own, settings.judge())));
+                    starts == 1 ? null : Estimate.of(own, settings.search().judge())));
         }
         return newborns;
     }
 
     /** The newborns of all generations that these simulations are of. */
     private List<Individual> newborns(List<EvaluationRecord> earlier) {
-        int starts = settings.starts();
+        int starts = settings.search().starts();
         List<List<Double>> genomes = new ArrayList<>();
         List<SimulationResult> results = new ArrayList<>();
         for (EvaluationRecord one : earlier) {
             if (starts > 1 && one.start() != null && IntStream.range(0, starts)
-                    .noneMatch(k -> one.start() == Starts.of(settings.seed(), one.generation(), k))) {
+                    .noneMatch(k -> one.start() == Starts.of(settings.search().seed(), one.generation(), k))) {
                 continue;
             }
             if (results.size() % starts == 0) {
@@ -179,7 +179,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (Individual one : individuals) {
             for (int k = first; k < first + starts; k++) {
-                runs.add(new Run(one.genes(), Starts.of(settings.seed(), generation, k)));
+                runs.add(new Run(one.genes(), Starts.of(settings.search().seed(), generation, k)));
             }
         }
         List<SimulationResult> results = simulate(runs.subList(0, (int) Math.min(runs.size(), budgetLeft())));
@@ -187,7 +187,7 @@ public final class Evolution {
         for (int i = 0; i * starts < results.size(); i++) {
             List<SimulationResult> own = results.subList(i * starts, Math.min((i + 1) * starts, results.size()));
             Individual one = individuals.get(i);
-            repeated.add(one.withEstimate(one.estimate().with(own, settings.judge())));
+            repeated.add(one.withEstimate(one.estimate().with(own, settings.search().judge())));
         }
         return repeated;
     }

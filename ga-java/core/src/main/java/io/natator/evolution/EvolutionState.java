@@ -55,7 +55,7 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
 
     /** Whether an evolution with these settings goes no further than this state: no more whole gait can be evaluated. */
     public boolean isLastOf(EvolutionSettings settings) {
-        return generation >= settings.generations()
-                || settings.evaluations() != null && evaluations + settings.starts() > settings.evaluations();
+        return generation >= settings.budget().generations()
+                || settings.budget().evaluations() != null && evaluations + settings.search().starts() > settings.budget().evaluations();
     }
 }

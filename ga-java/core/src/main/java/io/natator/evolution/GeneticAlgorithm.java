@@ -53,7 +53,7 @@ final class GeneticAlgorithm implements Optimizer {
         configuration.setEventManager(new EventManager());
         configuration.setFitnessEvaluator(new DefaultFitnessEvaluator());
         configuration.setFitnessFunction(new KnownFitness(breeder));
-        configuration.setPopulationSize(settings.population());
+        configuration.setPopulationSize(settings.search().population());
         configuration.setKeepPopulationSizeConstant(false);
         configuration.setSampleChromosome(chromosome(ranges.stream().map(GeneRange::lower).toList()));
         configuration.addNaturalSelector(Operators.elite(configuration), true);
@@ -65,7 +65,7 @@ final class GeneticAlgorithm implements Optimizer {
 
     @Override
     public List<Individual> next(int generation, List<Individual> parents) {
-        random.setSeed(Seeds.of(settings.seed(), generation));
+        random.setSeed(Seeds.of(settings.search().seed(), generation));
         try {
             return individuals(generation == 0 ? first() : children(parents));
         } catch (InvalidConfigurationException e) {
@@ -75,8 +75,8 @@ final class GeneticAlgorithm implements Optimizer {
 
     /** Random chromosomes, evaluated. */
     private Population first() throws InvalidConfigurationException {
-        Population population = new Population(configuration, settings.population());
-        for (int i = 0; i < settings.population(); i++) {
+        Population population = new Population(configuration, settings.search().population());
+        for (int i = 0; i < settings.search().population(); i++) {
             IChromosome chromosome = Chromosome.randomInitialChromosome(configuration);
             chromosome.increaseAge();
             population.addChromosome(chromosome);

@@ -30,12 +30,12 @@ final class MapElites implements Optimizer {
 
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
-        SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
+        SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
         List<Individual> elites = new EliteMap(before).individuals();
         List<Individual> all = new ArrayList<>();
         elites.forEach(elite -> all.add(elite.withAge(elite.age() + 1)));
         List<Individual> newborns = evaluator.evaluate(elites.isEmpty()
-                ? RandomSearch.genomes(settings.population(), ranges, random) : children(elites, random));
+                ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(elites, random));
         all.addAll(newborns);
         List<Individual> next = new EliteMap(all).individuals();
         return next.isEmpty() ? newborns : next;
@@ -43,7 +43,7 @@ final class MapElites implements Optimizer {
 
     private List<List<Double>> children(List<Individual> elites, SplittableRandom random) {
         List<List<Double>> genomes = new ArrayList<>();
-        for (int i = 0; i < settings.population(); i++) {
+        for (int i = 0; i < settings.search().population(); i++) {
             genomes.add(child(elites.get(random.nextInt(elites.size())).genes(),
                     elites.get(random.nextInt(elites.size())).genes(), random));
         }

@@ -39,17 +39,17 @@ final class Nsga2 implements Optimizer {
 
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
-        SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
+        SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
         if (generation == 0) {
-            return evaluator.evaluate(RandomSearch.genomes(settings.population(), ranges, random));
+            return evaluator.evaluate(RandomSearch.genomes(settings.search().population(), ranges, random));
         }
         List<DoubleSolution> candidates = ranking.solutions(before);
-        List<DoubleSolution> parents = candidates.size() <= settings.population() ? candidates
-                : new RankingAndCrowdingSelection<DoubleSolution>(settings.population()).execute(candidates);
+        List<DoubleSolution> parents = candidates.size() <= settings.search().population() ? candidates
+                : new RankingAndCrowdingSelection<DoubleSolution>(settings.search().population()).execute(candidates);
         List<Individual> population = new ArrayList<>();
         parents.forEach(parent -> population.add(ranking.individual(parent).withAge(ranking.individual(parent).age() + 1)));
         population.addAll(evaluator.evaluate(parents.isEmpty()
-                ? RandomSearch.genomes(settings.population(), ranges, random) : children(parents, random)));
+                ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(parents, random)));
         return population;
     }
 
@@ -63,11 +63,11 @@ final class Nsga2 implements Optimizer {
         Set<List<Double>> known = new HashSet<>();
         parents.forEach(parent -> known.add(ranking.individual(parent).genes()));
         List<List<Double>> genomes = new ArrayList<>();
-        while (genomes.size() < settings.population()) {
+        while (genomes.size() < settings.search().population()) {
             List<DoubleSolution> pair = List.of(tournament(parents, better, random), tournament(parents, better, random));
             for (DoubleSolution child : crossover.execute(pair)) {
                 List<Double> genes = List.copyOf(mutation.execute(child).variables());
-                if (genomes.size() < settings.population() && known.add(genes)) {
+                if (genomes.size() < settings.search().population() && known.add(genes)) {
                     genomes.add(genes);
                 }
             }

@@ -28,8 +28,8 @@ final class Operators {
     /** The operators that make new chromosomes, in the order in which they work. */
     static List<GeneticOperator> alterers(EvolutionSettings settings, Configuration configuration,
             StockRandomGenerator random) throws InvalidConfigurationException {
-        boolean stock = settings.operators() == OperatorSet.STOCK;
-        double deviation = settings.gaussianDeviation();
+        boolean stock = settings.search().operators() == OperatorSet.STOCK;
+        double deviation = settings.search().gaussianDeviation();
         return List.of(
                 stock ? new CrossoverOperator(configuration, CROSSOVER_SHARE)
                         : new CrossoverOperator(configuration, CROSSOVER_SHARE, true, true),
@@ -51,7 +51,7 @@ final class Operators {
      */
     static NaturalSelector roulette(EvolutionSettings settings, Configuration configuration)
             throws InvalidConfigurationException {
-        return settings.operators() == OperatorSet.STOCK ? new WeightedRouletteSelector(configuration)
+        return settings.search().operators() == OperatorSet.STOCK ? new WeightedRouletteSelector(configuration)
                 : new RouletteSelector(configuration);
     }
 }

@@ -38,7 +38,7 @@ interface Optimizer extends AutoCloseable {
      * @param evaluator simulates what it proposes
      */
     static Optimizer of(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
-        return switch (settings.optimizer()) {
+        return switch (settings.search().optimizer()) {
             case JGAP -> new GeneticAlgorithm(settings, ranges, evaluator);
             case CMA_ES -> new CmaEs(settings, ranges, evaluator);
             case RANDOM -> new RandomSearch(settings, ranges, evaluator);

@@ -51,7 +51,7 @@ final class Race {
             Collection<List<Double>> refused) {
         this.settings = settings;
         this.repeater = repeater;
-        this.places = Math.max(settings.elites(), 1);
+        this.places = Math.max(settings.search().elites(), 1);
         this.refused.addAll(refused);
         population.forEach(this::enter);
         champions.forEach(this::enter);
@@ -73,7 +73,7 @@ final class Race {
      * @return the champions, the best first
      */
     List<Individual> run() {
-        int starts = settings.starts();
+        int starts = settings.search().starts();
         int forBest = (starts + 1) / 2;
         repeater.repeat(first(ranked()), starts, forBest).forEach(this::enter);
         repeater.repeat(first(closest()), starts + forBest, starts - forBest).forEach(this::enter);
@@ -88,7 +88,7 @@ final class Race {
      */
     List<Individual> useUp(int runs) {
         List<Individual> ranked = ranked();
-        repeater.repeat(ranked.subList(0, Math.min(1, ranked.size())), 2 * settings.starts(), runs).forEach(this::enter);
+        repeater.repeat(ranked.subList(0, Math.min(1, ranked.size())), 2 * settings.search().starts(), runs).forEach(this::enter);
         return first(ranked());
     }
 

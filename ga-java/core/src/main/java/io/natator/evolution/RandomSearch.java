@@ -21,8 +21,8 @@ final class RandomSearch implements Optimizer {
 
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
-        SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
-        return evaluator.evaluate(genomes(settings.population(), ranges, random));
+        SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
+        return evaluator.evaluate(genomes(settings.search().population(), ranges, random));
     }
 
     /** So many. */

@@ -43,10 +43,10 @@ final class ThesisBreeder extends GABreeder {
     /** The best (30 of 150), the rest (120) by roulette. */
     private Population select(Population parents, Configuration configuration) {
         try {
-            Population selected = new Population(configuration, settings.population());
-            Operators.elite(configuration).select(settings.elites(), parents, selected);
+            Population selected = new Population(configuration, settings.search().population());
+            Operators.elite(configuration).select(settings.search().elites(), parents, selected);
             Operators.roulette(settings, configuration)
-                    .select(settings.population() - selected.size(), parents, selected);
+                    .select(settings.search().population() - selected.size(), parents, selected);
             return selected;
         } catch (InvalidConfigurationException e) {
             throw new IllegalStateException(e);

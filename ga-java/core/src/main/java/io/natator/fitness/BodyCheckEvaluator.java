@@ -39,7 +39,7 @@ public final class BodyCheckEvaluator implements Evaluator {
     public BodyCheckEvaluator(Evaluator evaluator, EvolutionSettings settings, Path simulator) throws InterruptedException {
         this.evaluator = evaluator;
         this.simulator = simulator;
-        this.scene = SceneInfo.of(settings.scene(), settings.overrides(), simulator);
+        this.scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), simulator);
     }
 
     @Override

@@ -51,8 +51,8 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
      * @param settings of the run
      */
     public static SimulationRequest of(long id, EvolutionSettings settings, Swimmer swimmer) {
-        return new SimulationRequest(id, settings.scene(), swimmer.gait(), settings.duration(), settings.scheme(),
-                MergePatch.both(settings.overrides(), swimmer.body()));
+        return new SimulationRequest(id, settings.problem().scene(), swimmer.gait(), settings.problem().duration(), settings.problem().scheme(),
+                MergePatch.both(settings.problem().overrides(), swimmer.body()));
     }
 
     /** This request in a scene that is changed further; null for no change. */

@@ -52,7 +52,7 @@ public final class ControlRuns {
             SwimSample resting = again.sample(
                     runs(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping()), evaluator), swimmer, 1);
             SwimSample vacuum = again.sample(runs(again.requests(swimmer, starts, null).stream()
-                    .map(request -> VacuumRequests.of(request, settings.duration())).toList(), evaluator), swimmer, 1);
+                    .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList(), evaluator), swimmer, 1);
             SwimSample clampOff = scheme.equals(FLEX)
                     ? again.sample(runs(again.requests(swimmer, starts, withoutClamp()), evaluator), swimmer, 1) : null;
             SwimSample half = again.sample(runs(again.requests(swimmer, starts, again.halfStep()), evaluator), swimmer, 2);

@@ -60,7 +60,7 @@ public final class EvolutionRun {
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
             throws InterruptedException {
         return execution.timeout() != null ? execution : execution.withTimeout(TimeLimit.of(
-                SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()), settings.duration()));
+                SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator()), settings.problem().duration()));
     }
 
     /** The same with the longest of the limits that suit several settings. */
@@ -116,16 +116,16 @@ public final class EvolutionRun {
         // Runs that share an evaluator count for themselves what they find in its cache.
         CachedEvaluator cached = evaluator instanceof CachedEvaluator shared ? shared.counting() : null;
         Evaluator own = cached == null ? evaluator : cached;
-        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator());
         checkFitness(settings, scene);
-        double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        double duration = settings.problem().duration() != null ? settings.problem().duration() : scene.duration();
         EvaluationCounter counter = new EvaluationCounter(folder, duration, cached == null ? () -> 0 : cached::found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
-        if (settings.vacuumCheck()) {
+        if (settings.problem().vacuumCheck()) {
             all.add(new VacuumCheck(folder, own));
         }
         all.addAll(List.of(listeners));
-        Evaluator checked = settings.evolve() == null ? own
+        Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded())
                 .run(folder.checkpoint());
@@ -143,7 +143,7 @@ public final class EvolutionRun {
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
-                    best.body() == null ? scene.bodyLength() : Double.valueOf(settings.bodyLength(best.body())));
+                    best.body() == null ? scene.bodyLength() : Double.valueOf(settings.problem().bodyLength(best.body())));
             folder.write(best);
         }
         return new Outcome(state, best);
@@ -158,30 +158,30 @@ public final class EvolutionRun {
      */
     public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
         checkFitness(settings, scene);
-        return measuring(settings, settings.objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
+        return measuring(settings, settings.problem().objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
     }
 
     /** Goals are what is rewarded where a scene has any, so that there is no distance to take a drift off. */
     private static void checkFitness(EvolutionSettings settings, SceneInfo scene) {
-        if (settings.fitness() == FitnessKind.NET && scene.goals() != null && !scene.goals().isEmpty()) {
-            throw new InvalidInputException("--fitness net is for scenes without goals, and " + settings.scene()
+        if (settings.problem().fitness() == FitnessKind.NET && scene.goals() != null && !scene.goals().isEmpty()) {
+            throw new InvalidInputException("--fitness net is for scenes without goals, and " + settings.problem().scene()
                     + " has some, which are its fitness; expected --objectives net, alone or together with goals");
         }
     }
 
     /** An evaluator whose results tell what the optimizer asks for. */
     private static Evaluator measuring(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
-        if (settings.optimizer() != OptimizerKind.MAP_ELITES) {
+        if (settings.search().optimizer() != OptimizerKind.MAP_ELITES) {
             return evaluator;
         }
-        return settings.evolve() == null ? EffortEvaluator.of(evaluator, scene.bodyLength())
-                : new EffortEvaluator(evaluator, request -> settings.bodyLength(request.overrides()));
+        return settings.problem().evolve() == null ? EffortEvaluator.of(evaluator, scene.bodyLength())
+                : new EffortEvaluator(evaluator, request -> settings.problem().bodyLength(request.overrides()));
     }
 
     /** An evaluator whose results are worth what the run rewards. */
     static Evaluator rewarding(EvolutionSettings settings, Evaluator evaluator) {
-        return settings.objectives() != null ? new ObjectiveEvaluator(evaluator, settings.objectives())
-                : settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        return settings.problem().objectives() != null ? new ObjectiveEvaluator(evaluator, settings.problem().objectives())
+                : settings.problem().fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */

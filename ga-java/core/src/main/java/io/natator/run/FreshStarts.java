@@ -39,12 +39,12 @@ public final class FreshStarts {
         this.settings = settings;
         this.evaluator = EvolutionRun.rewarding(settings, evaluator);
         this.again = new WinnerRuns(settings, simulator);
-        this.genome = settings.genome();
+        this.genome = settings.problem().genome();
     }
 
     /** From how many starts a run's winner is run again. */
     public static int usual(EvolutionSettings settings) {
-        return Math.max(LEAST, 2 * settings.starts());
+        return Math.max(LEAST, 2 * settings.search().starts());
     }
 
     /**
@@ -76,7 +76,7 @@ public final class FreshStarts {
         }
         List<SimulationResult> half = runs(swimmer, again.halfStep());
         return FreshRuns.of(again.duration(), again.sample(base, swimmer, 1),
-                half == null ? null : again.sample(half, swimmer, 2), settings.judge(), winner.score(),
+                half == null ? null : again.sample(half, swimmer, 2), settings.search().judge(), winner.score(),
                 winner.runs(), base.stream().map(SimulationResult::score).toList());
     }
 

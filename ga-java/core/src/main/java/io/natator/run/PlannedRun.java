@@ -28,7 +28,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
         RunFolder folder = RunFolder.open(directory);
         folder.refuse(refusal(folder.settings(), settings));
         if (isShorter(folder.settings())) {
-            folder.changeGenerations(settings.generations());
+            folder.changeGenerations(settings.budget().generations());
         }
         return folder;
     }
@@ -41,7 +41,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
     public void check() {
         if (StoredRun.exists(directory)) {
             EvolutionSettings stored = StoredRun.settings(directory);
-            String refusal = refusal(stored, settings.withBackend(stored.backend()));
+            String refusal = refusal(stored, settings.withBackend(stored.budget().backend()));
             if (refusal != null) {
                 throw new InvalidInputException(refusal);
             }
@@ -61,7 +61,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /** Why a run cannot go on by settings; null if it can. */
     private String refusal(EvolutionSettings stored, EvolutionSettings wanted) {
-        EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored;
+        EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.budget().generations()) : stored;
         return extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
                 + "; choose another --output-dir, or the options that it was begun with";
     }
@@ -72,7 +72,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
     }
 
     private boolean isShorter(EvolutionSettings stored) {
-        return stored.generations() < settings.generations();
+        return stored.budget().generations() < settings.budget().generations();
     }
 
     /** How many of its evaluations are recorded. */

@@ -54,7 +54,7 @@ final class VacuumCheck implements EvolutionListener {
     static SimulationResult drift(Individual individual, EvolutionSettings settings, Double duration,
             Evaluator evaluator) throws InterruptedException {
         SimulationRequest request = SimulationRequest.of(individual.result().id(), settings,
-                settings.genome().decode(individual.genes()));
+                settings.problem().genome().decode(individual.genes()));
         try {
             return evaluator.evaluate(VacuumRequests.of(request, duration));
         } catch (RequestRejectedException e) {

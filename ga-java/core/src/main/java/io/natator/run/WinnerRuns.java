@@ -30,11 +30,11 @@ final class WinnerRuns {
     WinnerRuns(EvolutionSettings settings, Path simulator) throws InterruptedException {
         this.settings = settings;
         ObjectNode scheme = JsonNodeFactory.instance.objectNode();
-        if (settings.scheme() != null) {
-            scheme.put("scheme", Json.name(settings.scheme()));
+        if (settings.problem().scheme() != null) {
+            scheme.put("scheme", Json.name(settings.problem().scheme()));
         }
-        this.scene = SceneInfo.of(settings.scene(), MergePatch.both(settings.overrides(), scheme), simulator);
-        this.duration = scene.end(settings.duration());
+        this.scene = SceneInfo.of(settings.problem().scene(), MergePatch.both(settings.problem().overrides(), scheme), simulator);
+        this.duration = scene.end(settings.problem().duration());
     }
 
     /** In seconds, of a run that nothing ends early. */
@@ -44,7 +44,7 @@ final class WinnerRuns {
 
     /** Of a swimmer in scene units, or null. */
     Double bodyLength(Swimmer swimmer) {
-        return swimmer.body() == null ? scene.bodyLength() : Double.valueOf(settings.bodyLength(swimmer.body()));
+        return swimmer.body() == null ? scene.bodyLength() : Double.valueOf(settings.problem().bodyLength(swimmer.body()));
     }
 
     /** What half the time step changes in the scene. */
@@ -61,7 +61,7 @@ final class WinnerRuns {
      */
     List<SimulationRequest> requests(Swimmer swimmer, int starts, ObjectNode change) {
         return IntStream.range(0, starts).mapToObj(k -> SimulationRequest.of(k, settings, swimmer).withChange(change)
-                .withStart(Starts.fresh(settings.seed(), k))).toList();
+                .withStart(Starts.fresh(settings.search().seed(), k))).toList();
     }
 
     /**

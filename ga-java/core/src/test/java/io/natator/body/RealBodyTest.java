@@ -68,7 +68,7 @@ class RealBodyTest {
                 .withEvolve(new BodyEvolution(Evolved.BOTH, own, null));
         SplittableRandom random = new SplittableRandom(5);
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
-                settings.genome().decode(Bodies.random(settings.genome().genes(), random)))).toList();
+                settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random)))).toList();
         ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
 
         List<String> alone = hashes(requests, execution);

@@ -20,7 +20,7 @@ class EvolutionSettingsTest {
     @ParameterizedTest
     @CsvSource({"150, 30", "24, 5", "6, 1", "2, 0"})
     void elitesAreAFifthOfThePopulation(int population, int elites) {
-        assertThat(settings(population, 1, 0.05, null).elites()).isEqualTo(elites);
+        assertThat(settings(population, 1, 0.05, null).search().elites()).isEqualTo(elites);
     }
 
     @Test
@@ -28,6 +28,17 @@ class EvolutionSettingsTest {
         EvolutionSettings settings = settings(24, 8, 0.1, 0.25);
 
         assertThat(Json.parse(Json.document(settings), EvolutionSettings.class)).isEqualTo(settings);
+    }
+
+    /** Of runs that were begun before settings were three records, and for programs that read them. */
+    @Test
+    void filesHaveAllKeysSideBySideInTheirOldOrder() throws JsonProcessingException {
+        String file = "{\"scene\":\"thesis/creature-1\",\"encoding\":\"dense\",\"actuators\":2,\"optimizer\":\"jgap\",\"population\":24,"
+                + "\"generations\":8,\"evaluations\":100,\"seed\":1,\"operators\":\"stock\",\"gaussianDeviation\":0.05,\"fitness\":\"net\","
+                + "\"vacuumCheck\":true,\"backend\":\"cuda\",\"scheme\":\"flex\",\"duration\":2.5,\"overrides\":{\"solver\":{\"substeps\":4}},"
+                + "\"starts\":4,\"judge\":\"mean\"}";
+
+        assertThat(Json.line(Json.parse(file, EvolutionSettings.class))).isEqualTo(file);
     }
 
     @Test

@@ -35,7 +35,7 @@ class JudgeTest {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2);
         assertThatThrownBy(() -> settings.withStarts(starts, judge)).isInstanceOf(InvalidInputException.class)
                 .hasMessage(message);
-        assertThat(settings.withStarts(judge.leastRuns(), judge).judge()).isEqualTo(judge);
+        assertThat(settings.withStarts(judge.leastRuns(), judge).search().judge()).isEqualTo(judge);
     }
 
     /** Settings of a folder that was written before there were several starts. */

@@ -6,6 +6,7 @@ import static io.natator.process.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -70,7 +71,7 @@ class FaultInjectionTest {
     @CsvSource({"RESIDENT, 1050, 1000", "PROCESS, 300, 280"})
     void aThousandFaultsCostOnlyTheirOwnEvaluations(SimulatorMode mode, long count, int faults) throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
-                .withSize(100, EvolutionSettings.NO_LIMIT).withEvaluations(count);
+                .withSize(100, Budget.NO_LIMIT).withEvaluations(count);
         ExecutionSettings execution =
                 new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5)).withMode(mode);
         long filesBefore = openFiles();
@@ -107,7 +108,7 @@ class FaultInjectionTest {
     @EnumSource(value = SimulatorMode.class, names = {"RESIDENT", "PROCESS"})
     void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
-                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(40L);
+                .withSize(20, Budget.NO_LIMIT).withEvaluations(40L);
         ExecutionSettings execution =
                 new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5)).withMode(mode);
 

@@ -5,6 +5,7 @@ import static io.natator.process.Processes.assertThatOpenFilesAreAtMost;
 import static io.natator.process.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -34,7 +35,7 @@ class KilledSimulatorTest {
     @Test
     void theRealSimulatorUnderKill9() throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withSize(40, EvolutionSettings.NO_LIMIT).withEvaluations(160L).withScene(null, 0.05, null);
+                .withSize(40, Budget.NO_LIMIT).withEvaluations(160L).withScene(null, 0.05, null);
         ExecutionSettings execution =
                 new ExecutionSettings(REAL, 2, Duration.ofMinutes(5)).withMode(SimulatorMode.RESIDENT);
         long filesBefore = openFiles();
@@ -45,7 +46,7 @@ class KilledSimulatorTest {
         assertThatNoChildIsLeft();
         assertThatOpenFilesAreAtMost(filesBefore + 4);
         List<SimulationRequest> requests = evaluations.stream()
-                .map(one -> new SimulationRequest(one.result().id(), settings.scene(), one.gait(), 0.05, null, null))
+                .map(one -> new SimulationRequest(one.result().id(), settings.problem().scene(), one.gait(), 0.05, null, null))
                 .toList();
         Map<Long, SimulationResult> inPeace = new HashMap<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {

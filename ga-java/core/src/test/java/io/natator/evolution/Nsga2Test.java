@@ -25,7 +25,7 @@ class Nsga2Test {
                 .withSeed(3).withStarts(starts, Judge.MEAN)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            return new Evolution(settings, new ObjectiveEvaluator(pool, settings.objectives()), List.of(),
+            return new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
                     new Recorded(0, List.of())).run(null);
         }
     }
@@ -82,7 +82,7 @@ class Nsga2Test {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
                 .withObjectives(OptimizerKind.CMA_ES, WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            EvolutionState end = new Evolution(settings, new ObjectiveEvaluator(pool, settings.objectives()), List.of(),
+            EvolutionState end = new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
                     new Recorded(0, List.of())).run(null);
             SimulationResult best = end.best().result();
             Gait gait = ENCODING.decode(end.best().genes());

@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.body.Bodies;
 import io.natator.body.BodyGenome;
 import io.natator.config.BodyEvolution;
+import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
@@ -20,7 +21,7 @@ class OptimizerTest {
 
     private static EvolutionSettings settings(OptimizerKind optimizer, long evaluations, long seed) {
         return ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed));
+                .withSize(20, Budget.NO_LIMIT).withEvaluations(evaluations).withSeed(seed));
     }
 
     @ParameterizedTest
@@ -67,7 +68,7 @@ class OptimizerTest {
     void cmaEsBeginsAnewWhenItHasConverged() {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
 
-        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, EvolutionSettings.NO_LIMIT)
+        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, Budget.NO_LIMIT)
                 .withEvaluations(3000L).withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05), 2, null,
                 List.of(), recorder);
 
@@ -94,7 +95,7 @@ class OptimizerTest {
 
         assertThat(ToyEvolution.run(settings, 1, second, recorder.evaluations.subList(0, more))).isEqualTo(whole);
 
-        List<GeneRange> ranges = settings.genome().genes();
+        List<GeneRange> ranges = settings.problem().genome().genes();
         assertThat(recorder.evaluations).allSatisfy(one -> GeneRange.check(ranges, one.genes()));
         assertThat(whole.best().genes()).hasSize(4 + new BodyGenome(Bodies.bundled("eel")).genes().size());
     }

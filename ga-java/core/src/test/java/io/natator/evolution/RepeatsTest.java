@@ -3,6 +3,7 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Judge;
@@ -131,7 +132,7 @@ class RepeatsTest {
     void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
         for (long most : List.of(4L, 7L, 81L, 90L, 97L, 98L, 203L)) {
             ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-            EvolutionState end = ToyEvolution.run(settings(optimizer, EvolutionSettings.NO_LIMIT).withEvaluations(most), 2, null,
+            EvolutionState end = ToyEvolution.run(settings(optimizer, Budget.NO_LIMIT).withEvaluations(most), 2, null,
                     List.of(), recorder);
             assertThat(end.evaluations()).isEqualTo(most).isEqualTo(recorder.evaluations.size());
             assertThat(end.best()).isNotNull();

@@ -34,8 +34,8 @@ final class ToyEvolution {
 
     /** What measures all that the settings ask for. */
     static Evaluator evaluator(EvolutionSettings settings, Evaluator toy) {
-        Evaluator worth = settings.objectives() == null ? toy : new ObjectiveEvaluator(toy, settings.objectives());
-        return settings.optimizer() == OptimizerKind.MAP_ELITES ? EffortEvaluator.of(worth, BODY_LENGTH) : worth;
+        Evaluator worth = settings.problem().objectives() == null ? toy : new ObjectiveEvaluator(toy, settings.problem().objectives());
+        return settings.search().optimizer() == OptimizerKind.MAP_ELITES ? EffortEvaluator.of(worth, BODY_LENGTH) : worth;
     }
 
     /** Keeps all that a run folder keeps. */

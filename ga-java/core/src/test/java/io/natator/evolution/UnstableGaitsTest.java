@@ -106,7 +106,7 @@ class UnstableGaitsTest {
                 chosen.add(state.best());
             }
             if (optimizer == OptimizerKind.NSGA2) {
-                chosen.addAll(ParetoRanking.front(state.population(), settings.genome().genes()));
+                chosen.addAll(ParetoRanking.front(state.population(), settings.problem().genome().genes()));
             }
             if (optimizer == OptimizerKind.MAP_ELITES) {
                 chosen.addAll(new EliteMap(state.population()).elites().values());

@@ -178,7 +178,7 @@ class EvolutionRunTest {
     /** Sums of 0.1 s are not whole multiples of it, and a body that is none is no saved time. */
     @Test
     void nothingIsSavedWhereNothingEndsEarly() throws InterruptedException {
-        run("short", SETTINGS.with(to -> to.duration(0.1)), execution);
+        run("short", SETTINGS.withScene(null, 0.1, null), execution);
 
         EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("short"));
         assertThat(statistics.simulatedSeconds()).isEqualTo(statistics.wholeSeconds());
@@ -203,7 +203,7 @@ class EvolutionRunTest {
                 toy.close();
             }
         };
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), SETTINGS.with(to -> to.duration(duration)));
+        try (RunFolder run = RunFolder.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
                 Evaluator evaluator = new WorkerPool(stopped, 2)) {
             new EvolutionRun(run).run(execution, evaluator);
         }

@@ -22,10 +22,10 @@ record BodyOutline(String label, double length, List<double[]> sections, List<Do
 
     /** The scene's body, and the best of generations from the first to the last; null of a run that evolves gaits alone. */
     static List<BodyOutline> of(StoredRun run, List<RunAnswer.Best> bests) {
-        if (run.settings().evolve() == null) {
+        if (run.settings().problem().evolve() == null) {
             return null;
         }
-        ProfileBody scene = run.settings().evolve().body();
+        ProfileBody scene = run.settings().problem().evolve().body();
         List<BodyOutline> outlines = new ArrayList<>(List.of(of("the scene's", scene)));
         Set<RunAnswer.Best> shown = new LinkedHashSet<>();
         for (int i = 0; i < BODIES && !bests.isEmpty(); i++) {

@@ -61,8 +61,8 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
         if (front.isEmpty()) {
             return null;
         }
-        List<Goal> goals = run.settings().objectives().stream().map(one -> Goal.of(one.objective())).toList();
-        Genome genome = run.settings().genome();
+        List<Goal> goals = run.settings().problem().objectives().stream().map(one -> Goal.of(one.objective())).toList();
+        Genome genome = run.settings().problem().genome();
         List<Point> points = new ArrayList<>();
         Set<List<Double>> known = new HashSet<>();
         for (Individual one : front) {

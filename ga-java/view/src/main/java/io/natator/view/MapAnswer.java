@@ -48,7 +48,7 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
         }
         IntSummaryStatistics beats = map.beats();
         IntSummaryStatistics costs = map.costs();
-        Genome genome = run.settings().genome();
+        Genome genome = run.settings().problem().genome();
         List<Elite> elites = map.moving().entrySet().stream().map(entry -> {
             Individual one = entry.getValue();
             Swimmer swimmer = genome.decode(one.genes());
@@ -64,10 +64,10 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
     }
 
     private static String worth(EvolutionSettings settings) {
-        if (settings.objectives() == null) {
-            return settings.fitness() == FitnessKind.NET ? "distance less drift in vacuum, length units" : "distance, length units";
+        if (settings.problem().objectives() == null) {
+            return settings.problem().fitness() == FitnessKind.NET ? "distance less drift in vacuum, length units" : "distance, length units";
         }
-        return settings.objectives().stream().map(one -> Json.name(one.objective())
+        return settings.problem().objectives().stream().map(one -> Json.name(one.objective())
                 + (one.weight() == null ? "" : " × " + one.weight())).collect(Collectors.joining(" + "));
     }
 }

@@ -74,8 +74,8 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
         List<Best> bests = bests(run, generations);
-        return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
-                settings.seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
+        return new RunAnswer(id, name(run.directory()), settings.problem().scene(), overrides(settings), settings.search().optimizer(),
+                settings.search().seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
                 run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapAnswer.of(run),
                 FrontAnswer.of(run), BodyOutline.of(run, bests));
     }
@@ -87,13 +87,13 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
 
     /** A run's changes to its scene and its scheme as one patch, or null if there is neither. */
     static ObjectNode overrides(EvolutionSettings settings) {
-        return InitialScene.patch(settings.overrides(), settings.scheme());
+        return InitialScene.patch(settings.problem().overrides(), settings.problem().scheme());
     }
 
     /** The same with a swimmer's body; null where that is the scene's own. */
     static ObjectNode overrides(EvolutionSettings settings, Swimmer swimmer) {
         return swimmer.body() == null ? null
-                : InitialScene.patch(MergePatch.both(settings.overrides(), swimmer.body()), settings.scheme());
+                : InitialScene.patch(MergePatch.both(settings.problem().overrides(), swimmer.body()), settings.problem().scheme());
     }
 
     private static List<Generation> generations(StoredRun run) {
@@ -120,13 +120,13 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
      * was made compact knows only the best of all.
      */
     private static List<Best> bests(StoredRun run, List<Generation> generations) {
-        if (run.settings().starts() > 1) {
+        if (run.settings().search().starts() > 1) {
             return champions(run, generations);
         }
         Map<Double, EvaluationRecord> swims = new HashMap<>();
         run.evaluations().stream().filter(one -> one.result().status() == SimulationResult.Status.OK)
                 .forEach(one -> swims.putIfAbsent(one.result().score(), one));
-        Genome genome = run.settings().genome();
+        Genome genome = run.settings().problem().genome();
         List<Best> bests = new ArrayList<>();
         for (Generation generation : generations) {
             EvaluationRecord swim = swims.get(generation.best());

@@ -125,7 +125,7 @@ public final class ViewServer implements AutoCloseable {
         Set<String> files = new HashSet<>();
         addFiles(files, settings.start().scene(), settings.start().overrides());
         settings.runs().stream().map(StoredRun::settings)
-                .forEach(run -> addFiles(files, run.scene(), RunAnswer.overrides(run)));
+                .forEach(run -> addFiles(files, run.problem().scene(), RunAnswer.overrides(run)));
         return files;
     }
 
