@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
+import io.natator.config.Search;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import java.util.function.LongSupplier;
@@ -151,7 +152,9 @@ final class ProgressEstimate {
 
     /** How many evaluations a run takes, as far as that is known before. */
     static long evaluations(EvolutionSettings settings) {
-        return settings.budget().evaluations() != null ? settings.budget().evaluations() : Math.round(settings.search().starts() * settings.search().population()
-                * (1 + CHILDREN_PER_SELECTED * settings.budget().generations())) + (long) settings.search().repeats() * (settings.budget().generations() + 1);
+        Search search = settings.search();
+        Budget budget = settings.budget();
+        return budget.evaluations() != null ? budget.evaluations() : Math.round(search.starts() * search.population()
+                * (1 + CHILDREN_PER_SELECTED * budget.generations())) + (long) search.repeats() * (budget.generations() + 1);
     }
 }
