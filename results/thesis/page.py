@@ -314,8 +314,6 @@ class Page:
         """Text of the page, by page.md, in which {{name}} stands for what a method of that name says, a table, or the pictures."""
         def value(match):
             name = match.group(1)
-            if name == "commentary":
-                return commentary(self.study.folder / "commentary.md")
             found = pictures[name] if name in pictures else getattr(self, name)()
             return markdown(found) if isinstance(found, list) else found
         return re.sub(r"\{\{(\w+)\}\}", value, (plan.HERE / "page.md").read_text(encoding="utf-8"))
@@ -357,16 +355,3 @@ def csv_text(rows):
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(rows)
     return out.getvalue()
-
-
-def commentary(file):
-    """What a person wrote: each paragraph that begins *so.* is folded under these words, with the tables that follow it."""
-    if not file.exists():
-        return "Nothing is written yet."
-    parts = re.split(r"\n\n(?=\*[^*\n]+\*)", file.read_text(encoding="utf-8").strip())
-    folded = []
-    for part in parts:
-        begin = re.match(r"\*([^*\n]+)\*\s*", part)
-        summary = re.sub(r"`([^`]+)`", r"<code>\1</code>", begin.group(1)) if begin else ""
-        folded.append(f"<details><summary>{summary}</summary>\n\n{part[begin.end():].strip()}\n\n</details>" if begin else part)
-    return "\n\n".join(folded)
