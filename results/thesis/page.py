@@ -34,7 +34,8 @@ class Page:
         """All of them, by name."""
         found = {f"{name}-{water}": table(water) for name, table in (("speeds", self.speeds), ("verdicts", self.verdicts), ("controls", self.controls))
                  for water in WATERS}
-        found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "agreement": self.agreement(), "beside-flex": self.beside_flex(), "decisive": self.decisive(), "fish": self.fish("fits", True),
+        found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "agreement": self.agreement(), "beside-flex": self.beside_flex(),
+                  "decisive": self.decisive(), "fish": self.fish("fits", True),
                   "fish-upright": self.fish("fitsOfBody", False), "attitudes": self.attitudes(), "parameters": self.parameters(),
                   "potentiation": self.potentiation(), "two-clusters": self.two_clusters()}
         return {name: table for name, table in found.items() if len(table) > 1}
