@@ -13,7 +13,7 @@ from measured import FISH, Sample, error_text, fixed, percent, with_error
 from plan import GAITS, WATERS
 
 WORDS = {"flex": "flex", "open-water": "open water"}
-MARK = "Generated; do not edit."
+MARK = "<!-- answer -->"
 BOUND = 0.02  # from here on a gene counts as being on its bound, as a share of its range
 
 
@@ -277,7 +277,7 @@ class Page:
         ends = [f"creature {one.creature} after {self.seconds(one)}" for one in self.study.bests("open-water") if self.study.ends_at_wall(one)]
         return f" In open water a speed is that until a wall is touched: by {', '.join(ends)}." if ends else ""
 
-    # What page.md asks for by name.
+    # What README.md asks for by name.
 
     def reynolds(self):
         known = [one for subject in self.study.subjects("open-water") if self.study.may_swim(subject)
@@ -312,15 +312,12 @@ class Page:
                "which every row names by its SHA-256."
 
     def write(self, pictures):
-        """Text of the page, by page.md, in which {{name}} stands for what a method of that name says, a table, or the pictures."""
+        """Text of the page: that of README.md, with what a method says, a table or pictures between <!-- NAME --> and <!-- /NAME -->."""
         def value(match):
-            name = match.group(1)
+            name, break_after = match.groups()
             found = pictures[name] if name in pictures else getattr(self, name)()
-            return markdown(found) if isinstance(found, list) else found
-        return re.sub(r"\{\{(\w+)\}\}", value, (plan.HERE / "page.md").read_text(encoding="utf-8"))
-
-    def mark(self):
-        return MARK
+            return f"<!-- {name} -->{break_after}{markdown(found) if isinstance(found, list) else found}{break_after}<!-- /{name} -->"
+        return re.sub(r"<!-- (\w+) -->(\n?).*?<!-- /\1 -->", value, (plan.HERE / "README.md").read_text(encoding="utf-8"), flags=re.DOTALL)
 
     def untested(self):
         return [["the thesis says", "why it is not tested"], *map(list, claims.UNTESTED)]
