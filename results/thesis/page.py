@@ -100,7 +100,9 @@ class Page:
         rows = {one.says: {} for one in self.claims}
         for one in self.claims:
             rows[one.says][one.water] = one.outcome
-        return [["the thesis says", "in flex", "in open water"]] + [[says, *(row.get(water, "") for water in WATERS)] for says, row in rows.items()]
+        def sign(outcome):
+            return outcome[0] if outcome in ("✔ holds", "✘ does not hold", "– open") else outcome
+        return [["the thesis says", "in flex", "in open water"]] + [[says, *(sign(row.get(water, "")) for water in WATERS)] for says, row in rows.items()]
 
     def claim_numbers(self):
         return [["the thesis says", "water", "what was measured", "holds"]] + [[one.says, WORDS[one.water], one.measured, one.outcome]
