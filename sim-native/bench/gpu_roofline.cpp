@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/scene_json.h"
-#include "solver/cuda/large/fetch_roof.h"
+#include "solver/cuda/grid/fetch_roof.h"
 #include "throughput.h"
 #include "timed_batch.h"
 

@@ -18,7 +18,7 @@ constexpr int fewest_frames = 8;
 
 /// Moves a tank that goes along with its swimmer: whether it did.
 template <class Real>
-bool follow(std::optional<TankFollower>& follower, const Model& model, State<Real>& state) {
+bool follow(std::optional<MovingFrame>& follower, const Model& model, State<Real>& state) {
     if (!follower) return false;
     follower->drift(model.time_step);
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model.body, state));
@@ -34,7 +34,7 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
     const int first_judged = static_cast<int>(std::lround(subject.judged_from * frames));
     LawWatch laws(model);
     laws.drive_by(subject.gait);
-    std::optional<TankFollower> follower;
+    std::optional<MovingFrame> follower;
     if (subject.scene.moving_tank) follower.emplace(subject.scene, model);
 
     State<Real> state = initial_state<Real>(model);

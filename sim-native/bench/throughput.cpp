@@ -13,7 +13,7 @@
 #include "in_precision.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
-#include "run/cuda/by_whole_gpu.h"
+#include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
 #include "timed_batch.h"
@@ -95,7 +95,7 @@ public:
 
 private:
     std::string path() const {
-        if (!cuda::by_whole_gpu(scene_, model_, options())) return "block";
+        if (!cuda::uses_grid_kernels(scene_, model_, options())) return "block";
         return study_.without_lists && scene_.scheme == Scheme::conserving ? "whole GPU without lists" : "whole GPU";
     }
     BatchOptions options() const {
@@ -153,8 +153,8 @@ Scene throughput_scene(int particles) {
         return static_cast<int>(std::lround(fluid / static_cast<double>(layer)));
     };
     count[0] = layers(particles);
-    constexpr int most_room_of_swimmer = 500;  // lattice points nearer to it than the clearance
-    if (layer < 2 * most_room_of_swimmer) count[0] += layers(particles - fluid_particles(build_model(scene_of(count))));
+    constexpr int max_room_of_swimmer = 500;  // lattice points nearer to it than the clearance
+    if (layer < 2 * max_room_of_swimmer) count[0] += layers(particles - fluid_particles(build_model(scene_of(count))));
     return scene_of(count);
 }
 
@@ -203,7 +203,7 @@ void run_throughput_study(const ThroughputStudy& study, ResultTable& table,
                 for (const Precision precision : study.precisions) {
                     Tank tank(study, scheme, steps, precision, particles);
                     for (const int batch : study.batches) {
-                        if (batch > 1 && std::int64_t{particles} * batch > most_particles_of_batch) continue;
+                        if (batch > 1 && std::int64_t{particles} * batch > max_particles_of_batch) continue;
                         const Row key = tank.key(batch, device);
                         if (!table.has(key)) measure_row(tank, batch, key, table, report);
                     }

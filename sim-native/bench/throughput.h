@@ -31,9 +31,9 @@ std::vector<int> throughput_batches();
 
 /// Bounds of what throughput_scene takes: a smaller tank would be narrower than its swimmer's place, a larger one have
 /// more particles than limits::particles.
-inline constexpr int least_throughput_particles = 1000, most_throughput_particles = 15'000'000;
+inline constexpr int min_throughput_particles = 1000, max_throughput_particles = 15'000'000;
 /// Fluid particles of a batch's scenes together, beyond which only batches of one are computed.
-inline constexpr int most_particles_of_batch = 2'500'000;
+inline constexpr int max_particles_of_batch = 2'500'000;
 
 /// Creature 1 in a tank in the proportions of the thesis', with so many fluid particles to within half a layer across.
 /// They begin at the rest distance: at the thesis' 0.09 the water is 1.37 times as dense as at rest, shallow water

@@ -110,7 +110,7 @@ ordered_json describe_scene(const Scene& scene) {
         if (scene.creature->joint == Joint::line) info["joint"] = "line";
         if (scene.creature->skin) info["mesh"] = describe_skin(*scene.creature, model);
     }
-    if (scene.scheme == Scheme::flex && !model.clusters.empty()) info["leastSpacing"] = physics::least_flex_spacing;
+    if (scene.scheme == Scheme::flex && !model.clusters.empty()) info["leastSpacing"] = physics::min_flex_spacing;
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();

@@ -27,7 +27,7 @@ struct StreamOptions {
     ExecutionOptions execution;
 };
 
-constexpr std::size_t most_waiting = 64;  // commands, beside as many that were taken together
+constexpr std::size_t max_waiting = 64;  // commands, beside as many that were taken together
 
 LiveSetup read_setup(const StreamOptions& options) {
     LiveSetup setup;
@@ -57,7 +57,7 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 template <class Real>
 void run_stream(StreamOptions& options) {
     StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
-    LineQueue commands(STDIN_FILENO, {.lines = most_waiting, .bytes = stream::longest_command});
+    LineQueue commands(STDIN_FILENO, {.lines = max_waiting, .bytes = stream::longest_command});
     session.run(commands);
 }
 

@@ -66,7 +66,7 @@ void StreamSession<Real>::carry_out(const std::string& line) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Credit& credit) {
-    credit_ = std::min(credit_ + credit.frames, stream::most_credit);
+    credit_ = std::min(credit_ + credit.frames, stream::max_credit);
 }
 
 template <class Real>

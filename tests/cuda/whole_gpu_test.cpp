@@ -11,9 +11,9 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
-#include "run/cuda/by_whole_gpu.h"
+#include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
-#include "solver/cuda/large/fetch_roof.h"
+#include "solver/cuda/grid/fetch_roof.h"
 
 namespace natator::test {
 namespace {
@@ -220,12 +220,12 @@ TEST_P(EitherWay, GivesTheSameBits) {
     members[1].gait.power = 2.5;
     members[2].gait.offset.assign(members[2].gait.amplitude.size(), 0.1);
     const Model model = build_model(scene);
-    ASSERT_FALSE(cuda::by_whole_gpu(scene, model, {}));
-    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, {.whole_gpu = true}));
-    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, {.precision = Precision::double_precision}));
+    ASSERT_FALSE(cuda::uses_grid_kernels(scene, model, {}));
+    ASSERT_TRUE(cuda::uses_grid_kernels(scene, model, {.whole_gpu = true}));
+    ASSERT_TRUE(cuda::uses_grid_kernels(scene, model, {.precision = Precision::double_precision}));
     Scene with_effect = scene;
     with_effect.solver.surfaceTension = 0.5;
-    ASSERT_TRUE(cuda::by_whole_gpu(with_effect, build_model(with_effect), {}));
+    ASSERT_TRUE(cuda::uses_grid_kernels(with_effect, build_model(with_effect), {}));
     const std::vector<Evaluation> blocks = evaluate_on_gpu(scene, members),
                                   whole = evaluate_on_gpu(scene, members, {.whole_gpu = true});
     for (std::size_t k = 0; k < members.size(); ++k) {

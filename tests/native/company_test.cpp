@@ -36,7 +36,7 @@ Scene pair_in_vacuum(double aside, const json& more = json::object()) {
     return load_scene("thesis/creature-1-vacuum", overrides);
 }
 
-TEST(Company, ACompanionIsACopyOfItsCreatureBehindTheBody) {
+TEST(ModelGroup, ACompanionIsACopyOfItsCreatureBehindTheBody) {
     const Scene scene = pair_in_vacuum(1);
     const Model pair = build_model(scene), alone = build_model(load_scene("thesis/creature-1-vacuum", json::object()));
     const int n = alone.particles();
@@ -57,7 +57,7 @@ TEST(Company, ACompanionIsACopyOfItsCreatureBehindTheBody) {
     }
 }
 
-TEST(Company, EachIsDrivenByItsOwnGait) {
+TEST(ModelGroup, EachIsDrivenByItsOwnGait) {
     const Model pair = build_model(pair_in_vacuum(1));
     const Model alone = build_model(load_scene("thesis/creature-1-vacuum", json{{"scheme", "conserving"}}));
     State<double> both = initial_state<double>(pair), first = initial_state<double>(alone), second = first;
@@ -72,7 +72,7 @@ TEST(Company, EachIsDrivenByItsOwnGait) {
 }
 
 /// Two bodies far from each other in vacuum know nothing of each other.
-TEST(Company, FarApartEachMovesAsIfAlone) {
+TEST(ModelGroup, FarApartEachMovesAsIfAlone) {
     const EvaluationOptions in_double{.precision = Precision::double_precision};
     const Evaluation pair = evaluate(pair_in_vacuum(1, {{"solver", {{"gravity", {1, 0, 0}}}}}), first_gait, in_double);
     const Evaluation alone =
@@ -87,7 +87,7 @@ TEST(Company, FarApartEachMovesAsIfAlone) {
 }
 
 /// A body that falls onto an obstacle stays above it; without the obstacle it falls on.
-TEST(Company, AnObstacleHoldsABodyUp) {
+TEST(ModelGroup, AnObstacleHoldsABodyUp) {
     const json fall{{"duration", 1}, {"companions", json::array()}, {"solver", {{"gravity", {0, -10, 0}}}}};
     json held = fall;
     held["obstacles"] = json::array({{{"shape", "box"}, {"centre", {1, 0.15, 0.6}}, {"size", {2, 0.2, 1}}}});
@@ -106,7 +106,7 @@ TEST(Company, AnObstacleHoldsABodyUp) {
 }
 
 /// Particles of a bundled hoop: as many as its volume asks for, none on its axis, and where its file says it is.
-TEST(Company, AMeshIsAnObstacleOfItsForm) {
+TEST(ModelGroup, AMeshIsAnObstacleOfItsForm) {
     const auto hoop = [](const json& keys) {
         json obstacle{{"shape", "mesh"}, {"file", "hoop.obj"}, {"unit", 0.5}, {"centre", {3, 1, 0.8}}};
         obstacle.update(keys);
@@ -129,7 +129,7 @@ TEST(Company, AMeshIsAnObstacleOfItsForm) {
 }
 
 /// Obstacles that share a face, or overlap, are one: no two particles lie in each other, which would have no volume.
-TEST(Company, ObstaclesThatTouchAreOne) {
+TEST(ModelGroup, ObstaclesThatTouchAreOne) {
     const auto box = [](double centre, double length) -> json {
         return {{"shape", "box"}, {"centre", {centre, 0.3, 1}}, {"size", {length, 0.3, 0.3}}};
     };
@@ -152,7 +152,7 @@ TEST(Company, ObstaclesThatTouchAreOne) {
     EXPECT_EQ(obstacles({box(1, 0.3), box(1.4, 0.3)}).size(), 2 * 5u * 5 * 5);
 }
 
-TEST(Company, AnObstacleThatIsTooLargeIsNamed) {
+TEST(ModelGroup, AnObstacleThatIsTooLargeIsNamed) {
     const auto refusal = [](const json& last) {
         const json sphere{{"shape", "sphere"}, {"centre", {1, 1, 1}}, {"radius", 0.5}, {"spacing", 0.005}};
         try {
@@ -173,7 +173,7 @@ TEST(Company, AnObstacleThatIsTooLargeIsNamed) {
               std::string::npos);
 }
 
-TEST(Company, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
+TEST(ModelGroup, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
     const Scene scene = load_scene("company/hoop", json::object());
     const Model model = build_model(scene);
     std::size_t fixed = 0;

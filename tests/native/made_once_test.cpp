@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "run/cuda/made_once.h"
+#include "run/cuda/shared_once.h"
 
 namespace natator::cuda {
 namespace {
 
-using Words = MadeOnce<int, std::string>;
+using Words = SharedOnce<int, std::string>;
 
-TEST(MadeOnce, IsClaimedByTheFirst) {
+TEST(SharedOnce, IsClaimedByTheFirst) {
     Words words({1, 1, 2, 3});
     EXPECT_EQ(words.claim({2, 1, 1}), (std::vector{2, 1}));
     EXPECT_EQ(words.claim({1, 3}), std::vector{3});
     EXPECT_EQ(words.claim({1, 2, 3}), std::vector<int>{});
 }
 
-TEST(MadeOnce, ComesToAllThatWait) {
+TEST(SharedOnce, ComesToAllThatWait) {
     std::vector<int> needs;
     for (int k = 0; k < 8; ++k) needs.insert(needs.end(), {1, 2});
     Words words(needs);
@@ -41,7 +41,7 @@ TEST(MadeOnce, ComesToAllThatWait) {
     EXPECT_EQ(made, 2);
 }
 
-TEST(MadeOnce, FailsWhereTheOneThatClaimedItDoes) {
+TEST(SharedOnce, FailsWhereTheOneThatClaimedItDoes) {
     Words words({1, 1, 2});
     const std::vector<int> claimed = words.claim({1, 2});
     auto other = std::async(std::launch::async, [&words] { return *words.of(1); });
@@ -51,7 +51,7 @@ TEST(MadeOnce, FailsWhereTheOneThatClaimedItDoes) {
     EXPECT_EQ(*words.of(2), "two");
 }
 
-TEST(MadeOnce, IsForgottenWithTheLastNeed) {
+TEST(SharedOnce, IsForgottenWithTheLastNeed) {
     Words words({1, 1});
     words.claim({1});
     words.give(1, "one");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "law_models.h"
-#include "model/carried_weight.h"
+#include "model/background_pressure.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
 #include "natator/plan.h"
@@ -35,7 +35,7 @@ std::vector<bench::WaterFigure> figures_of(const std::string& name, int resoluti
 TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
     Model model = modified(lattice_of_water({4, 10, 4}));
     model.parameters.substeps = model.parameters.numIterations = 1;
-    const auto carried = carried_weight<double>(model);
+    const auto carried = background_pressure<double>(model);
     const double surface = model.particles() * particle_volumes(model).front() / (0.4 * 0.4), level = 0.275;
     EXPECT_NEAR(surface, 1, 0.02);
     const auto at = [&](double below) { return physics::Vec3<double>{0.1, surface - level - below, 0.2}; };
@@ -137,7 +137,7 @@ TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
     model.parameters.gravity = {-9, -10, 0};
     model.parameters.substeps = model.parameters.numIterations = 1;
     const double weight = std::hypot(9, 10);
-    EXPECT_NEAR(least_solved_depth(model), 1.5 * 0.25 + 9 * 1.9 / weight, 0.05);
+    EXPECT_NEAR(min_solved_depth(model), 1.5 * 0.25 + 9 * 1.9 / weight, 0.05);
     fit_to_water(model);
     EXPECT_GT(model.parameters.substeps, 3);
     State<float> state = initial_state<float>(model);
@@ -150,7 +150,7 @@ TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
 TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
     Model model = modified(lattice_of_water({4, 10, 4}));
     model.parameters.substeps = model.parameters.numIterations = 1;
-    const auto begin = [&] { return carried_weight<double>(model).begin; };
+    const auto begin = [&] { return background_pressure<double>(model).begin; };
     const double without = begin();
     const auto add_solid = [&](double x, double height, double inverse_mass) {
         model.position.push_back({x, height, 0.2});
@@ -169,9 +169,9 @@ TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
 TEST(ModifiedPressure, WaterThatFallsIntoItsTankIsRefused) {
     Model model = modified(lattice_of_water({2, 16, 2}));
     model.parameters.substeps = model.parameters.numIterations = 1;
-    EXPECT_TRUE(carried_weight<double>(model).any());
+    EXPECT_TRUE(background_pressure<double>(model).any());
     model.planes[2].offset *= 2;
-    EXPECT_NE(refusal_of([&] { carried_weight<double>(model); }).find("needs a tank that is full: water begins 1.55 above the floor"),
+    EXPECT_NE(refusal_of([&] { background_pressure<double>(model); }).find("needs a tank that is full: water begins 1.55 above the floor"),
               std::string::npos);
 }
 

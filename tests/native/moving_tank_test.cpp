@@ -45,7 +45,7 @@ const Gait tail_beat{2, {0.8, 1}, {0, 0.75}, 1};
 TEST(MovingTank, MovesByAStepWithWaterAtRestInFront) {
     const Scene scene = moving_scene();
     const Model model = build_model(scene);
-    TankFollower follower(scene, model);
+    MovingFrame follower(scene, model);
     State<double> state = initial_state<double>(model);
     for (Vector3<double>& velocity : state.velocity) velocity = {0.5, -0.25, 1};
     const State<double> before = state;
@@ -84,7 +84,7 @@ TEST(MovingTank, MovesByAStepWithWaterAtRestInFront) {
 TEST(MovingTank, GoesBackWithASwimmerThatDoes) {
     const Scene scene = moving_scene();
     const Model model = build_model(scene);
-    TankFollower follower(scene, model);
+    MovingFrame follower(scene, model);
     State<float> state = initial_state<float>(model);
     const Eigen::Vector3d centre = pose_of(model, model.body, body_places(model.body, state)).centre;
     follower.follow(centre - Eigen::Vector3d(0.06, 0, 0), state);

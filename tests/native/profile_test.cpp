@@ -54,8 +54,8 @@ TEST(ProfileCurve, StaysBetweenNeighbouringPoints) {
 
 TEST(ProfileSection, IsRoundSymmetricAndOfTheEllipsesArea) {
     double sum = 0, ideal = 0;
-    for (double height = least_across; height < 14; height += 0.13)
-        for (double width = least_across; width < 14; width += 0.17) {
+    for (double height = min_across; height < 14; height += 0.13)
+        for (double width = min_across; width < 14; width += 0.17) {
             const Slice slice = ellipse_slice(height, width);
             ASSERT_EQ(slice.rows.size(), static_cast<std::size_t>(slice.height));
             ASSERT_GE(slice.height, 2);

@@ -116,10 +116,10 @@ TEST_F(SettledStateCacheTest, TheOldestFilesGiveWay) {
     model.velocity = {{0, 0, 0}};
     model.inverse_mass = {1};
     model.phase = {1};
-    for (int updates = 1; updates <= SettledStateCache::most_files + 5; ++updates)
+    for (int updates = 1; updates <= SettledStateCache::max_files + 5; ++updates)
         cache_.keep<float>(model, {.updates = updates, .time_step = 1e-4, .substeps = 1}, initial_state<float>(model));
-    EXPECT_EQ(files(), static_cast<std::size_t>(SettledStateCache::most_files));
-    const Settling last{.updates = SettledStateCache::most_files + 5, .time_step = 1e-4, .substeps = 1};
+    EXPECT_EQ(files(), static_cast<std::size_t>(SettledStateCache::max_files));
+    const Settling last{.updates = SettledStateCache::max_files + 5, .time_step = 1e-4, .substeps = 1};
     EXPECT_TRUE(cache_.find<float>(model, last));
     EXPECT_FALSE(cache_.find<float>(model, {.updates = 1, .time_step = 1e-4, .substeps = 1}));
 }

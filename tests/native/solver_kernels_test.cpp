@@ -31,12 +31,12 @@ struct Fluid {
         velocity.resize(slots);
         correction.resize(slots);
         for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &solid, &response,
-                            &target, &impulse, &impulse_sum, &fastest_square, &relief})
+                            &target, &impulse, &impulse_sum, &fastest_square, &zeroth_order_correction})
             array->resize(slots);
         crowding.resize(slots);
         zeroth.resize(slots);
         for (auto& array : water_correction) array.resize(slots);
-        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear, &packed_relief}) array->resize(4 * slots);
+        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear, &packed_zeroth_order}) array->resize(4 * slots);
         for (int slot = 0; slot < far_slot; ++slot) {
             position.set(slot, {place(random), place(random), place(random)});
             velocity.set(slot, {place(random), place(random), place(random)});
@@ -115,12 +115,12 @@ struct Fluid {
                               .impulse = impulse.data(),
                               .impulse_sum = impulse_sum.data(),
                               .zeroth = {z[0], z[1], z[2]},
-                              .relief = relief.data(),
+                              .zeroth_order_correction = zeroth_order_correction.data(),
                               .packed = packed.data(),
                               .packed_velocity = packed_velocity.data(),
                               .packed_correction = packed_correction.data(),
                               .packed_shear = packed_shear.data(),
-                              .packed_relief = packed_relief.data(),
+                              .packed_zeroth_order = packed_zeroth_order.data(),
                               .distance = distance.data(),
                               .gradient = {g[0], g[1], g[2]}};
         for (int k = 0; k < 6; ++k) view.correction[k] = water_correction[k].data();
@@ -128,8 +128,8 @@ struct Fluid {
     }
 
     Vector3Array<float> position, velocity, correction, crowding, gradient, zeroth;
-    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square, relief;
-    AlignedVector<float> packed_correction, packed_shear, packed_relief;
+    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square, zeroth_order_correction;
+    AlignedVector<float> packed_correction, packed_shear, packed_zeroth_order;
     std::array<AlignedVector<float>, 6> water_correction;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;
     AlignedVector<float> packed, packed_velocity, distance;
@@ -199,12 +199,12 @@ TEST_P(SolverKernels, Water) {
         set.add_viscosity(water, 0.1f, 1);
         set.compute_impulse(water);
         set.apply_impulse(water);
-        set.relieve(water, 1e-4f);
-        set.lay_out_relief(water);
-        set.return_relief(water);
+        set.apply_zeroth_order_correction(water, 1e-4f);
+        set.lay_out_zeroth_order_correction(water);
+        set.return_zeroth_order_correction(water);
     });
     for (const auto member : {&Fluid::density, &Fluid::fastest_square, &Fluid::response, &Fluid::impulse,
-                              &Fluid::impulse_sum, &Fluid::relief, &Fluid::packed_relief, &Fluid::packed_velocity})
+                              &Fluid::impulse_sum, &Fluid::zeroth_order_correction, &Fluid::packed_zeroth_order, &Fluid::packed_velocity})
         expect_near(fluid.*member, expected.*member);
     for (int k = 0; k < 6; ++k) expect_near(fluid.water_correction[k], expected.water_correction[k]);
     expect_near(fluid.crowding.x, expected.crowding.x);
@@ -320,7 +320,7 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
                               .damping = true,
                               .damping_step = 0.01f,
                               .clamp_acceleration = true,
-                              .most_change = 5,
+                              .max_change = 5,
                               .clamp_speed = true,
                               .max_speed = 4.5f});
     }

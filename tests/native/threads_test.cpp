@@ -18,13 +18,13 @@ TEST(ThreadTeamTest, PartsCoverTheLoopOnce) {
         cpu::ThreadTeam team(threads);
         for (const int count : {0, 1, 9, 10, 20, 50, 1001}) {
             std::vector<int> visits(count, 0);
-            std::vector<int> parts(team.most_parts(), 0);
+            std::vector<int> parts(team.max_parts(), 0);
             team.for_parts(count, 10, [&](int part, int begin, int end) {
                 parts[part] = 1;
                 for (int k = begin; k < end; ++k) ++visits[k];
             });
             EXPECT_EQ(visits, std::vector<int>(count, 1)) << threads << " " << count;
-            int expected = std::max(1, std::min(team.most_parts(), count / 10));
+            int expected = std::max(1, std::min(team.max_parts(), count / 10));
             if (expected > threads) expected = expected / threads * threads;  // as many for each
             EXPECT_EQ(std::accumulate(parts.begin(), parts.end(), 0), expected) << threads << " " << count;
         }

@@ -142,7 +142,7 @@ TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
         if ((model.position[i] - middle).norm() > 0.25) continue;
         model.phase[i] = 1;
         model.inverse_mass[i] = 0.8;
-        model.velocity[i] = {0.05, 0, 0};  // slow under pressure: relief acts
+        model.velocity[i] = {0.05, 0, 0};  // slow under pressure: zeroth_order_correction acts
         body.push_back(i);
     }
     model.clusters = {make_cluster(body, model.position, 1)};
@@ -193,7 +193,7 @@ TEST(Water, WaterGoesWithABodyAtItsSurface) {
 }
 
 /// A packing of grains under pressure would hold a sphere of five particles across that is 1 % too heavy: without
-/// physics::relief it sinks at 0.35 times the speed of one in water.
+/// physics::zeroth_order_correction it sinks at 0.35 times the speed of one in water.
 TEST(Water, SlowBodiesMoveUnderPressure) {
     constexpr int starts = 3;
     double part = 0;

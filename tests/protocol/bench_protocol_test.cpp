@@ -181,7 +181,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"swimmers", "--scheme", "conserving", "--mach", "0.1"}, "--mach: is of scheme lattice; must be left out"},
         {{"swimmers", "--mach", "0.6"}, "--mach = 0.6: must be a number in [0.01, 0.5]; see "},
         {{"swimmers", "--precision", "double"}, "--precision = double: scheme lattice computes in float; must be float"},
-        {{"swimmers", "--case", "lavra"}, "--case = lavra: must be creature-2, eel-2d, "},
+        {{"swimmers", "--case", "lavra"}, "--case = lavra: must be creature-2, creature-2-deformed, eel-2d, "},
         {{"swimmers", "--case", "no/such.json"}, "no/such.json"},
         {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
         {{"swimmers", "--resolution", "7"}, "--resolution = 7: must be a whole number in [8, 1000]; see "},

@@ -108,7 +108,7 @@ class EvaluationTest(unittest.TestCase):
         self.assertEqual([r["frames"] for r in results], [3, 6, 9, 3, 6, 9, 3])
 
     def test_threads_that_share_one_get_their_own_answers(self):
-        def most_at_once(self, lines):
+        def max_at_once(self, lines):
             nonlocal inside, most
             inside += 1
             most = max(most, inside)
@@ -117,7 +117,7 @@ class EvaluationTest(unittest.TestCase):
             return answers(self, lines)
 
         inside, most, answers = 0, 0, natator.Simulator._answers
-        with natator.Simulator(1) as simulator, mock.patch("natator.Simulator._answers", most_at_once):
+        with natator.Simulator(1) as simulator, mock.patch("natator.Simulator._answers", max_at_once):
             with ThreadPoolExecutor(4) as pool:
                 results = list(pool.map(lambda start: simulator.evaluate(TANK, GAIT, duration=0.05, start=start), range(4)))
             self.assertEqual(most, 1)

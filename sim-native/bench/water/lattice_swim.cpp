@@ -14,7 +14,7 @@ constexpr double middle = 2.0 / 3, far = 0.05;
 constexpr double larger = 0.2;
 constexpr double tail_speed = 1.2;  ///< lengths/beat
 /// cells^2/step: a cell that is told its velocity has it to half of what a step's force gives, which puts walls half of this off, in cells.
-constexpr double most_viscosity = 0.1;
+constexpr double max_viscosity = 0.1;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ LatticeSwim::LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int res
     for (const int axis : {0, 1, 2})
         for (lattice::Face& face : box_.faces[axis]) face = swimmer.slab && axis == 1 ? lattice::Face::periodic : lattice::Face::free_slip;
     const double by_speed = mach / std::numbers::sqrt3 * cell / (tail_speed * scene.length / scene.beat);
-    step_ = scene.beat / std::ceil(scene.beat / std::min(by_speed, most_viscosity * cell * cell / box_.viscosity));
+    step_ = scene.beat / std::ceil(scene.beat / std::min(by_speed, max_viscosity * cell * cell / box_.viscosity));
     water_ = gpu ? lattice::Water::on_gpu(box_, *gpu) : lattice::Water::on_cpu(box_, 1);
 
     const Eigen::Vector3i at(static_cast<int>(middle * box_.cells.x() + 0.5 * resolution), box_.cells.y() / 2, box_.cells.z() / 2);

@@ -17,7 +17,7 @@ struct Leg {
     int beats;
 };
 constexpr Leg legs[] = {{0.003, 7}, {0.006, 4}, {0.01, 4}};
-constexpr double most_drift = 0.2;  ///< to the side, of the length: nearer to a wall it swims in other water
+constexpr double max_drift = 0.2;  ///< to the side, of the length: nearer to a wall it swims in other water
 
 constexpr double slow_reynolds = 60, slow_strouhal = 2.5, fast_reynolds = 1400, fast_strouhal = 0.72;
 const double fall = std::log(slow_strouhal / fast_strouhal) / std::log(fast_reynolds / slow_reynolds);
@@ -65,7 +65,7 @@ WaterRun run_travelling_wave(const WaterSetting& setting) {
         std::vector<WaterFigure> figures;
         std::vector<WaterSample> curve;
         if (std::ranges::all_of(legs, [&](const Leg& leg) { return swim(leg, larva, figures, curve); }))
-            figures.push_back({.value = larva.body().drift(), .reference = 0, .greatest = most_drift});
+            figures.push_back({.value = larva.body().drift(), .reference = 0, .greatest = max_drift});
         WaterRun run = larva.run();
         run.figures = figures;
         run.curve = curve;

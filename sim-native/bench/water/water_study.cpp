@@ -6,7 +6,7 @@
 namespace natator::bench {
 namespace {
 
-constexpr std::size_t most_samples = 400;  ///< of a curve that are kept
+constexpr std::size_t max_samples = 400;  ///< of a curve that are kept
 
 const WaterCase& water_case(const std::string& name) {
     for (const WaterCase& one : water_cases())
@@ -43,7 +43,7 @@ bool is_done(const WaterCase& one, const Row& name, const ResultTable& table) {
 }
 
 void add_curve(const Row& name, const std::vector<WaterSample>& curve, ResultTable& curves) {
-    const std::size_t stride = curve.size() / most_samples + 1;
+    const std::size_t stride = curve.size() / max_samples + 1;
     for (std::size_t i = 0; i < curve.size(); i += stride) {
         const Row key = with(name, measured_text(curve[i].time));
         if (!curves.has(key)) curves.add(with(key, measured_text(curve[i].value)));

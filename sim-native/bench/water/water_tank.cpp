@@ -44,8 +44,8 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
 }
 
 /// That its substeps bear, length^2/s.
-double most_viscosity(const Model& model) {
-    return physics::most_viscosity(model.parameters.fluidRestDistance, model.time_step / model.parameters.substeps);
+double max_viscosity(const Model& model) {
+    return physics::max_viscosity(model.parameters.fluidRestDistance, model.time_step / model.parameters.substeps);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ template <class Real>
 void WaterTank<Real>::settle() {
     Model calm = *model_;
     calm.parameters.viscosity = SolverParameters().viscosity;
-    calm.parameters.kinematicViscosity = std::min(0.05, most_viscosity(calm));
+    calm.parameters.kinematicViscosity = std::min(0.05, max_viscosity(calm));
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)
@@ -226,7 +226,7 @@ void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
 
 template <class Real>
 bool WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
-    if (model_->scheme == Scheme::conserving && viscosity > most_viscosity(*model_)) return false;
+    if (model_->scheme == Scheme::conserving && viscosity > max_viscosity(*model_)) return false;
     change([&](Model& model) { model.parameters.kinematicViscosity = viscosity; });
     return true;
 }

@@ -89,7 +89,7 @@ void add_water_options(CLI::App* command, WaterOptions& water) {
     command->add_option("--setting", water.settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")
         ->capture_default_str();
     command->add_option("--support", water.supports, "Of the kernel of scheme conserving, in particle distances.")
-        ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
+        ->check(number_in(limits::min_kernel_support, limits::max_kernel_support))
         ->capture_default_str();
     command->add_option("--start", water.starts, "Of scheme conserving: each begins with its water disordered otherwise.")
         ->check(whole_number_in(1, 1'000'000))

@@ -24,7 +24,7 @@ void add_throughput(CLI::App& app, int& status) {
     add_study_options(command, options->common, {"float"});
     add_gpu_options(command, options->backend);
     command->add_option("--particles", options->particles, "Fluid particles of a scene, about.")
-        ->check(whole_number_in(least_throughput_particles, most_throughput_particles))
+        ->check(whole_number_in(min_throughput_particles, max_throughput_particles))
         ->capture_default_str();
     command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
         ->check(whole_number_in(1, 1 << 20))

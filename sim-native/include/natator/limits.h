@@ -24,7 +24,7 @@ inline constexpr double neighbours = 2e9;
 inline constexpr int radius_ratio = 20;
 /// kernelSupport, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density; the volume
 /// of a particle is a sum over the cube of so many.
-inline constexpr double least_kernel_support = 2, most_kernel_support = 4;
+inline constexpr double min_kernel_support = 2, max_kernel_support = 4;
 /// Threads of a solver: they meet several times in each iteration, and more of them than processors only wait for each other.
 inline constexpr int threads = 1024;
 /// Lattice points that are looked at when the fluid is kept clear of a body, a minute's worth.

@@ -88,7 +88,7 @@ private:
     struct Run;
 
     std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
-    void follow(TankFollower& follower);
+    void follow(MovingFrame& follower);
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
 

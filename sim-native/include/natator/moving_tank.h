@@ -18,11 +18,11 @@ struct WaterRenewal {
 };
 
 /// Keeps a tank about its swimmer. One for each run.
-class TankFollower {
+class MovingFrame {
 public:
     /// Throws InputError unless the scene has water of scheme `conserving`, a creature, and for each
     /// axis that the tank moves along two planes across it with room enough between them.
-    TankFollower(const Scene& scene, const Model& model);
+    MovingFrame(const Scene& scene, const Model& model);
 
     /// A frame of `time` s has gone by: the current takes the tank along.
     void drift(double time) { origin_ += time * tank_.current; }
@@ -34,7 +34,7 @@ public:
     void follow(const Eigen::Vector3d& centre, State<Real>& state);
 
     /// The tank goes on from here, `origin` as State::origin.
-    void stand_at(const Eigen::Vector3d& origin) { origin_ = origin; }
+    void set_origin(const Eigen::Vector3d& origin) { origin_ = origin; }
     /// Where the tank's coordinates begin over ground, length: State::origin.
     const Eigen::Vector3d& origin() const { return origin_; }
     const WaterRenewal& renewal() const { return renewal_; }

@@ -27,7 +27,7 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    static constexpr int most_files = 64;  ///< kept; the oldest give way
+    static constexpr int max_files = 64;  ///< kept; the oldest give way
 
 private:
     std::filesystem::path folder_;

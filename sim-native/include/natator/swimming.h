@@ -22,10 +22,10 @@ struct SwimmingNumbers {
 };
 
 /// How many spacings of the water, or cells, the body is across: the lesser of width and height of its thickest slice at rest. Below
-/// `least_spacings_across` its speed may change by half and more with a finer water. 0 without a body or water.
+/// `min_spacings_across` its speed may change by half and more with a finer water. 0 without a body or water.
 double water_across(const Model& model);
-inline constexpr double least_spacings_across = 4;
-/// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `least_spacings_across`; else empty.
+inline constexpr double min_spacings_across = 4;
+/// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `min_spacings_across`; else empty.
 std::string warning_of_across(double across);
 
 /// Mean z of the body's last slice, length: across the swimmer's heading at the start. 0 without a body.

@@ -36,7 +36,7 @@ std::string lower(std::string_view text) {
 }
 
 /// Edits that leave a resemblance: of three letters or four, one may be wrong.
-std::size_t most_edits(std::string_view a, std::string_view b) {
+std::size_t max_edits(std::string_view a, std::string_view b) {
     const std::size_t letters = std::min(a.size(), b.size());
     return letters >= 5 ? 2 : letters >= 3 ? 1 : 0;
 }
@@ -59,7 +59,7 @@ std::string did_you_mean(std::string_view unknown, const std::vector<std::string
     std::size_t least = unknown.size();
     for (const std::string_view word : allowed) {
         const std::size_t distance = edits(lower(unknown), lower(word));
-        if (distance < least && distance <= most_edits(unknown, word)) {
+        if (distance < least && distance <= max_edits(unknown, word)) {
             least = distance;
             best = word;
         }

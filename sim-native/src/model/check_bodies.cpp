@@ -10,7 +10,7 @@ namespace {
 void check_spacing(const Scene& scene, const Creature& creature, const Place& place) {
     const bool flex = scene.scheme == Scheme::flex;
     if (!flex && scene.planes.empty()) return;
-    const double least = flex ? physics::least_flex_spacing : physics::least_touch_spacing;
+    const double least = flex ? physics::min_flex_spacing : physics::min_touch_spacing;
     if (creature.spacing / creature.refinement >= least) return;
     std::ostringstream text;
     text << "at least " << least;

@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "borders.h"
-#include "carried_weight.h"
+#include "background_pressure.h"
 #include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -24,7 +24,7 @@ void check_explicit_forces(const Scene& scene, const Place& place) {
     const auto check = [&](const char* key, double value, double most, const char* why) {
         if (value > most) refuse(place.key("solver").key(key), value, "at most " + computed_text(most) + " (" + why + ", settling included)");
     };
-    check("kinematicViscosity", p.kinematicViscosity, physics::most_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
+    check("kinematicViscosity", p.kinematicViscosity, physics::max_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
     check("cohesion", p.cohesion, 0.4 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
           "0.4 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
     check("surfaceTension", p.surfaceTension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "carried_weight.h"
+#include "background_pressure.h"
 #include "physics/dfsph.h"
 #include "water_volumes.h"
 
 namespace natator {
 namespace {
 
-constexpr double least_density = 0.02;  ///< of a solid, in units of the water's
+constexpr double min_density = 0.02;  ///< of a solid, in units of the water's
 constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
 
 void raise_light_solids(Model& model) {
@@ -20,7 +20,7 @@ void raise_light_solids(Model& model) {
     if (!(density > 0)) return;
     for (int i = 0; i < model.particles(); ++i)
         if (!model.is_fluid(i))
-            model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (least_density * density * volumes[i]));
+            model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (min_density * density * volumes[i]));
 }
 
 void raise_substeps(Model& model) {
@@ -29,7 +29,7 @@ void raise_substeps(Model& model) {
     if (!(gravity > 0)) return;
     const double spacing = p.fluidRestDistance;
     double longest = std::sqrt(longest_fall * spacing / gravity);
-    if (weight_on_walls(model) > 0) longest = std::min(longest, longest_substep(model, std::max(least_solved_depth(model), spacing)));
+    if (weight_on_walls(model) > 0) longest = std::min(longest, longest_substep(model, std::max(min_solved_depth(model), spacing)));
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));
 }

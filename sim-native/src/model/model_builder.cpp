@@ -47,7 +47,7 @@ void check_size(const Scene& scene) {
     double sum = scene.creature ? particles_of(*scene.creature) : 0;
     for (const Companion& companion : scene.companions) sum += particles_of(companion.creature);
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
-        const double most = most_particles(scene.obstacles[k]);
+        const double most = max_particles(scene.obstacles[k]);
         if (most > limits::particles)
             refuse(scene, "obstacles[" + std::to_string(k) + "]: up to " + number_text(most) +
                               " particles: must be at most " + std::to_string(limits::particles));

@@ -112,7 +112,7 @@ bool Obstacle::holds(const Eigen::Vector3d& place) const {
     return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
 }
 
-double most_particles(const Obstacle& obstacle) {
+double max_particles(const Obstacle& obstacle) {
     if (obstacle.shape == Obstacle::Shape::mesh) return static_cast<double>(obstacle.points.size());
     return (2 * points_aside(obstacle).array() + 1).prod();
 }

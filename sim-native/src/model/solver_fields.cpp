@@ -39,7 +39,7 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"viscosity", &P::viscosity, {0, 10000, false, "1/s"}},
         {"kernelSupport",
          &P::kernelSupport,
-         {limits::least_kernel_support, limits::most_kernel_support, false, "rest distances of the fluid"}},
+         {limits::min_kernel_support, limits::max_kernel_support, false, "rest distances of the fluid"}},
         {"modifiedPressure", &P::modifiedPressure},
         {"kinematicViscosity", &P::kinematicViscosity, {0, 1000, false, "length^2/s"}},
         {"vorticityConfinement", &P::vorticityConfinement, {0, 1000, false, "length/s"}},

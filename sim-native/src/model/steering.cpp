@@ -12,8 +12,8 @@
 namespace natator {
 namespace {
 
-constexpr double most_drive = 2;  // at which the outermost muscle of a side has no length left
-constexpr double most_scale = 4;
+constexpr double max_drive = 2;  // at which the outermost muscle of a side has no length left
+constexpr double max_scale = 4;
 
 constexpr auto none = "there is none";
 
@@ -34,21 +34,21 @@ bool leaves_gait(const Steering& steering) {
 }
 
 void check_drive(const std::vector<double>& values, int actuators, const char* name) {
-    check_values(name, values, actuators, -most_drive, most_drive, none);
+    check_values(name, values, actuators, -max_drive, max_drive, none);
 }
 
 void check_steering(const Steering& steering, const Gait& gait, int actuators) {
     check_lengths(gait, actuators);
-    check_values("scale", steering.scale, actuators, 0, most_scale, none);
-    check_values("offset", steering.offset, actuators, -most_drive, most_drive, none);
+    check_values("scale", steering.scale, actuators, 0, max_scale, none);
+    check_values("offset", steering.offset, actuators, -max_drive, max_drive, none);
     for (std::size_t i = 0; i < steering.scale.size(); ++i) {
         const double offset = gait.offset.empty() ? 0 : gait.offset[i], beat = gait.amplitude[i] + std::abs(offset);
         const double most = steering.scale[i] * beat + std::abs(steering.offset[i]);
-        if (most <= most_drive) continue;
+        if (most <= max_drive) continue;
         std::ostringstream text;
         text << "scale[" << i << "] = " << number_text(steering.scale[i]) << " and offset[" << i
              << "] = " << number_text(steering.offset[i]) << ": scale times the gait's own largest drive, " << computed_text(beat)
-             << ", plus |offset| must be at most " << most_drive << ", is " << computed_text(most)
+             << ", plus |offset| must be at most " << max_drive << ", is " << computed_text(most)
              << " (a muscle has no length below 0)";
         throw InputError(text.str());
     }

@@ -96,7 +96,7 @@ double fastest_expansion(const SolverParameters& parameters, double depth) {
     const double layers = std::max(depth / parameters.fluidRestDistance, physics::shallow_layers);
     const double slower = std::pow(physics::shallow_layers / layers, 2);
     const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
-    return std::max(physics::least_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluidRestDistance);
+    return std::max(physics::min_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluidRestDistance);
 }
 
 }  // namespace natator

@@ -11,22 +11,22 @@ inline constexpr double measured_touch = 1e-6;    ///< of 1 + |plane offset|: ro
 // Shape matching.
 inline constexpr int flex_fit_steps = 4;          ///< of the rotation fit, per iteration
 inline constexpr double fit_epsilon = 1e-9;       ///< rotation that is not worth a further step, rad
-inline constexpr int most_fit_steps = 20;         ///< in scheme `conserving`, whose fit takes two or three
+inline constexpr int max_fit_steps = 20;         ///< in scheme `conserving`, whose fit takes two or three
 inline constexpr double fit_tolerance = 1e-6;     ///< of scheme `conserving`: the last step's rotation, rad; the next is of its square
-inline constexpr double least_fit_determinant = 1e-9;  ///< of the fit's matrix, of its trace cubed
+inline constexpr double min_fit_determinant = 1e-9;  ///< of the fit's matrix, of its trace cubed
 inline constexpr double centre_dead_band = 1e-5;  ///< of scheme `flex`: less does not move a stored centre, length
 
 // Pairs.
 inline constexpr double least_square = 1e-30;     ///< added to r^2: 1/r stays finite, and no other r^2 changes
 inline constexpr double far_away = 1e9;           ///< where the slot is that unused list entries point to
-inline constexpr double least_response = 1e-30;   ///< below it a density constraint's neighbours are where W ends
+inline constexpr double min_response = 1e-30;   ///< below it a density constraint's neighbours are where W ends
 inline constexpr double largest_shock_exponent = 20;  ///< keeps the ratio of masses finite
 
 // Limits.
 inline constexpr double thesis_substep = 1.0 / 240;       ///< h0, s: what stiffness and cohesion are measured at
 inline constexpr double overlap_tolerance = 0.1;          ///< of rest density or distance held: no overlap up to it
-inline constexpr double least_flex_spacing = 0.01;        ///< of a body in scheme `flex`, length: a thousand times centre_dead_band
-inline constexpr double least_touch_spacing = 5e-7;       ///< of a body beside planes, length: below it measured_touch is further than a particle
+inline constexpr double min_flex_spacing = 0.01;        ///< of a body in scheme `flex`, length: a thousand times centre_dead_band
+inline constexpr double min_touch_spacing = 5e-7;       ///< of a body beside planes, length: below it measured_touch is further than a particle
 inline constexpr double touching_tolerance = 1e-4;        ///< of the radius: counts as touching a plane
 
 }  // namespace natator::physics

@@ -41,21 +41,21 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
-inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep
+inline constexpr double max_excess = 0.05;    ///< of rest density that the velocities take off in a substep
 inline constexpr double expansion = 0.25;      ///< rate at which they may, times sqrt(s / g)
 inline constexpr double shallow_layers = 40;   ///< deeper water expands more slowly, by the square of its depth in rest distances,
-inline constexpr double least_expansion = 0.1; ///< as far as to this, times sqrt(s / g)
-inline constexpr double most_overlap = 0.5;    ///< of rest density that a substep takes off without them
-inline constexpr int parting_passes = 4;       ///< on overlaps
-inline constexpr double longest_parting = 0.5; ///< of the rest distance, a substep
-inline constexpr double most_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
-inline constexpr double surface_grip = 1.63;   ///< of the viscosity between water and solids, see viscous_grip
+inline constexpr double min_expansion = 0.1; ///< as far as to this, times sqrt(s / g)
+inline constexpr double max_overlap = 0.5;    ///< of rest density that a substep takes off without them
+inline constexpr int separation_passes = 4;       ///< on overlaps
+inline constexpr double max_separation = 0.5; ///< of the rest distance, a substep
+inline constexpr double max_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
+inline constexpr double surface_wall_viscosity_factor = 1.63;   ///< of the viscosity between water and solids, see wall_viscosity_factor
 inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
 inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
-inline constexpr double relieved_density = 0.9, wholly_relieved_density = 0.95;
-inline constexpr double kept_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
-inline constexpr double least_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+inline constexpr double partly_corrected_density = 0.9, wholly_corrected_density = 0.95;
+inline constexpr double uncorrected_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
+inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
 
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
 // determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
@@ -116,7 +116,7 @@ struct PassingSpeed {
 
     /// `weight`: the neighbour's volume times the kernel's slope; what ends a list has none.
     NATATOR_HD void add(const Vec3<T>& relative_velocity, T weight) {
-        const T its_square = dot_as_everywhere(relative_velocity, relative_velocity);
+        const T its_square = dot_unfused(relative_velocity, relative_velocity);
         const T counted = weight > 0 ? its_square : T{};
         square = smaller(-square, -counted) * Scalar<T>(-1);
     }
@@ -136,13 +136,13 @@ struct ResponseSums {
 
     NATATOR_HD void add(const Vec3<T>& pair_gradient, T other_inverse_mass) {
         gradient += pair_gradient;
-        square += other_inverse_mass * dot_as_everywhere(pair_gradient, pair_gradient);
+        square += other_inverse_mass * dot_unfused(pair_gradient, pair_gradient);
     }
     /// 1 / (w_i |sum G_ij|^2 + sum w_j |G_ij|^2), or 0 without neighbours; DFSPH's alpha.
     NATATOR_HD T response(T inverse_mass) const {
         using R = Scalar<T>;
         const T all = inverse_mass * dot(gradient, gradient) + square;
-        return all > R(least_response) ? 1 / all : T{};
+        return all > R(min_response) ? 1 / all : T{};
     }
 };
 
@@ -156,7 +156,7 @@ NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
 /// The largest excess of density that velocities may remove in a substep of length h.
 template <class T>
 NATATOR_HD T velocity_limit(T h, T fastest_expansion) {
-    return smaller(T(most_excess), h * fastest_expansion);
+    return smaller(T(max_excess), h * fastest_expansion);
 }
 
 /// The excess of density that the velocities remove in a substep; negative below rest density. The speed that this gives does
@@ -176,7 +176,7 @@ NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
 /// moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
 template <class T>
 NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
+    const T above = smaller(density - 1, T{} + Scalar<T>(max_overlap));
     return volume / h * positive_part(above - velocity_excess(density, most));
 }
 
@@ -188,15 +188,15 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     return density > R(wet_density) ? all : T{};
 }
 
-/// Of kept_impulse, in a substep of length h. `fluid_density`: mass/length^3.
+/// Of uncorrected_impulse, in a substep of length h. `fluid_density`: mass/length^3.
 template <class T>
-NATATOR_HD T kept_strength(T h, T fluid_density) {
-    return T(kept_pressure) * h * fluid_density;
+NATATOR_HD T uncorrected_strength(T h, T fluid_density) {
+    return T(uncorrected_pressure) * h * fluid_density;
 }
 
-/// The pressure impulse that a particle may have before relief sets in. `strength`: see kept_strength.
+/// The pressure impulse that a particle may have before zeroth_order_correction sets in. `strength`: see uncorrected_strength.
 template <class T>
-NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
+NATATOR_HD T uncorrected_impulse(T fastest_square, Scalar<T> strength) {
     return strength * fastest_square;
 }
 
@@ -205,18 +205,18 @@ NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
 /// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common with
 /// its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles apart, and also
 /// what makes them a packing of grains: it resists slow shear by a stress in proportion to p, like sand. So only as much of p
-/// is left to it as particles need that pass one another as fast as they do here. The rest, E_i = relief sum_j G_ij, is taken
+/// is left to it as particles need that pass one another as fast as they do here. The rest, E_i = zeroth_order_correction sum_j G_ij, is taken
 /// off after each pass and given back at the end of the substep to all neighbours by their kernels' weights, which keeps the
 /// momentum. (Without any of it, as in the form p_j - p_i of many schemes, particles crowd, and need strong shifting.)
 ///
-/// Where nearly all neighbours are on one side, at a crowded surface, relief in full turns a push around: what it does to the
+/// Where nearly all neighbours are on one side, at a crowded surface, zeroth_order_correction in full turns a push around: what it does to the
 /// particle itself, -w |sum_j G_ij|^2, outweighs what it does to the neighbours, so each pass makes the next one larger, without
 /// end. `own_response`, see own_response(), says how far that is so, and as much of the push is left as keeps half of the response.
 template <class T>
-NATATOR_HD T relief(T density, T impulse_sum, T kept, T own_response) {
+NATATOR_HD T zeroth_order_correction(T density, T impulse_sum, T kept, T own_response) {
     using R = Scalar<T>;
-    const T wet = unit_part((density - R(relieved_density)) * R(1 / (wholly_relieved_density - relieved_density)));
-    const T stable = 1 + R(0.5) * (1 - own_response) / (own_response + R(least_response));
+    const T wet = unit_part((density - R(partly_corrected_density)) * R(1 / (wholly_corrected_density - partly_corrected_density)));
+    const T stable = 1 + R(0.5) * (1 - own_response) / (own_response + R(min_response));
     return smaller(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
 }
 
@@ -228,7 +228,7 @@ NATATOR_HD T own_response(T inverse_mass, const Vec3<T>& gradient_sum, T respons
 
 /// The part of E_j that a neighbour at distance r has back is this times V_i W_ij: those parts add up to E_j.
 template <class T, class R>
-NATATOR_HD T relief_share(T density, T volume, const WendlandKernel<R>& kernel) {
+NATATOR_HD T zeroth_order_share(T density, T volume, const WendlandKernel<R>& kernel) {
     const T others = density - volume * kernel.scale;
     return others > 0 ? 1 / others : T{};
 }
@@ -238,9 +238,9 @@ NATATOR_HD T relief_share(T density, T volume, const WendlandKernel<R>& kernel) 
 /// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from owner to
 /// ghost.
 template <class T>
-NATATOR_HD T weight_to_ghost(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
+NATATOR_HD T hydrostatic_ghost_impulse(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
     if (!(own > 0)) return T{};
-    const T weight = h / (own * volume) * dot_as_everywhere(gravity, to_ghost);
+    const T weight = h / (own * volume) * dot_unfused(gravity, to_ghost);
     return smaller(-smaller(-weight, impulse), impulse);
 }
 
@@ -253,14 +253,14 @@ NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square
 }
 
 /// The largest kinematic viscosity that an explicit step of h bears between particles `spacing` apart, length^2/s.
-NATATOR_HD double most_viscosity(double spacing, double h) {
-    return most_diffusion * spacing * spacing / h;
+NATATOR_HD double max_viscosity(double spacing, double h) {
+    return max_diffusion * spacing * spacing / h;
 }
 
 /// The most that a particle's volume times its inverse mass may be where viscous impulses are 10 h mu = `strength`.
 template <class T>
 NATATOR_HD T viscous_limit(T spacing, T strength) {
-    return 10 * T(most_diffusion) * spacing * spacing / strength;
+    return 10 * T(max_diffusion) * spacing * spacing / strength;
 }
 
 /// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
@@ -280,21 +280,21 @@ NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
 /// (Modeling Low Reynolds Number Incompressible Flows Using SPH, 1997) make the difference of velocities of such a pair up
 /// to 1.5 times larger, to the same end.
 template <class T>
-NATATOR_HD T viscous_grip(T own_solid, T other_solid) {
+NATATOR_HD T wall_viscosity_factor(T own_solid, T other_solid) {
     const T differ = own_solid - other_solid;
-    return 1 + Scalar<T>(surface_grip - 1) * differ * differ;
+    return 1 + Scalar<T>(surface_wall_viscosity_factor - 1) * differ * differ;
 }
 
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
 /// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
-/// is viscous_share times viscous_grip.
+/// is viscous_share times wall_viscosity_factor.
 template <class T>
 struct ViscousSums {
     Vec3<T> impulse{};
 
     NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening, T share,
                         const Vec3<T>& pair_gradient) {
-        const T approach = dot_as_everywhere(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
+        const T approach = dot_unfused(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
         impulse -= share * approach / (squared_length(difference) + softening) * pair_gradient;
     }
 };

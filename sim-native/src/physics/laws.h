@@ -19,7 +19,7 @@ enum class Law {
     mach,             ///< a body in water on a lattice goes nearly as fast as its sound
 };
 
-inline constexpr double most_compression = 0.5;  ///< of a fluid: mean of max(density - 1, 0), in rest densities
+inline constexpr double max_compression = 0.5;  ///< of a fluid: mean of max(density - 1, 0), in rest densities
 
 /// What a State may come to; infinite where nothing is asked.
 struct LawLimits {

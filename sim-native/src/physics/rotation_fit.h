@@ -94,7 +94,7 @@ NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4]) {
 NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slope, Vec3<double>& omega) {
     const Symmetric3<double> inverted = adjugate(h);
     const double size = determinant(h, inverted), trace = (h.xx + h.yy) + h.zz;
-    if (!(h.xx > 0 && inverted.zz > 0 && size > least_fit_determinant * (trace * trace * trace))) return false;
+    if (!(h.xx > 0 && inverted.zz > 0 && size > min_fit_determinant * (trace * trace * trace))) return false;
     omega = (inverted * slope) / size;
     return true;
 }
@@ -107,7 +107,7 @@ NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slo
 /// robust one. The error left, rad, is of the square of the last step.
 NATATOR_HD void closest_rotation(const Covariance& covariance, double q[4]) {
     const double* const a = covariance.entry;
-    for (int step = 0; step < most_fit_steps; ++step) {
+    for (int step = 0; step < max_fit_steps; ++step) {
         double r[9], m[9];  // R, A R^T
         rotation_matrix(q, r);
         for (int e = 0; e < 9; ++e) {

@@ -60,8 +60,8 @@ NATATOR_HD Vec3<double> least_norm_solution(const Symmetric3<double>& s, const V
     double m[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
     double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const double size = s.xx + s.yy + s.zz;
-    constexpr int most_sweeps = 8;
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    constexpr int max_sweeps = 8;
+    for (int sweep = 0; sweep < max_sweeps; ++sweep) {
         const double off = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
         if (!(off > 1e-34 * size * size)) break;
         rotate_away(m, v, 0, 1);

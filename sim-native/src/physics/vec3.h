@@ -62,7 +62,7 @@ NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
 }
 /// The same; on a GPU rounded in the same way in whatever kernel it is, where the compiler chooses which of the products to round.
 template <class T, class U>
-NATATOR_HD T dot_as_everywhere(const Vec3<T>& a, const Vec3<U>& b) {
+NATATOR_HD T dot_unfused(const Vec3<T>& a, const Vec3<U>& b) {
 #if defined(__CUDA_ARCH__)
     if constexpr (sizeof(T) == sizeof(double)) return fma(a.z, b.z, fma(a.x, b.x, a.y * b.y));
     return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));

@@ -14,7 +14,7 @@ struct VelocityRule {
     bool damping;
     R damping_step;  ///< h damping
     bool clamp_acceleration;
-    R most_change;  ///< h maxAcceleration
+    R max_change;  ///< h maxAcceleration
     bool clamp_speed;
     R max_speed;
 };
@@ -37,7 +37,7 @@ NATATOR_HD Vec3<T> flex_velocity(const Vec3<T>& u, const Vec3<T>& smoothing, con
     Vec3<T> v = u;
     if (rule.viscosity) v = v + rule.viscosity_step * smoothing;
     if (rule.damping) v = v - rule.damping_step * u;
-    if (rule.clamp_acceleration) v = predicted + clamped(v - predicted, rule.most_change);
+    if (rule.clamp_acceleration) v = predicted + clamped(v - predicted, rule.max_change);
     if (rule.clamp_speed) v = clamped(v, rule.max_speed);
     return v;
 }

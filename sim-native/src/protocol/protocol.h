@@ -11,7 +11,7 @@
 namespace natator {
 
 /// Ids are whole numbers that every reader of JSON keeps as they are.
-inline constexpr std::uint64_t most_id = 9007199254740991;
+inline constexpr std::uint64_t max_id = 9007199254740991;
 inline constexpr const char* id_range = "a whole number in [0, 9007199254740991]";
 
 /// What `natator-sim evaluate` is asked to do.

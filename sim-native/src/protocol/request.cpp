@@ -31,7 +31,7 @@ std::uint64_t read_perturbation_seed(const json& value, const Place& place) {
 json request_id(const json& value) {
     if (!value.is_object() || !value.contains("id")) return nullptr;
     const json& id = value.at("id");
-    return id.is_number_unsigned() && id.get<std::uint64_t>() <= most_id ? id : json();
+    return id.is_number_unsigned() && id.get<std::uint64_t>() <= max_id ? id : json();
 }
 
 Request parse_request(const json& value, const std::string& document) {

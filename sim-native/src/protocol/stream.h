@@ -54,7 +54,7 @@ struct NewScene {
     LiveSetup setup;
 };
 
-inline constexpr int most_credit = 1000;                 ///< frames
+inline constexpr int max_credit = 1000;                 ///< frames
 inline constexpr int longest_step = 1000;                ///< frames
 inline constexpr std::size_t longest_command = 1 << 20;  ///< bytes
 

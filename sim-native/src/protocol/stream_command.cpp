@@ -137,7 +137,7 @@ StreamCommand parse_stream_command(const json& value) {
     fields::read(fields::required(value, place, "do"), place.key("do"), {}, name);
 
     const auto only = [&value](std::vector<std::string_view> keys) { check_keys(value, std::move(keys)); };
-    if (name == "credit") return only({"frames"}), stream::Credit{read_frames(value, stream::most_credit)};
+    if (name == "credit") return only({"frames"}), stream::Credit{read_frames(value, stream::max_credit)};
     if (name == "run") return only({}), stream::Run{};
     if (name == "pause") return only({}), stream::Pause{};
     if (name == "step") return only({"frames", "drive", "scale", "offset", "sense"}), read_step(value);

@@ -35,7 +35,7 @@ constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several th
 constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so many neighbours at most
 constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
 constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
-constexpr double most_samples = 4096, most_looks = 2e7;
+constexpr double max_samples = 4096, max_looks = 2e7;
 // Of scheme lattice: 2 x 17 moments, a change of the velocity, whose it is. Rows are padded, and each part of the planes has three of populations.
 constexpr double bytes_of_lattice_cell = 160, bytes_of_populations = 3 * 27 * sizeof(float), work_of_lattice_cell = 25;
 // In visits of a pair.
@@ -88,9 +88,9 @@ double near_at_start(const Model& model, double distance, const Grid& grid, bool
     }
     if (asked.empty()) return 0;
     constexpr std::size_t stride = 999'983;  // a prime: samples that are few are not all of one corner
-    const double wanted = std::min<double>(static_cast<double>(asked.size()), most_samples);
+    const double wanted = std::min<double>(static_cast<double>(asked.size()), max_samples);
     double sum = 0, samples = 0, looks = 0;
-    for (std::size_t k = 0; samples < wanted && looks < most_looks; k = (k + stride) % asked.size(), ++samples) {
+    for (std::size_t k = 0; samples < wanted && looks < max_looks; k = (k + stride) % asked.size(), ++samples) {
         const Eigen::Vector3d& x = model.position[asked[k]];
         const int cell = grid.cell(x.x(), x.y(), x.z());
         const Grid::Rows rows = grid.rows_around(grid.row(cell));

@@ -76,7 +76,7 @@ struct LiveSimulation<Real>::Run {
     Model model;
     Solver<Real> solver;
     LawWatch laws;
-    std::optional<TankFollower> follower;
+    std::optional<MovingFrame> follower;
     std::optional<State<Real>> settled;
 };
 
@@ -137,7 +137,7 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
             base_time_ = state_.time;
         }
         earlier_work_ += run_->solver.muscle_work();
-        if (run->follower) run->follower->stand_at(state_.origin);
+        if (run->follower) run->follower->set_origin(state_.origin);
         run_ = std::move(run);
         run_->laws.go_on(measure_laws(model(), state_));
         run_->laws.drive_freely();
@@ -207,7 +207,7 @@ bool LiveSimulation<Real>::frame() {
 
 /// As SwimRecord does it.
 template <class Real>
-void LiveSimulation<Real>::follow(TankFollower& follower) {
+void LiveSimulation<Real>::follow(MovingFrame& follower) {
     follower.drift(scene().time_step);
     const Eigen::Vector3d before = state_.origin;
     const Vector3<Real> first = state_.position.front();
@@ -252,7 +252,7 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     if (!instability) instability = next.laws.start(measure_laws(next.model, state));
     if (run) run_ = std::move(run);
     state_ = std::move(state);
-    if (next.follower) next.follower->stand_at(state_.origin);
+    if (next.follower) next.follower->set_origin(state_.origin);
     instability_ = std::move(instability);
     updated_ = false;
     frames_ = base_frame_ = 0;

@@ -31,7 +31,7 @@ std::pair<double, double> walls_across(const Scene& scene, int axis) {
 
 }  // namespace
 
-TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(model), tank_(*scene.moving_tank) {
+MovingFrame::MovingFrame(const Scene& scene, const Model& model) : model_(model), tank_(*scene.moving_tank) {
     if (scene.scheme == Scheme::flex) refuse(scene, "works in schemes conserving and lattice only");
     if (!scene.fluid) refuse(scene, "needs fluid");
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
@@ -58,14 +58,14 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     }
 }
 
-bool TankFollower::is_due(const Eigen::Vector3d& centre) const {
+bool MovingFrame::is_due(const Eigen::Vector3d& centre) const {
     for (const Axis& axis : axes_)
         if (std::abs(centre[axis.axis] - axis.home) >= tank_.step) return true;
     return false;
 }
 
 template <class Real>
-void TankFollower::follow(const Eigen::Vector3d& centre, State<Real>& state) {
+void MovingFrame::follow(const Eigen::Vector3d& centre, State<Real>& state) {
     for (const Axis& axis : axes_) {
         const double ahead = centre[axis.axis] - axis.home;
         if (std::abs(ahead) >= tank_.step) move(axis, ahead > 0 ? 1 : -1, state);
@@ -76,7 +76,7 @@ void TankFollower::follow(const Eigen::Vector3d& centre, State<Real>& state) {
 /// Everything goes back by a step. Water that would then be beyond the wall behind comes to stand as far before the wall
 /// in front: its layer at the one wall closes up with the layer that was at the other.
 template <class Real>
-void TankFollower::move(const Axis& axis, int direction, State<Real>& state) {
+void MovingFrame::move(const Axis& axis, int direction, State<Real>& state) {
     const int a = axis.axis;
     const Real step = static_cast<Real>(direction * tank_.step);
     const Real low = static_cast<Real>(axis.low), high = static_cast<Real>(axis.high), length = high - low;
@@ -100,7 +100,7 @@ void TankFollower::move(const Axis& axis, int direction, State<Real>& state) {
     ++renewal_.times;
 }
 
-template void TankFollower::follow(const Eigen::Vector3d&, State<float>&);
-template void TankFollower::follow(const Eigen::Vector3d&, State<double>&);
+template void MovingFrame::follow(const Eigen::Vector3d&, State<float>&);
+template void MovingFrame::follow(const Eigen::Vector3d&, State<double>&);
 
 }  // namespace natator

@@ -137,7 +137,7 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
     WholeFile file(file_for(folder_, key), std::ios::binary);
     file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     static_cast<void>(file.finish());  // what is not kept is settled anew
-    prune(folder_, most_files);
+    prune(folder_, max_files);
 }
 
 template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&) const;

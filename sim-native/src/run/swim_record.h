@@ -50,7 +50,7 @@ private:
     const Scene& scene_;
     const Model& model_;
     long window_ = 0;  ///< frames without gain that end a run
-    std::optional<TankFollower> follower_;
+    std::optional<MovingFrame> follower_;
     GoalRecord goals_;
     std::vector<double> path_, tail_;
     Pose pose_;                        ///< of the body, over ground

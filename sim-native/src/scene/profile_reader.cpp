@@ -68,12 +68,12 @@ std::optional<Fin> read_fin(const json& profile, const Place& place, const Latti
 double across(const Curve& curve, const Place& place, const Lattice& lattice, int slice) {
     const double value = curve.at(lattice.part(slice));
     const double spacings = value / lattice.spacing;
-    if (spacings >= least_across && spacings <= max_across) return spacings;
+    if (spacings >= min_across && spacings <= max_across) return spacings;
     std::ostringstream text;
     text << computed_text(value) << " at " << lattice.part(slice) << " of the length, slice " << slice << " of " << lattice.slices << ": ";
-    if (spacings < least_across)
-        text << "thinner than two particles across; must be at least " << computed_text(least_across * lattice.spacing) << ", "
-             << least_across << " spacings";
+    if (spacings < min_across)
+        text << "thinner than two particles across; must be at least " << computed_text(min_across * lattice.spacing) << ", "
+             << min_across << " spacings";
     else
         text << "must be at most " << max_across << " spacings of " << number_text(lattice.spacing);
     refuse(place, text.str());

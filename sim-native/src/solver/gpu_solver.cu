@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "cuda/device.h"
-#include "cuda/large/large_runner.h"
+#include "cuda/grid/grid_runner.h"
 #include "cuda/refusal.h"
-#include "cuda/way.h"
+#include "cuda/kernel_choice.h"
 #include "flex/cuda/batch_runner.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
@@ -30,12 +30,12 @@ public:
     Trace<Real> view() const { return {predicted_.data(), iterated_.data(), velocity_.data()}; }
 
     void tell(const DeviceModel<Real>& model, StepObserver<Real>& observer) const {
-        const std::vector<Quad<Real>> predicted = predicted_.download(), iterated = iterated_.download(),
+        const std::vector<Vec4<Real>> predicted = predicted_.download(), iterated = iterated_.download(),
                                       velocity = velocity_.download();
         for (int k = 0; k < substeps_; ++k) {
             const std::size_t first = static_cast<std::size_t>(k) * model_.particles;
             observer.predicted(by_particle(model, &predicted[first], &predicted[first]));
-            const Quad<Real>* numbers = nullptr;
+            const Vec4<Real>* numbers = nullptr;
             for (int i = 0; i < model_.iterations; ++i) {
                 numbers = &iterated[first * model_.iterations + static_cast<std::size_t>(i) * model_.particles];
                 observer.iterated(by_particle(model, numbers, numbers));
@@ -47,7 +47,7 @@ public:
 private:
     const ModelView<Real>& model_;
     int substeps_;
-    DeviceBuffer<Quad<Real>> predicted_, iterated_, velocity_;
+    DeviceBuffer<Vec4<Real>> predicted_, iterated_, velocity_;
 };
 
 }  // namespace
@@ -126,7 +126,7 @@ private:
                        const cuda::Trace<Real>& trace) override {
         const cuda::ModelView<Real>& view = runner_.model().view();
         State<Real> begin = state;
-        if (gait && cuda::goes_either_way(this->model_)) actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
+        if (gait && cuda::supports_both(this->model_)) actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
         states_.upload({begin});
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
@@ -171,7 +171,7 @@ public:
     std::vector<Vector3<Real>> forces() const override {
         if (!(time_ > 0) || !runner_.keeps_forces()) return {};
         std::vector<Vector3<Real>> forces(this->model_.particles(), Vector3<Real>::Zero());
-        const std::vector<cuda::Quad<Real>> impulses = runner_.impulses_on_solids();
+        const std::vector<cuda::Vec4<Real>> impulses = runner_.impulses_on_solids();
         for (std::size_t k = 0; k < impulses.size(); ++k)
             forces[particle_of(runner_.model().view().fluid + k)] =
                 Vector3<Real>(impulses[k].x, impulses[k].y, impulses[k].z) / time_;
@@ -204,7 +204,7 @@ private:
 
     int particle_of(std::size_t number) const { return runner_.model().particle_of()[number]; }
 
-    cuda::LargeRunner<Real> runner_;
+    cuda::GridRunner<Real> runner_;
     Real time_ = 0, h_ = 0;  ///< of the last update and of its substeps, s; 0 before the first
 };
 
@@ -216,14 +216,14 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
     if (path == GpuPath::by_size) {
-        const bool blocks = model.scheme == Scheme::flex && model.companions.empty() && !cuda::goes_either_way(model);
+        const bool blocks = model.scheme == Scheme::flex && model.companions.empty() && !cuda::supports_both(model);
         path = blocks ? GpuPath::block : GpuPath::whole_gpu;
     }
     if (path == GpuPath::block && model.scheme != Scheme::flex)
         throw InputError("backend cuda: scheme conserving by blocks; must be on the whole GPU");
-    if (path == GpuPath::block && model.particles() > cuda::most_particles_of_a_block)
+    if (path == GpuPath::block && model.particles() > cuda::max_particles_of_a_block)
         throw InputError("backend cuda: " + std::to_string(model.particles()) + " particles by blocks; must be at most " +
-                         std::to_string(cuda::most_particles_of_a_block));
+                         std::to_string(cuda::max_particles_of_a_block));
     cuda::LargeOptions large{.keeps_forces = options.forces};
     if (path == GpuPath::whole_gpu_search) {
         large.room = {0, 0};

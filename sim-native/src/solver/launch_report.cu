@@ -1,4 +1,4 @@
-#include "cuda/large/substep.cuh"
+#include "cuda/grid/substep.cuh"
 #include "solver/cuda/laws.cuh"
 #include "solver/cuda/measure.cuh"
 #include "solver/flex/cuda/flex_kernels.cuh"
@@ -33,7 +33,7 @@ __device__ void pressures_large(const ModelView<Real>& model, const Slots<Real>&
 }
 
 template <class Real>
-__device__ void body_places_large(const ModelView<Real>& model, const Slots<Real>& slots, int b, Quad<Real>* places) {
+__device__ void body_places_large(const ModelView<Real>& model, const Slots<Real>& slots, int b, Vec4<Real>* places) {
     places += static_cast<std::size_t>(blockIdx.y) * model.body;
     places[b] = slots.position()[slots.slot_of_solid()[model.body_particle[b]]];
 }
@@ -55,7 +55,7 @@ __device__ void measure_laws_large(const ModelView<Real>& model, const Slots<Rea
     const int own = threadIdx.x, step = static_cast<int>(gridDim.x) * law_threads;
     physics::LawMeasures sum;
     for (int s = static_cast<int>(blockIdx.x) * law_threads + own; s < model.particles; s += step) {
-        const Quad<Real> v = slots.at.state_velocity[s];
+        const Vec4<Real> v = slots.at.state_velocity[s];
         add(sum, measures_of(model, number_in(v.w), slots.position()[s], xyz(v)));
     }
     for (int b = own; blockIdx.x == 0 && b < model.body; b += law_threads) add(sum, reach_of(model, slots, b));
@@ -87,12 +87,12 @@ __device__ void rest_large(const ModelView<Real>&, const Slots<Real>& slots, int
 
 template <class Real>
 __device__ void far_slot_large(const ModelView<Real>& model, const Slots<Real>& slots) {
-    for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
+    for (Vec4<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
 }
 
 template <class Real>
-__device__ void record_large(const ModelView<Real>&, const Slots<Real>& slots, int s, Quad<Real>* to) {
+__device__ void record_large(const ModelView<Real>&, const Slots<Real>& slots, int s, Vec4<Real>* to) {
     if (blockIdx.y == 0) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
 }
 
@@ -113,13 +113,13 @@ void launch_substep(const LargeLaunch<Real>& launch) {
         launch_substep_of<Real, Scheme::flex>(launch);
     if (launch.trace.velocity)
         check(cudaMemcpyAsync(launch.trace.velocity + std::size_t(launch.slots.substep) * launch.model.particles,
-                              launch.slots.at.state_velocity, launch.model.particles * sizeof(Quad<Real>),
+                              launch.slots.at.state_velocity, launch.model.particles * sizeof(Vec4<Real>),
                               cudaMemcpyDeviceToDevice, launch.stream),
               "copy");
 }
 
 template <class Real>
-void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row) {
+void record_positions(const LargeLaunch<Real>& launch, Vec4<Real>* to, int row) {
     if (to)
         launch.template report_slots<record_large<Real>>(
             launch.model.particles, to + static_cast<std::size_t>(row) * launch.model.particles);
@@ -141,7 +141,7 @@ void launch_pressures(const LargeLaunch<Real>& launch, Real* pressures) {
 }
 
 template <class Real>
-void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places) {
+void launch_body_places(const LargeLaunch<Real>& launch, Vec4<Real>* places) {
     at_the_end(launch).template report_slots<body_places_large<Real>>(launch.model.body, places);
 }
 
@@ -171,11 +171,11 @@ void launch_far_slot(const LargeLaunch<Real>& launch) {
 
 #define NATATOR_INSTANTIATE(Real)                                               \
     template void launch_substep(const LargeLaunch<Real>&);                     \
-    template void record_positions(const LargeLaunch<Real>&, Quad<Real>*, int); \
+    template void record_positions(const LargeLaunch<Real>&, Vec4<Real>*, int); \
     template void launch_densities(const LargeLaunch<Real>&, Real*);            \
     template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
     template void launch_pressures(const LargeLaunch<Real>&, Real*);            \
-    template void launch_body_places(const LargeLaunch<Real>&, Quad<Real>*);    \
+    template void launch_body_places(const LargeLaunch<Real>&, Vec4<Real>*);    \
     template void launch_measure(const LargeLaunch<Real>&);                     \
     template void launch_work(const LargeLaunch<Real>&);                        \
     template void launch_rest(const LargeLaunch<Real>&);                        \

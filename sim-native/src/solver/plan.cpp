@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "model/carried_weight.h"
+#include "model/background_pressure.h"
 #include "model/water_volumes.h"
 #include "stage.h"
 

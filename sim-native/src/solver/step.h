@@ -4,7 +4,7 @@
 #include "stage.h"
 
 // One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on the host
-// cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/large/ by kernels that the host launches.
+// cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by kernels that the host launches.
 // after(stage) is called behind each.
 #if defined(__CUDACC__)
 #define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of

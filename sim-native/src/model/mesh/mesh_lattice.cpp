@@ -12,7 +12,7 @@ namespace natator {
 namespace {
 
 constexpr double most_across = 1000;  // spacings
-constexpr double most_volume_error = 0.25;
+constexpr double max_volume_error = 0.25;
 
 /// On which side of the line from a to b a point of the plane (y, z) is, moved by an infinitesimal amount along y and by one
 /// that is infinitesimal even to that along z: never on it, unless a = b.
@@ -102,7 +102,7 @@ void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row
 
 void check_volume(double particles, double spacing, double volume) {
     const double sampled = particles * spacing * spacing * spacing;
-    if (std::abs(sampled / volume - 1) <= most_volume_error) return;
+    if (std::abs(sampled / volume - 1) <= max_volume_error) return;
     std::ostringstream text;
     text << "is too coarsely sampled: its " << particles << " particles have " << sampled / volume
          << " of its volume; must be within a quarter of it, by a finer spacing";

@@ -11,8 +11,8 @@
 namespace natator {
 namespace {
 
-constexpr std::size_t most_left_out = 2;  // slices at each tip
-constexpr double most_asymmetric = 0.1;   // of the particles
+constexpr std::size_t max_left_out = 2;  // slices at each tip
+constexpr double max_asymmetric = 0.1;   // of the particles
 constexpr int reach = 3;                  // spacings from the surface to the next particle
 
 /// Columns of each row of each slice, half spacings from the middle: those of the left half, mirrored.
@@ -40,7 +40,7 @@ Sites symmetric_sites(const TriangleMesh& mesh, const MeshLattice& lattice) {
                                  " particles at this spacing; see unit and length");
             for (const int slice : left) sites[slice][row].push_back(lattice.from_middle(column));
         }
-    if (static_cast<double>(different) > most_asymmetric * static_cast<double>(particles)) {
+    if (static_cast<double>(different) > max_asymmetric * static_cast<double>(particles)) {
         std::ostringstream text;
         text << "has different halves to the left and right of " << lattice.middle().z() << ": " << different << " of "
              << particles << " particles have none on the other side; must be at most a tenth, since the left half is mirrored";
@@ -116,8 +116,8 @@ MeshSlices slice_mesh(const TriangleMesh& mesh, double spacing) {
     std::vector<Slice> slices;
     for (const auto& rows : sites) slices.push_back(slice_of(rows));
     std::size_t first = 0, last = slices.size();
-    while (first < most_left_out && first < last && thin(slices[first])) ++first;
-    while (slices.size() - last < most_left_out && last > first && thin(slices[last - 1])) --last;
+    while (first < max_left_out && first < last && thin(slices[first])) ++first;
+    while (slices.size() - last < max_left_out && last > first && thin(slices[last - 1])) --last;
     for (std::size_t i = first; i < last; ++i)
         if (thin(slices[i])) refuse_thin(lattice, i, slices[i]);
     if (last - first < 2) throw InputError("holds fewer than two slices of particles; the spacing must be finer");

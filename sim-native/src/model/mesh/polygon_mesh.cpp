@@ -17,9 +17,9 @@ namespace natator {
 namespace {
 
 // Of the largest extent: what is one place anywhere, and at borders. A body's finest spacing is 1e-3.
-constexpr double one_place = 1e-6, most_nearby = 1e-4;
-constexpr long most_steps = 10'000'000;    // along borders
-constexpr long most_corners = 200'000'000;  // that are looked at to cut up polygons, some seconds' worth
+constexpr double one_place = 1e-6, max_nearby = 1e-4;
+constexpr long max_steps = 10'000'000;    // along borders
+constexpr long max_corners = 200'000'000;  // that are looked at to cut up polygons, some seconds' worth
 
 /// Leaves out vertices that no face uses; the others keep their order.
 void leave_out_unused(PolygonMesh& mesh) {
@@ -221,7 +221,7 @@ private:
             std::optional<std::size_t> next;
             double least = length;
             for (const std::size_t i : from_[end]) {
-                if (++steps_ > most_steps) return {};
+                if (++steps_ > max_steps) return {};
                 if (used_[i] || used_[number]) continue;
                 const Eigen::Vector3d place = mesh_.vertices[edges_[i].to] - begin;
                 const double distance = edges_[i].to == edge.from ? length : place.dot(along) / length;
@@ -251,7 +251,7 @@ private:
 /// What cannot be closed stays as it is, so that what is refused is what the file has.
 void close_borders(PolygonMesh& mesh) try {
     PolygonMesh closed = mesh;
-    for (double nearby = one_place; nearby < 1.1 * most_nearby; nearby *= 10) {
+    for (double nearby = one_place; nearby < 1.1 * max_nearby; nearby *= 10) {
         const double distance = nearby * largest_extent(closed);
         merge_near(closed, at_open_edges(closed), distance);
         EdgeCorners(closed, distance).add();
@@ -284,7 +284,7 @@ TriangleMesh triangles_of(PolygonMesh mesh) {
             cut.push_back({face[0], face[1], face[2]});
         else
             try {
-                cut = cut_polygon(face, points, work, most_corners);
+                cut = cut_polygon(face, points, work, max_corners);
             } catch (const InputError& error) {
                 throw InputError(name() + " " + error.what());
             }

@@ -7,7 +7,7 @@
 namespace natator {
 namespace {
 
-constexpr double least_order = 0.5, most_order = 4;
+constexpr double min_order = 0.5, max_order = 4;
 constexpr double significant = 2;  // standard errors
 
 /// The order that three levels show, if they show one.
@@ -16,7 +16,7 @@ std::optional<double> observed_order(const Sample& base, const Sample& half, con
     if (!(std::abs(first) > significant * std::hypot(base.error, half.error))) return std::nullopt;
     if (!(std::abs(second) > significant * std::hypot(half.error, quarter.error))) return std::nullopt;
     const double order = std::log2(first / second);  // not a number where the signs differ
-    if (!(order >= least_order && order <= most_order)) return std::nullopt;
+    if (!(order >= min_order && order <= max_order)) return std::nullopt;
     return order;
 }
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <new>
 
-#include "by_whole_gpu.h"
-#include "evaluate_large.h"
+#include "uses_grid_kernels.h"
+#include "evaluate_on_grid.h"
 #include "evaluation.h"
-#include "kept_starts.h"
+#include "device_state_cache.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/laws.h"
@@ -14,7 +14,7 @@
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/refusal.h"
-#include "solver/cuda/way.h"
+#include "solver/cuda/kernel_choice.h"
 
 namespace natator {
 namespace cuda {
@@ -63,7 +63,7 @@ private:
         starts.states.upload(states);
         const Settling& settling = scene_.settling;
         if (settling.updates == 0) return starts;
-        static KeptStarts<Real> kept;  // without a perturbation
+        static DeviceStateCache<Real> kept;  // without a perturbation
         const bool shared = states.size() == 1;
         const std::optional<std::string> key = shared && keeps_starts_ ? kept.key_of(model_, settling) : std::nullopt;
         if (const auto found = kept.find(key)) {
@@ -113,8 +113,8 @@ private:
         batch.substeps = model_.parameters.substeps;
         batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data(),
                       steers ? offsets.data() : nullptr};
-        const DeviceBuffer<Real> lengths(goes_either_way(model_) ? muscle_lengths(members, frames) : std::vector<Real>{});
-        if (goes_either_way(model_)) batch.muscle_length = lengths.data();
+        const DeviceBuffer<Real> lengths(supports_both(model_) ? muscle_lengths(members, frames) : std::vector<Real>{});
+        if (supports_both(model_)) batch.muscle_length = lengths.data();
         batch.density = density.data();
         std::vector<physics::LawLimits> limits_of;
         for (const BatchMember& member : members) {
@@ -197,8 +197,8 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 template <class Real>
 std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                  const BatchOptions& options) {
-    if (by_whole_gpu(scene, model, options))
-        return evaluate_large<Real>(scene, model, members, options);
+    if (uses_grid_kernels(scene, model, options))
+        return evaluate_on_grid<Real>(scene, model, members, options);
     Batch<Real> batch(scene, model, options);
     return evaluate_in_parts(batch, members);
 }

@@ -1,7 +1,7 @@
 // What a build without CUDA answers.
 #include "solver/cuda/no_cuda.h"
 
-#include "by_whole_gpu.h"
+#include "uses_grid_kernels.h"
 #include "natator/batch.h"
 
 namespace natator {
@@ -20,7 +20,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMem
 
 namespace cuda {
 
-bool by_whole_gpu(const Scene&, const Model&, const BatchOptions&) {
+bool uses_grid_kernels(const Scene&, const Model&, const BatchOptions&) {
     refuse_without_cuda();
 }
 

@@ -10,10 +10,10 @@ namespace natator::cuda {
 struct Parts {
     int members, count, streams;
 
-    Parts(int all, int most, int most_streams)
+    Parts(int all, int most, int max_streams)
         : members(all),
-          count(std::min(all, ceiling(ceiling(all, most), most_streams) * most_streams)),
-          streams(std::min(count, most_streams)) {}
+          count(std::min(all, ceiling(ceiling(all, most), max_streams) * max_streams)),
+          streams(std::min(count, max_streams)) {}
 
     int first(int part) const { return part * (members / count) + std::min(part, members % count); }
     int size_of(int part) const { return first(part + 1) - first(part); }

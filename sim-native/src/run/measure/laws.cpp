@@ -20,8 +20,8 @@ using physics::LawMeasures;
 
 // Spray can have a multiple of what falling gives: heavy water that meets light water, or a jet between two fronts.
 constexpr double speed_margin = 3;      ///< of the speed of a fall
-constexpr double most_unequal = 4;      ///< of masses: a light particle gets up to so many times the energy of a heavy one's fall, per mass
-constexpr double most_body_lengths = 90;  ///< a second, that anything goes unless it falls as fast
+constexpr double max_unequal = 4;      ///< of masses: a light particle gets up to so many times the energy of a heavy one's fall, per mass
+constexpr double max_body_lengths = 90;  ///< a second, that anything goes unless it falls as fast
 constexpr double energy_margin = 0.1;   ///< of the energy of a fall of all that moves
 // What explicit forces set free, measured in a box of water: at most 14 cohesion at R = 1.5 s = 0.15, and without gravity, which
 // gives no measure for it, 0.25 surfaceTension at s = 0.1.
@@ -118,7 +118,7 @@ struct LawWatch::Parts {
         highest = begin.particle_energy;
         fallen = speed_margin * speed_margin * (own.start + own.unequal * std::max(1.0, own.crowding) * own.fall + own.noise) + own.forces;
         gain = mass * (energy_margin * (own.start + own.fall) + std::max(0.0, own.crowding - 1) * own.fall + own.forces + own.noise);
-        const double swum = square(most_body_lengths * length) / 2;
+        const double swum = square(max_body_lengths * length) / 2;
         if (length > 0) most = std::max(swum, 4 * std::max(1.0, own.crowding) * own.fall);
         // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its motion.
         if (model.scheme == Scheme::flex && own.crowding == 0) fallen += swum;
@@ -157,7 +157,7 @@ struct LawWatch::Parts {
         }
         if (!(heaviest > 0)) return own;
         own.noise = square(corrected_start * p.radius * p.substeps / model.time_step) / 2;
-        own.unequal = std::min(heaviest / lightest, most_unequal);
+        own.unequal = std::min(heaviest / lightest, max_unequal);
         own.fall = std::max(1.0, std::abs(p.buoyancy)) * (high - low) + pull * p.radius;
         if (count == 0) return own;
         const double room = (fluid.sizes().array() + spacing).prod();
@@ -165,7 +165,7 @@ struct LawWatch::Parts {
         own.forces = cohesion_energy * p.cohesion * square(p.radius / physics::thesis_substep);
         if (!(pull > 0)) own.forces += tension_energy * p.surfaceTension * spacing;
         own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
-        const double expansion = physics::most_excess * p.substeps / model.time_step;
+        const double expansion = physics::max_excess * p.substeps / model.time_step;
         const double slow = pull > 0 ? physics::expansion * std::sqrt(pull / spacing) : expansion;
         const double rate = std::min(expansion, slow);
         own.noise += square(spacing * rate) / 2;
@@ -256,12 +256,12 @@ std::optional<Instability> LawWatch::look(const LawMeasures& measures, double wo
 }
 
 std::optional<Instability> LawWatch::look_at_compression(double mean_excess, double time) {
-    parts_->margins.compression = std::max(parts_->margins.compression, mean_excess / physics::most_compression);
+    parts_->margins.compression = std::max(parts_->margins.compression, mean_excess / physics::max_compression);
     return broken_by_compression(mean_excess, time);
 }
 
 std::optional<Instability> broken_by_compression(double mean_excess, double time) {
-    if (mean_excess <= physics::most_compression) return std::nullopt;
+    if (mean_excess <= physics::max_compression) return std::nullopt;
     return Instability{0, "frame", time, name(Law::compression)};
 }
 

@@ -14,8 +14,8 @@
 namespace natator {
 namespace {
 
-constexpr std::size_t most_places = 1000;
-constexpr double most_within = 1000;    // length
+constexpr std::size_t max_places = 1000;
+constexpr double max_within = 1000;    // length
 constexpr double outermost = 1e-6;      // of a body's length: lies as far out as another
 constexpr double no_inertia = 1e-9;     // of the largest: a body that is a line does not resist turns about itself
 
@@ -175,16 +175,16 @@ void check_sensing(const Sensing& sensing, const Model& model) {
         throw InputError(text.str());
     };
     if (model.body.particles.empty()) refuse("sense: the scene has no creature, whose senses they would be");
-    if (sensing.flow.size() > most_places)
-        refuse("flow has length ", sensing.flow.size(), ": must have length ", most_places, " at most");
+    if (sensing.flow.size() > max_places)
+        refuse("flow has length ", sensing.flow.size(), ": must have length ", max_places, " at most");
     const auto slices = static_cast<int>(model.body.slices.size());
     for (std::size_t i = 0; i < sensing.flow.size(); ++i) {
         const int slice = sensing.flow[i].slice;
         if (slice < 0 || slice >= slices)
             refuse("flow[", i, "].slice = ", slice, ": must be a slice of the body, in [0, ", slices - 1, ']');
     }
-    if (!(sensing.within >= 0 && sensing.within <= most_within))
-        refuse("within = ", sensing.within, ": must be 0 or a length up to ", most_within);
+    if (!(sensing.within >= 0 && sensing.within <= max_within))
+        refuse("within = ", sensing.within, ": must be 0 or a length up to ", max_within);
     if (sensing.target && !sensing.target->allFinite()) refuse("target: must be three numbers");
 }
 

@@ -10,8 +10,8 @@
 namespace natator {
 namespace {
 
-constexpr int most_periods = 3;
-constexpr double least_steps = 8;  // of a period, to see its peaks
+constexpr int max_periods = 3;
+constexpr double min_steps = 8;  // of a period, to see its peaks
 
 /// `path` at `at` steps from its start, linear between its values.
 double value_at(const std::vector<double>& path, double at) {
@@ -51,8 +51,8 @@ double water_across(const Model& model) {
 }
 
 std::string warning_of_across(double across) {
-    if (across == 0 || across > least_spacings_across - 0.01) return "";
-    return "the body is " + figure_text(across) + " spacings of the water across: at least " + figure_text(least_spacings_across) +
+    if (across == 0 || across > min_spacings_across - 0.01) return "";
+    return "the body is " + figure_text(across) + " spacings of the water across: at least " + figure_text(min_spacings_across) +
            " are needed, below which its speed may change by half with a finer water";
 }
 
@@ -67,8 +67,8 @@ double tail_z(const Body& body, const State<Real>& state) {
 std::optional<double> peak_to_peak(const std::vector<double>& path, double time_step, double period) {
     const double steps = period / time_step, all = static_cast<double>(path.size()) - 1;
     constexpr double rounding = 1e-9;
-    const int periods = std::min(most_periods, static_cast<int>(std::min(all / steps + rounding, 1e6)));
-    if (periods < 1 || steps < least_steps) return std::nullopt;
+    const int periods = std::min(max_periods, static_cast<int>(std::min(all / steps + rounding, 1e6)));
+    if (periods < 1 || steps < min_steps) return std::nullopt;
     double sum = 0;
     for (int k = 0; k < periods; ++k) sum += range_between(path, std::max(all - (k + 1) * steps, 0.0), all - k * steps);
     return sum / periods;

@@ -32,10 +32,10 @@ FluidView<Real> Substep<Real>::fluid_view() {
 }
 
 /// More distances than fit into a processor's cache are dearer to fetch than to compute.
-constexpr std::size_t most_distances = 1 << 20;
+constexpr std::size_t max_distances = 1 << 20;
 
 /// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
-/// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
+/// in the order of their slots per run of cells, at most max_neighbours_. Pairs at distance 0 are left out.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
     const auto cell_of = [this](int slot) { return slot < ws_.fluid ? ws_.cell_of[ws_.particle_of[slot]] : -1; };
@@ -46,7 +46,7 @@ void Substep<Real>::find_fluid_neighbours() {
             const auto unfelt = [&](int j) { return !collides(i, ws_.particle_of[j]); };
             n = static_cast<int>(std::remove_if(found, found + n, unfelt) - found);
         }
-        return std::min(n, most_neighbours_);
+        return std::min(n, max_neighbours_);
     };
     const std::size_t size = lists_.list({.position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
                                           .blocks = ws_.blocks(),
@@ -55,7 +55,7 @@ void Substep<Real>::find_fluid_neighbours() {
                                           .shortest_part = shortest_part,
                                           .kernels = neighbour_kernels_},
                                          *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, cell_of, go_to, choose);
-    const bool keep = size <= most_distances;
+    const bool keep = size <= max_distances;
     ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }
 

@@ -86,7 +86,7 @@ public:
     template <class CellOf, class GoTo, class Choose>
     std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const CellOf& cell_of, const GoTo& go_to,
                      const Choose& choose) {
-        rooms_.resize(team.most_parts());
+        rooms_.resize(team.max_parts());
         for (Room& room : rooms_) room.size = 0;
         // The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
         team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {

@@ -35,7 +35,7 @@ Substep<Real>::Substep(const Model& model, const Plan& plan)
       plan_(plan),
       constants_(model.parameters),
       ws_(model),
-      most_neighbours_(model.parameters.maxNeighborsPerParticle),
+      max_neighbours_(model.parameters.maxNeighborsPerParticle),
       kernels_(&fluid_kernels<Real>(instruction_set())),
       neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
       motion_kernels_(&motion_kernels<Real>(instruction_set())),

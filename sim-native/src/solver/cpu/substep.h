@@ -188,7 +188,7 @@ protected:
     template <class Visit>
     void for_each_fluid_neighbour(int slot, const Visit& visit) const;
 
-    int most_neighbours_;                      ///< fluid neighbours kept per particle
+    int max_neighbours_;                      ///< fluid neighbours kept per particle
     std::vector<Real> inverse_mass_;           ///< by particle
     Vec3<Real> up_;                            ///< against gravity; 0 without it
     std::vector<Vec3<Real>> new_velocity_;     ///< by particle, the substep's outcome

@@ -22,14 +22,14 @@ public:
     int size() const { return static_cast<int>(helpers_.size()) + 1; }
 
     /// The most parts that a loop is cut into: several for each thread, so that one that is held up can leave some.
-    int most_parts() const { return size() == 1 ? 1 : 4 * size(); }
+    int max_parts() const { return size() == 1 ? 1 : 4 * size(); }
 
     /// Calls work(part, begin, end) for each of the parts that [0, count) is cut into, side by side, and returns when
     /// all are done. The cuts depend on count, grain and size() alone. No part is shorter than `grain` unless it is the
     /// only one, so short loops run as if alone. Throws what the first part in order threw.
     template <class Work>
     void for_parts(int count, int grain, const Work& work) {
-        int parts = std::max(1, std::min(most_parts(), count / grain));
+        int parts = std::max(1, std::min(max_parts(), count / grain));
         if (parts > size()) parts -= parts % size();  // as many for each thread
         if (parts == 1) return work(0, 0, count);
         run(parts, [&](int part) { work(part, cut(count, part, parts), cut(count, part + 1, parts)); });
@@ -58,11 +58,11 @@ private:
     std::atomic<bool> over_{false};           ///< no more work will come
     std::atomic<unsigned> call_{0};           ///< counts the calls of run
     /// Parts of one thread that nobody has taken: it begins with those, so that it finds in its cache what it left there.
-    struct alignas(64) Share {
+    struct alignas(64) Incidence {
         std::atomic<int> next{0};
         int end = 0;
     };
-    std::vector<Share> shares_;               ///< by thread
+    std::vector<Incidence> shares_;               ///< by thread
     std::atomic<int> inside_;                 ///< helpers in the present call; -1: none may enter
 };
 

@@ -10,8 +10,8 @@
 // scratch; a block of the team has some on its chip (`block_chip`).
 #define NATATOR_CHIP_ARRAYS(X)                                             \
     /* By slot; w: inverse mass. Positions are read from these in turn. */ \
-    X(Quad<Real>, position, all, team)                                     \
-    X(Quad<Real>, next, room.next, team)                                   \
+    X(Vec4<Real>, position, all, team)                                     \
+    X(Vec4<Real>, next, room.next, team)                                   \
     /* Ends of the fluid's cells, then of the solids'. */                  \
     X(Word, table, room.cells, team)                                       \
     X(Index, slot_of_solid, size.solids, team)                             \
@@ -19,11 +19,11 @@
 
 #define NATATOR_SCRATCH_ARRAYS(X)                                                                                  \
     /* Unsorted: in the order before slots are numbered, with inverse mass and number in w. */                     \
-    X(Quad<Real>, unsorted_position, room.unsorted, scratch)                                                       \
-    X(Quad<Real>, predicted_velocity, all, scratch) /* v* after external forces, by slot */                        \
-    X(Quad<Real>, unsorted_velocity, room.unsorted, scratch)                                                       \
+    X(Vec4<Real>, unsorted_position, room.unsorted, scratch)                                                       \
+    X(Vec4<Real>, predicted_velocity, all, scratch) /* v* after external forces, by slot */                        \
+    X(Vec4<Real>, unsorted_velocity, room.unsorted, scratch)                                                       \
     /* By slot; w of the start as in position. */                                                                  \
-    X(Quad<Real>, start, all, scratch)                                                                             \
+    X(Vec4<Real>, start, all, scratch)                                                                             \
     X(Index, number, all, scratch)                                                                                 \
     X(uint4, neighbour, room.neighbours, scratch) /* fluid neighbours of fluid slots, in chunks */                 \
     X(Index, neighbour_count, room.neighbour_counts, scratch)                                                      \
@@ -33,30 +33,30 @@
     X(Index, contact_count, all, scratch)                                                                          \
     X(Index, plane_contact, all, scratch)     /* bit k: plane k may be touched in this substep */                  \
     X(Index, touched, room.touched, scratch)  /* slots that have contacts, in no order */                          \
-    X(Quad<Real>, contact_push, room.touched, scratch) /* by slot; w: how many contacts */                         \
+    X(Vec4<Real>, contact_push, room.touched, scratch) /* by slot; w: how many contacts */                         \
     /* Where an effect needs them. */                                                                              \
     X(Real, density, plan.fluid && plan.free_surface_drag ? all : 0, scratch)     /* in units of rest density */   \
     X(Real, overlaps, plan.dissipation ? all : 0, scratch)                 /* contacts that are, when predicted */ \
-    X(Quad<Real>, normal, plan.fluid && plan.surface_tension ? all : 0, scratch)                                   \
-    X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0, scratch)
+    X(Vec4<Real>, normal, plan.fluid && plan.surface_tension ? all : 0, scratch)                                   \
+    X(Vec4<Real>, curl, plan.fluid && plan.vorticity ? all : 0, scratch)
 
 // What only such a team has.
 #define NATATOR_TEAM_ONLY_ARRAYS(X)                    \
     X(Real, rest_length, size.springs, team)           \
     X(SharedByBlock, shared_by_block, 1, block_chip)   \
     X(SharedByTeam<Real>, shared_by_team, 1, team)     \
-    X(Quad<Real>, next_velocity, all, scratch)         \
-    X(Quad<Real>, unsorted_start, all, scratch)        \
+    X(Vec4<Real>, next_velocity, all, scratch)         \
+    X(Vec4<Real>, unsorted_start, all, scratch)        \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
 
 // Of the block that has the solids on its chip, see solids_on_chip.cuh; shares in the Model's order.
 #define NATATOR_CHIP_SOLID_ARRAYS(X)                                                                    \
-    X(Quad<Real>, chip_solid, room.solids, block_chip)               /* where it is; w: inverse mass */ \
+    X(Vec4<Real>, chip_solid, room.solids, block_chip)               /* where it is; w: inverse mass */ \
     X(int, chip_springs_begin, room.solid_bounds, block_chip)        /* of its shares, by solid */      \
     X(int, chip_members_begin, room.solid_bounds, block_chip)                                           \
     X(ChipSpring<Real>, chip_spring, room.spring_shares, block_chip)                                    \
-    X(Share, chip_member_share, room.members, block_chip)                                               \
-    X(Quad<Real>, chip_member, room.members, block_chip)             /* rest offset; w: solid id */     \
+    X(Incidence, chip_member_share, room.members, block_chip)                                               \
+    X(Vec4<Real>, chip_member, room.members, block_chip)             /* rest offset; w: solid id */     \
     X(ClusterView<Real>, chip_cluster, room.clusters, block_chip)                                       \
     X(ClusterFit<Real>, chip_fit, room.clusters, block_chip)
 
@@ -65,9 +65,9 @@
     X(Index, rank, room.ranks, scratch)                            /* among its cell's, by slot before */           \
     X(Index, searched, room.ranks, scratch)                        /* fluid that may have contacts, in no order */  \
     X(Word, chip_table, room.chip_cells, block_chip)                /* ends of all cells */                          \
-    X(Index, chip_neighbour, most_listed_on_chip * room.chip_slots, block_chip)     /* of its own fluid slots, the first of each */  \
+    X(Index, chip_neighbour, max_listed_on_chip * room.chip_slots, block_chip)     /* of its own fluid slots, the first of each */  \
     X(Index, chip_neighbour_count, room.chip_slots, block_chip)                                                     \
-    X(Index, chip_contact, most_listed_on_chip * room.chip_touched, block_chip)     /* of its own touched slots, likewise */         \
+    X(Index, chip_contact, max_listed_on_chip * room.chip_touched, block_chip)     /* of its own touched slots, likewise */         \
     X(Index, chip_touched, room.chip_touched, block_chip)          /* which they are */                             \
     X(Index, chip_contact_count, room.chip_touched, block_chip)
 

@@ -45,7 +45,7 @@ __device__ void for_each_neighbour(const ModelView<Real>& model, const Team& tea
 
 /// What the far slot holds: beyond the reach of all others, without weight.
 template <class Real>
-__device__ Quad<Real> far_away() {
+__device__ Vec4<Real> far_away() {
     return {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away), Real(0)};
 }
 
@@ -67,10 +67,10 @@ __device__ void add_in_order(int begin, int end, const Find& find, const Add& ad
         constexpr unsigned all_lanes = 0xffffffff;
         const int lane = threadIdx.x % lanes;
         for (; __any_sync(all_lanes, begin < end); begin += lanes) {
-            const Quad<Real> own = begin + lane < end ? find(begin + lane) : Quad<Real>{0, 0, 0, 0};
+            const Vec4<Real> own = begin + lane < end ? find(begin + lane) : Vec4<Real>{0, 0, 0, 0};
             for (int k = 0; k < lanes; ++k) {
                 const auto of_lane = [&](Real value) { return __shfl_sync(all_lanes, value, k, lanes); };
-                const Quad<Real> found{of_lane(own.x), of_lane(own.y), of_lane(own.z), of_lane(own.w)};
+                const Vec4<Real> found{of_lane(own.x), of_lane(own.y), of_lane(own.z), of_lane(own.w)};
                 if (begin + k < end) add(found);
             }
         }

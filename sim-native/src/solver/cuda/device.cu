@@ -31,12 +31,12 @@ std::optional<std::string> refusal(const Model& model) {
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
     if (!make_plan(model).water) return std::nullopt;
-    if (const std::size_t borders = model.planes.size() + 2 * model.periodic.size(); borders > most_borders)
+    if (const std::size_t borders = model.planes.size() + 2 * model.periodic.size(); borders > max_borders)
         return std::to_string(borders) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +
-               "; must be at most " + std::to_string(most_borders) + " in scheme conserving";
-    if (model.particles() >= 1 << most_slot_bits)
+               "; must be at most " + std::to_string(max_borders) + " in scheme conserving";
+    if (model.particles() >= 1 << max_slot_bits)
         return std::to_string(model.particles()) + " particles; must be fewer than " +
-               std::to_string(1 << most_slot_bits) + " in scheme conserving";
+               std::to_string(1 << max_slot_bits) + " in scheme conserving";
     return std::nullopt;
 }
 

@@ -5,14 +5,14 @@
 
 #include "ghost_maps.h"
 #include "model/borders.h"
-#include "model/carried_weight.h"
+#include "model/background_pressure.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/substep.h"
 #include "solver/solids/cpu/solids.h"
-#include "way.h"
+#include "kernel_choice.h"
 
 namespace natator::cuda {
 namespace {
@@ -30,8 +30,8 @@ int cells_off_chip(const Model& model) {
 /// Particles listed by kind: position k of the result is what stands at `begin[k]` to `begin[k + 1]` of `shares`.
 struct Lists {
     std::vector<int> begin;
-    std::vector<Share> shares;
-    explicit Lists(const std::vector<std::vector<Share>>& by_particle) {
+    std::vector<Incidence> shares;
+    explicit Lists(const std::vector<std::vector<Incidence>>& by_particle) {
         for (const auto& list : by_particle) {
             begin.push_back(static_cast<int>(shares.size()));
             shares.insert(shares.end(), list.begin(), list.end());
@@ -51,7 +51,7 @@ DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
     upload_particles(model);
     if (model.scheme != Scheme::flex) set_conserving(model);
     upload_solids(model);
-    const bool many = whole_gpu || goes_either_way(model);
+    const bool many = whole_gpu || supports_both(model);
     view_.grid = grid_over(model, view_.search_distance, 0, many ? cells_off_chip(model) : cells_on_chip(model));
     if (view_.plan.water) set_water(model);
 }
@@ -148,7 +148,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
     water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
-    water.carried = carried_weight<Real>(model);
+    water.carried = background_pressure<Real>(model);
     const auto scale = static_cast<Real>(wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
     const double reach = effect_radius(model);
@@ -168,7 +168,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     std::copy(seams.begin(), seams.end(), water.seam);
     std::copy(borders.begin(), borders.end(), water.border);
     water.ghost_map = keep(ghost_map_, ghost_maps(borders));
-    water.most_copies = most_copies(borders, water.radius);
+    water.max_copies = max_copies(borders, water.radius);
     water.grid = grid_over(model, water.radius, water.radius, cells_off_chip(model));
 }
 
@@ -189,7 +189,7 @@ void DeviceModel<Real>::set_conserving(const Model& model) {
 template <class Real>
 void DeviceModel<Real>::upload_solids(const Model& model) {
     const auto solid = [this](int i) { return number_of_[i] - view_.fluid; };
-    std::vector<std::vector<Share>> spring_shares(view_.solids), cluster_shares(view_.solids);
+    std::vector<std::vector<Incidence>> spring_shares(view_.solids), cluster_shares(view_.solids);
     std::vector<SpringView<Real>> springs;
     for (const Spring& spring : model.springs) {
         const int index = static_cast<int>(springs.size());
@@ -294,7 +294,7 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
 template <class Real>
 int DeviceModel<Real>::cells_on_chip(const Model& model) const {
     constexpr int chip = 223 << 10, elsewhere = 1 << 20;
-    const int positions = 2 * model.particles() * static_cast<int>(sizeof(Quad<Real>));
+    const int positions = 2 * model.particles() * static_cast<int>(sizeof(Vec4<Real>));
     return positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
 }
 

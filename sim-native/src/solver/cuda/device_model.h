@@ -50,7 +50,7 @@ private:
     DeviceBuffer<ClusterView<Real>> cluster_;
     DeviceBuffer<int> member_, spring_shares_begin_, cluster_shares_begin_, body_particle_, free_body_begin_,
         free_body_particle_;
-    DeviceBuffer<Share> spring_share_, cluster_share_;
+    DeviceBuffer<Incidence> spring_share_, cluster_share_;
 };
 
 }  // namespace natator::cuda

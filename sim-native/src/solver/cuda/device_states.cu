@@ -41,7 +41,7 @@ DeviceStates<Real>::DeviceStates(const DeviceModel<Real>& model, int count)
 
 template <class Real>
 void DeviceStates<Real>::upload(const std::vector<State<Real>>& states) {
-    std::vector<Quad<Real>> position, velocity;
+    std::vector<Vec4<Real>> position, velocity;
     std::vector<ClusterFit<Real>> fits;
     std::vector<Real> rest_lengths;
     for (const State<Real>& state : states) {
@@ -124,7 +124,7 @@ template <class Real>
 State<Real> DeviceStates<Real>::Copy::state(int k, State<Real> like) const {
     const DeviceModel<Real>& model = states_.model_;
     const std::size_t number = k, particles = model.view().particles, clusters = model.view().clusters;
-    const Quad<Real>* const position = position_.data() + number * particles;
+    const Vec4<Real>* const position = position_.data() + number * particles;
     like.position = by_particle(model, position, position);
     like.velocity = by_particle(model, velocity_.data() + number * particles, position);
     for (std::size_t c = 0; c < clusters; ++c) {
@@ -136,8 +136,8 @@ State<Real> DeviceStates<Real>::Copy::state(int k, State<Real> like) const {
 }
 
 template <class Real>
-std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Quad<Real>* rows,
-                                       const Quad<Real>* numbers) {
+std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Vec4<Real>* rows,
+                                       const Vec4<Real>* numbers) {
     const std::vector<int>& particle_of = model.particle_of();
     std::vector<Vector3<Real>> vectors(particle_of.size());
     for (std::size_t s = 0; s < vectors.size(); ++s)
@@ -147,7 +147,7 @@ std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Qua
 
 template class DeviceStates<float>;
 template class DeviceStates<double>;
-template std::vector<Vector3<float>> by_particle(const DeviceModel<float>&, const Quad<float>*, const Quad<float>*);
-template std::vector<Vector3<double>> by_particle(const DeviceModel<double>&, const Quad<double>*, const Quad<double>*);
+template std::vector<Vector3<float>> by_particle(const DeviceModel<float>&, const Vec4<float>*, const Vec4<float>*);
+template std::vector<Vector3<double>> by_particle(const DeviceModel<double>&, const Vec4<double>*, const Vec4<double>*);
 
 }  // namespace natator::cuda

@@ -16,8 +16,8 @@ public:
     DeviceStates(const DeviceModel<Real>& model, int count);
 
     int count() const { return count_; }
-    Quad<Real>* position() const { return position_.data(); }
-    Quad<Real>* velocity() const { return velocity_.data(); }
+    Vec4<Real>* position() const { return position_.data(); }
+    Vec4<Real>* velocity() const { return velocity_.data(); }
     ClusterFit<Real>* fit() const { return fit_.data(); }
     const Real* rest_length() const { return rest_length_.data(); }
 
@@ -36,21 +36,21 @@ public:
 
     private:
         const DeviceStates& states_;
-        HostBuffer<Quad<Real>> position_, velocity_;
+        HostBuffer<Vec4<Real>> position_, velocity_;
         HostBuffer<ClusterFit<Real>> fits_;
     };
 
 private:
     const DeviceModel<Real>& model_;
     int count_;
-    DeviceBuffer<Quad<Real>> position_, velocity_;
+    DeviceBuffer<Vec4<Real>> position_, velocity_;
     DeviceBuffer<ClusterFit<Real>> fit_;
     DeviceBuffer<Real> rest_length_;
 };
 
 /// Vectors by particle of the Model, out of rows by slot with device numbers in w of `numbers`.
 template <class Real>
-std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Quad<Real>* rows,
-                                       const Quad<Real>* numbers);
+std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Vec4<Real>* rows,
+                                       const Vec4<Real>* numbers);
 
 }  // namespace natator::cuda

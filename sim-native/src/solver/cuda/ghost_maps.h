@@ -19,14 +19,14 @@ GhostMap<Real> through(const GhostMap<Real>& first, const physics::Border<Real>&
         for (int k = 0; k < 3; ++k) both.row[k].w += border.shift * component[k];
         return both;
     }
-    Quad<Real> along{0, 0, 0, border.surface.offset};
+    Vec4<Real> along{0, 0, 0, border.surface.offset};
     for (int k = 0; k < 3; ++k) {
-        const Quad<Real>& row = first.row[k];
+        const Vec4<Real>& row = first.row[k];
         const Real part = component[k];
         along = {along.x + part * row.x, along.y + part * row.y, along.z + part * row.z, along.w + part * row.w};
     }
     for (int k = 0; k < 3; ++k) {
-        Quad<Real>& row = both.row[k];
+        Vec4<Real>& row = both.row[k];
         const Real twice = 2 * component[k];
         row = {row.x - twice * along.x, row.y - twice * along.y, row.z - twice * along.z, row.w - twice * along.w};
     }
@@ -48,7 +48,7 @@ std::vector<GhostMap<Real>> ghost_maps(const std::vector<physics::Border<Real>>&
 /// So many copies a particle may have, itself among them: each border within `reach` doubles them, but one that faces another does so only if
 /// a particle may be near both.
 template <class Real>
-int most_copies(const std::vector<physics::Border<Real>>& borders, Real reach) {
+int max_copies(const std::vector<physics::Border<Real>>& borders, Real reach) {
     int copies = 1;
     for (std::size_t k = 0; k < borders.size(); ++k) {
         const physics::PlaneSurface<Real>& plane = borders[k].surface;

@@ -32,13 +32,13 @@ private:
 /// enough for the fluid, of which none has so much that all had better share it.
 template <class Real>
 bool splits_solids(const ModelView<Real>& model, TeamKind kind, int blocks) {
-    constexpr int fewest_blocks = 8, most_fluid = 3000;
-    const int most_solids = kind == TeamKind::many_blocks ? threads_of(kind) * 3 / 4 : threads_of(kind) / 2;
-    if (kind == TeamKind::block || model.fluid > most_fluid * blocks) return false;
-    constexpr std::size_t most_bytes = 64 << 10;
-    const std::size_t bytes = model.solids * sizeof(Quad<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
-                              model.members * (sizeof(Share) + sizeof(Quad<Real>));
-    return blocks >= fewest_blocks && model.solids > 0 && model.solids <= most_solids && bytes <= most_bytes;
+    constexpr int fewest_blocks = 8, max_fluid = 3000;
+    const int max_solids = kind == TeamKind::many_blocks ? threads_of(kind) * 3 / 4 : threads_of(kind) / 2;
+    if (kind == TeamKind::block || model.fluid > max_fluid * blocks) return false;
+    constexpr std::size_t max_bytes = 64 << 10;
+    const std::size_t bytes = model.solids * sizeof(Vec4<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
+                              model.members * (sizeof(Incidence) + sizeof(Vec4<Real>));
+    return blocks >= fewest_blocks && model.solids > 0 && model.solids <= max_solids && bytes <= max_bytes;
 }
 
 /// Slots of the fluid that each block has where threads share them; the last block has none.
@@ -59,7 +59,7 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
     const Plan& plan = model.plan;
     const std::size_t all = model.particles + 1, fluid = model.fluid, solids = model.solids;
     const int threads = threads_of(kind);
-    const std::size_t row = threads * sizeof(Index), least_rows = 25;
+    const std::size_t row = threads * sizeof(Index), min_rows = 25;
     Layout at{};
     at.splits_solids = splits_solids(model, kind, blocks);
     const bool shared = kind == TeamKind::many_blocks;
@@ -70,7 +70,7 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
         std::size_t next, unsorted, touched, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts, staging;
         std::size_t solids, solid_bounds, spring_shares, members, clusters;
         std::size_t ranks, chip_cells, chip_slots, chip_touched;
-    } room{on_chip ? std::max(all, least_rows * row / sizeof(Quad<Real>)) : all,
+    } room{on_chip ? std::max(all, min_rows * row / sizeof(Vec4<Real>)) : all,
            all,
            all,
            all,
@@ -87,7 +87,7 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
            if_shared(all),
            if_shared(model.grid.words()),
            if_shared(at.slots_of_block),
-           if_shared(most_touched_on_chip)};
+           if_shared(max_touched_on_chip)};
     Pieces block_chip, scratch;
     Pieces& team = on_chip ? block_chip : scratch;
 #define NATATOR_TAKE(type, name, count, place) at.name = place.template take<type>(count);
@@ -95,7 +95,7 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
 #undef NATATOR_TAKE
     at.chip_bytes = block_chip.used();
     at.scratch_bytes = scratch.used();
-    const std::size_t rows = on_chip ? room.next * sizeof(Quad<Real>) / row : staging_rows + 1;
+    const std::size_t rows = on_chip ? room.next * sizeof(Vec4<Real>) / row : staging_rows + 1;
     at.staged = static_cast<int>(rows - 1) / 8 * 8;
     return at;
 }

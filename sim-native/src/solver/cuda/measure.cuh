@@ -35,7 +35,7 @@ template <class Real, class Team>
 __device__ bool touches_plane(const ModelView<Real>& model, const Team& team) {
     bool touches = false;
     for (int b = team.thread(); b < model.body; b += team.size()) {
-        const Quad<Real> x = team.position()[team.slot_of_solid()[model.body_particle[b]]];
+        const Vec4<Real> x = team.position()[team.slot_of_solid()[model.body_particle[b]]];
         for (int k = 0; k < model.planes; ++k) {
             const physics::PlaneSurface<double>& plane = model.plane[k].exact;
             touches |= physics::touches(distance_to(plane, physics::cast<double>(xyz(x))),

@@ -4,7 +4,7 @@
 
 #include "natator/plan.h"
 #include "physics/border.h"
-#include "physics/carried_weight.h"
+#include "physics/background_pressure.h"
 #include "physics/dfsph.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"
@@ -94,7 +94,7 @@ struct ClusterView {
 };
 
 /// One entry of what acts on a solid particle: a spring with its other end, or a cluster with a member's rest offset.
-struct Share {
+struct Incidence {
     int constraint;
     int other;  ///< spring: solid id of the other end; cluster: index of the member
 };
@@ -104,11 +104,11 @@ inline constexpr int most_planes = 16;
 /// x -> turn x + shift: through one or more borders, one behind the other.
 template <class Real>
 struct GhostMap {
-    Quad<Real> row[3];  ///< of the turn; w: of the shift
+    Vec4<Real> row[3];  ///< of the turn; w: of the shift
 };
 
-inline constexpr int most_borders = 6, most_borders_at_once = 3;
-inline constexpr int most_slot_bits = 26;   ///< the rest of 32 bits is a set of borders
+inline constexpr int max_borders = 6, max_borders_at_once = 3;
+inline constexpr int max_slot_bits = 26;   ///< the rest of 32 bits is a set of borders
 
 /// The water of scheme `conserving`. What is beyond its borders is the ghost of what is before them. A ghost is known by its
 /// particle and the set of borders that it went through, in their order: bit k for border k.
@@ -126,9 +126,9 @@ struct WaterModel {
     physics::CarriedWeight<Real> carried;
     int seams, borders;
     physics::Seam<Real> seam[2];
-    physics::Border<Real> border[most_borders];  ///< see borders_of
+    physics::Border<Real> border[max_borders];  ///< see borders_of
     const GhostMap<Real>* ghost_map;             ///< by set of borders
-    int most_copies;                     ///< of a particle: itself and its ghosts
+    int max_copies;                     ///< of a particle: itself and its ghosts
 };
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
@@ -172,9 +172,9 @@ struct ModelView {
     const Vec3<Real>* offset;        ///< rest position minus the mean of the rest positions, by member
     const Real* member_mass;         ///< by member, see cpu::SplitCluster; null in scheme flex
     const int* spring_shares_begin;  ///< by solid, one more at the end
-    const Share* spring_share;
+    const Incidence* spring_share;
     const int* cluster_shares_begin;  ///< by solid, one more at the end
-    const Share* cluster_share;
+    const Incidence* cluster_share;
 
     int free_bodies;
     const int* free_body_begin;     ///< one more at the end

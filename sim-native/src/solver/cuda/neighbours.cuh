@@ -25,7 +25,7 @@ __device__ void clear_cells(const ModelView<Real>& model, const Team& team) {
 
 /// The cell of slot s in the table: the fluid's come first.
 template <class Real>
-__device__ int cell_of(const ModelView<Real>& model, const Quad<Real>& x, int s) {
+__device__ int cell_of(const ModelView<Real>& model, const Vec4<Real>& x, int s) {
     return model.grid.cell(xyz(x)) + (s < model.fluid ? 0 : model.grid.cells);
 }
 /// The slots of some cells of the table, once it has the cells' ends.
@@ -41,11 +41,11 @@ __device__ void predict(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit_before()[k] = team.fit()[k];
     for (int s = team.thread(); s < model.particles; s += team.size()) {
-        const Quad<Real> x = team.position()[s];
+        const Vec4<Real> x = team.position()[s];
         const Real inverse_mass = x.w;
         const Vec3<Real> v = predicted_velocity(model, xyz(team.velocity[s]), inverse_mass, s < model.fluid, team.h);
         const Vec3<Real> there = xyz(x) + team.h * v;
-        const Quad<Real> unsorted = quad(there, as_number<Real>(team.number()[s]));
+        const Vec4<Real> unsorted = quad(there, as_number<Real>(team.number()[s]));
         team.unsorted_position()[s] = unsorted;
         team.unsorted_velocity()[s] = quad(v, inverse_mass);
         team.unsorted_start()[s] = x;
@@ -58,11 +58,11 @@ __device__ void predict(const ModelView<Real>& model, Team& team) {
 
 /// Box around the solids, whose predicted positions are given by slot, by one warp.
 template <class Real, class Team>
-__device__ void bound_solids(const ModelView<Real>& model, const Team& team, const Quad<Real>* predicted) {
+__device__ void bound_solids(const ModelView<Real>& model, const Team& team, const Vec4<Real>* predicted) {
     const int lane = static_cast<int>(threadIdx.x) % 32;
     Real low[3] = {Real(1e30), Real(1e30), Real(1e30)}, high[3] = {Real(-1e30), Real(-1e30), Real(-1e30)};
     for (int s = model.fluid + lane; s < model.particles; s += 32) {
-        const Quad<Real> x = predicted[s];
+        const Vec4<Real> x = predicted[s];
         const Real at[3] = {x.x, x.y, x.z};
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = min(low[axis], at[axis]);
@@ -127,7 +127,7 @@ __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
             exclusive_scan(team, table, 2 * model.grid.cells);
     }
     for (int s = team.thread(); s < model.particles; s += team.size()) {
-        const Quad<Real> there = team.unsorted_position()[s];
+        const Vec4<Real> there = team.unsorted_position()[s];
         int place = s;
         if (needs_cells(model)) {
             const int cell = cell_of(model, there, s);
@@ -168,12 +168,12 @@ __device__ bool near_solids(const Team& team, const Vec3<Real>& x) {
 
 /// May what is here touch plane k in this substep?
 template <class Real>
-__device__ bool is_near_plane(const ModelView<Real>& model, int k, const Quad<Real>& here) {
+__device__ bool is_near_plane(const ModelView<Real>& model, int k, const Vec4<Real>& here) {
     return here.w > 0 && distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance;
 }
 /// Planes that slot s may touch in this substep.
 template <class Real, class Team>
-__device__ void note_near_planes(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
+__device__ void note_near_planes(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here) {
     unsigned planes = 0;
     for (int k = 0; k < model.planes; ++k) planes |= static_cast<unsigned>(is_near_plane(model, k, here)) << k;
     team.plane_contact()[s] = static_cast<typename Team::Index>(planes);
@@ -181,7 +181,7 @@ __device__ void note_near_planes(const ModelView<Real>& model, const Team& team,
 
 /// Planes of slot s, and whether the search looks for its contacts, where a team has a warp for those of each slot.
 template <class Real, class Team>
-__device__ void note_surroundings(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
+__device__ void note_surroundings(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here) {
     note_near_planes(model, team, s, here);
     if (!model.plan.contacts || s >= model.fluid) return;
     if (near_solids(team, xyz(here)))
@@ -201,10 +201,10 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
     for (int k = team.thread(); k < model.particles; k += team.size()) {
         const std::uint32_t key = team.keys()[k];
         const int before = key & 0xffff, number = static_cast<int>(key >> 16), s = slot_of_key(model, team, k);
-        const Quad<Real> v = team.unsorted_velocity()[before];
+        const Vec4<Real> v = team.unsorted_velocity()[before];
         team.start()[s] = team.unsorted_start()[before];
         team.predicted_velocity()[s] = v;
-        const Quad<Real> here = team.position()[s] = quad(xyz(team.unsorted_position()[before]), v.w);
+        const Vec4<Real> here = team.position()[s] = quad(xyz(team.unsorted_position()[before]), v.w);
         if constexpr (Team::shares_slots) note_surroundings(model, team, s, here);
         team.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) team.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
@@ -232,7 +232,7 @@ __device__ SlotRun slots_in(const ModelView<Real>& model, const StateTeam<R, kin
 
 /// Is a predicted position nearer to x than the search distance, but not there?
 template <class Real>
-__device__ bool is_near(const ModelView<Real>& model, const Vec3<Real>& x, const Quad<Real>& predicted) {
+__device__ bool is_near(const ModelView<Real>& model, const Vec3<Real>& x, const Vec4<Real>& predicted) {
     const Vec3<Real> difference = x - xyz(predicted);
     const Real r2 = dot(difference, difference);
     return r2 < model.search_distance * model.search_distance && r2 > 0;
@@ -430,7 +430,7 @@ __device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Te
 /// Lists contacts and planes of a fluid slot.
 template <class Real, class Team>
 __device__ void find_contacts_of_fluid(const ModelView<Real>& model, const Team& team, int s) {
-    const Quad<Real> here = team.base()[s];
+    const Vec4<Real> here = team.base()[s];
     if (model.plan.contacts) {
         const bool searched = near_solids(team, xyz(here));
         note_contacts(team, s, searched ? search_contacts(model, team, s, contact_lister(model, team, s)) : 0);

@@ -2,7 +2,7 @@
 #include "natator/error.h"
 #include "natator/gpu_solver.h"
 #include "no_cuda.h"
-#include "solver/cuda/large/fetch_roof.h"
+#include "solver/cuda/grid/fetch_roof.h"
 
 namespace natator {
 

@@ -30,17 +30,17 @@ struct ChipSpring {
 /// Where an observer's view of a State is written; null where nobody looks. By slot, with the particles' numbers.
 template <class Real>
 struct Trace {
-    Quad<Real>* predicted = nullptr;  ///< [substep * particles + slot]
-    Quad<Real>* iterated = nullptr;   ///< [(substep * iterations + iteration) * particles + slot]
-    Quad<Real>* velocity = nullptr;   ///< [substep * particles + slot], at the slots of the last iteration
+    Vec4<Real>* predicted = nullptr;  ///< [substep * particles + slot]
+    Vec4<Real>* iterated = nullptr;   ///< [(substep * iterations + iteration) * particles + slot]
+    Vec4<Real>* velocity = nullptr;   ///< [substep * particles + slot], at the slots of the last iteration
 };
 
 inline constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slot
 inline constexpr int slots_of_warp = 32 / pair_lanes;
 inline constexpr int slot_lanes = 4;  ///< threads that share a slot of the fluid, see shared_slots.cuh
 inline constexpr int shared_slots_of_warp = 32 / slot_lanes;
-inline constexpr int most_touched_on_chip = 32;  ///< slots
-inline constexpr int most_listed_on_chip = 32;  ///< neighbours of a slot, or contacts
+inline constexpr int max_touched_on_chip = 32;  ///< slots
+inline constexpr int max_listed_on_chip = 32;  ///< neighbours of a slot, or contacts
 
 /// Slots one behind the other.
 struct SlotRun {
@@ -86,7 +86,7 @@ template <class Real>
 struct SharedByTeam : Shared<Real> {
     int near;                             ///< slots of the fluid that may have contacts, where threads share slots
     int flags[2];                         ///< of GridTeam::any
-    int block_sums[most_blocks_of_team];  ///< of exclusive_scan
+    int block_sums[max_blocks_of_team];  ///< of exclusive_scan
     unsigned ticket;                      ///< that the team works on
     Stopwatch watch;
 };
@@ -152,13 +152,13 @@ public:
     __device__ void book(Stage stage) const { shared().watch.book(stage, this->thread()); }
 
     // What a substep ends with; w of the position is its inverse mass.
-    __device__ Quad<Real>* new_velocity() const { return next_velocity(); }
-    __device__ Quad<Real>* end_position() const { return position(); }
-    __device__ Quad<Real>* base() const { return position(); }  ///< predicted, while pairs are searched
+    __device__ Vec4<Real>* new_velocity() const { return next_velocity(); }
+    __device__ Vec4<Real>* end_position() const { return position(); }
+    __device__ Vec4<Real>* base() const { return position(); }  ///< predicted, while pairs are searched
 
     __device__ int staged() const { return at_.staged; }
 
-    Quad<Real>* velocity = nullptr;  ///< of the State
+    Vec4<Real>* velocity = nullptr;  ///< of the State
     Real h = 0;                      ///< substep, s
     int phase = 0;                   ///< of for_each_unit
 

@@ -2,7 +2,7 @@
 
 namespace natator::cuda {
 
-inline constexpr int most_blocks_of_team = 144;
+inline constexpr int max_blocks_of_team = 144;
 
 /// The threads that advance a State: those of a block that has it on its chip, of several blocks that have it in device memory, or
 /// of so many that several threads share each slot of the fluid.

@@ -186,7 +186,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     exchange(rates, pushes);
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
-    rooms_.resize(static_cast<std::size_t>(team_.most_parts()));
+    rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
     const std::size_t room = std::size_t{3} * physics::lattice_populations * ny_ * stride_ + 2 * margin;
     team_.for_parts(nz_, 4, [&](int part, int begin, int end) {
         Array& own = rooms_[static_cast<std::size_t>(part)];

@@ -9,7 +9,7 @@
 namespace natator::lattice {
 namespace {
 
-constexpr double least_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
+constexpr double min_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
 constexpr double spanned = 0.05;  ///< of the greatest eigenvalue, below which neighbours don't span an axis
 
 /// A gradient where neighbours span less than three axes, completed to a motion that is rigid across.
@@ -84,7 +84,7 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
         for (int a = 0; a < 3; ++a)
             if (box.faces[a][0] == Face::periodic && box.cells[a] > 1) middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
         Cube& cube = cubes[p];
-        const bool crushed = !(shape.determinant() > least_volume * std::pow(spacing_ / 2 / box.cell, 3));
+        const bool crushed = !(shape.determinant() > min_volume * std::pow(spacing_ / 2 / box.cell, 3));
         if (!crushed) store(shape.inverse(), cube.to_rest);
         store(rate * per_step, cube.rate);
         for (int a = 0; a < 3; ++a) {

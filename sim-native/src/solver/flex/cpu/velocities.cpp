@@ -20,7 +20,7 @@ void FlexStages<Real>::update_velocities() {
                                            .damping = plan_.damping,
                                            .damping_step = h_ * static_cast<Real>(p.damping),
                                            .clamp_acceleration = plan_.clamp_acceleration,
-                                           .most_change = h_ * static_cast<Real>(p.maxAcceleration),
+                                           .max_change = h_ * static_cast<Real>(p.maxAcceleration),
                                            .clamp_speed = plan_.clamp_speed,
                                            .max_speed = constants_.max_speed};
     this->on_all_threads(all, [&](const MotionView<Real>& slots) {

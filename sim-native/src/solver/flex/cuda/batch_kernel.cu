@@ -6,7 +6,7 @@
 
 #include "solver/cuda/device_buffer.h"
 #include "solver/cuda/layout.cuh"
-#include "solver/cuda/way.h"
+#include "solver/cuda/kernel_choice.h"
 
 namespace natator::cuda {
 namespace {
@@ -23,12 +23,12 @@ int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
     if (!function) return 0;
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, function), "kernel");
-    const int most_bytes =
+    const int max_bytes =
         device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin) - static_cast<int>(attributes.sharedSizeBytes);
-    if (most_bytes < 0 || teams.layout.chip_bytes > static_cast<unsigned>(most_bytes)) return 0;
+    if (max_bytes < 0 || teams.layout.chip_bytes > static_cast<unsigned>(max_bytes)) return 0;
     // The limit belongs to the kernel, for all Models and threads: one of this Model alone could come between another's
     // limit and its launch.
-    check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, most_bytes), "shared memory");
+    check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, max_bytes), "shared memory");
     int count = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind), teams.layout.chip_bytes),
           "occupancy");
@@ -70,7 +70,7 @@ Teams best_teams(const ModelView<Real>& model, int states) {
     // However many teams there are at a time, each has as many blocks as there are for it.
     const int blocks = device_attribute(cudaDevAttrCooperativeLaunch) ? device_attribute(cudaDevAttrMultiProcessorCount) : 1;
     for (int count = 1, last = 0; count <= blocks / 2; ++count) {
-        const int of_team = std::min(blocks / count, most_blocks_of_team);
+        const int of_team = std::min(blocks / count, max_blocks_of_team);
         if (of_team == last) continue;
         consider(TeamKind::blocks, of_team);
         consider(TeamKind::many_blocks, of_team);

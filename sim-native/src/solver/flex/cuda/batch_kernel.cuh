@@ -36,8 +36,8 @@ struct BatchView {
     bool settling;  ///< velocities to 0 after each update, no measurement
 
     // By State.
-    Quad<Real>* position;  ///< [state * particles + slot], w = the particle's number
-    Quad<Real>* velocity;
+    Vec4<Real>* position;  ///< [state * particles + slot], w = the particle's number
+    Vec4<Real>* velocity;
     ClusterFit<Real>* fit;    ///< [state * clusters + cluster]
     const Real* rest_length;  ///< of the springs: [state * springs + spring]; null: the Model's
     Progress* progress;

@@ -2,7 +2,7 @@
 
 // What acts behind the velocities of a large State.
 #include "flex_kernels.cuh"
-#include "solver/cuda/large/substep.cuh"
+#include "solver/cuda/grid/substep.cuh"
 
 namespace natator::cuda {
 

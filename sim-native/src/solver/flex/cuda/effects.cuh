@@ -13,14 +13,14 @@ __device__ Vec3<Real> velocity_of(const Team& team, int s) {
 }
 template <class Real, class Team>
 __device__ void set_velocity(const Team& team, int s, const Vec3<Real>& v) {
-    Quad<Real>& to = team.new_velocity()[s];
+    Vec4<Real>& to = team.new_velocity()[s];
     to = quad(v, to.w);
 }
 
 /// Calls visit(slot, vector from it to s, r, q = r/R) for the fluid neighbours of fluid slot s with 0 < r < R.
 template <class Real, class Team, class Visit>
 __device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team& team, int s,
-                                        const Quad<Real>* places, const Visit& visit) {
+                                        const Vec4<Real>* places, const Visit& visit) {
     const Vec3<Real> x = xyz(places[s]);
     for_each_neighbour(model, team, s, [&](int other) {
         const Vec3<Real> difference = x - xyz(places[other]);
@@ -31,7 +31,7 @@ __device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team
 
 /// Would a contact overlap without the solver? At the predicted positions.
 template <class Real>
-__device__ bool overlaps(const ModelView<Real>& model, const Quad<Real>* predicted, int s, int other) {
+__device__ bool overlaps(const ModelView<Real>& model, const Vec4<Real>* predicted, int s, int other) {
     return norm(xyz(predicted[s]) - xyz(predicted[other])) < model.solid_rest_distance;
 }
 
@@ -123,7 +123,7 @@ __device__ void push_fluid_by_forces(const ModelView<Real>& model, const Team& t
 /// Adhesion, restitution and sleep of slot s, in this order.
 template <class Real, class Team>
 __device__ void apply_adhesion(const ModelView<Real>& model, const Team& team, int s) {
-    const Quad<Real> end = team.end_position()[s];
+    const Vec4<Real> end = team.end_position()[s];
     if (!(end.w > 0)) return;
     Vec3<Real> x = xyz(end), v = velocity_of<Real>(team, s);
     const Real most = model.adhesion * team.h * team.h;
@@ -140,7 +140,7 @@ __device__ void apply_adhesion(const ModelView<Real>& model, const Team& team, i
 
 template <class Real, class Team>
 __device__ void apply_restitution(const ModelView<Real>& model, const Team& team, int s) {
-    const Quad<Real> end = team.end_position()[s];
+    const Vec4<Real> end = team.end_position()[s];
     if (!(end.w > 0)) return;
     Vec3<Real> v = velocity_of<Real>(team, s);
     for_each_near_plane(model, team, s, xyz(end), [&](const physics::PlaneSurface<Real>& plane, Real distance) {

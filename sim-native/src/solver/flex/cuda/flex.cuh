@@ -11,7 +11,7 @@ namespace natator::cuda {
 
 /// 1 - r/R of a pair.
 template <class Real>
-__device__ Real left_of(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
+__device__ Real kernel_argument(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
     return 1 - physics::length_of(x - there) * model.inverse_radius;
 }
 
@@ -23,7 +23,7 @@ struct DensityPart {
 };
 template <class Real>
 __device__ DensityPart<Real> density_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
-    return {left_of(model, x, there)};
+    return {kernel_argument(model, x, there)};
 }
 
 /// rho_i - 1 of the fluid in a slot, whose fluid neighbours have this sum.
@@ -111,7 +111,7 @@ struct Correction {
     Real constraints = 0;
 
     /// A push, times the factor beside it.
-    __device__ void add(const Quad<Real>& push) {
+    __device__ void add(const Vec4<Real>& push) {
         sum += push.w * xyz(push);
         constraints += 1;
     }
@@ -120,8 +120,8 @@ struct Correction {
 /// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is called if they
 /// touch; start_of(slot) is where a slot was.
 template <class Real, class Team, class StartOf, class Push>
-__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here, int other,
-                                const Quad<Real>& there, const StartOf& start_of, const Push& push) {
+__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here, int other,
+                                const Vec4<Real>& there, const StartOf& start_of, const Push& push) {
     const Vec3<Real> difference = xyz(here) - xyz(there);
     const Real r = norm(difference);
     const Real depth = model.solid_rest_distance - r;
@@ -138,14 +138,14 @@ __device__ void push_touched(const ModelView<Real>& model, const Team& team, int
     work_on_touched(team, unit, [&](int s, int lane) {
         Correction<Real> push;
         if (s >= 0) {
-            const Quad<Real> here = team.position()[s];
+            const Vec4<Real> here = team.position()[s];
             for_each_contact_of(model, team, s, lane, pair_lanes, [&](int other) {
                 push_by_contact(model, team, s, here, other, team.position()[other],
                                 [&](int slot) { return xyz(team.start()[slot]); },
-                                [&](const Quad<Real>& by) { push.add(by); });
+                                [&](const Vec4<Real>& by) { push.add(by); });
             });
         }
-        const Quad<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
+        const Vec4<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
                              sum_of_lanes(push.constraints)};
         if (s >= 0 && lane == 0) team.contact_push()[s] = all;
     });
@@ -186,7 +186,7 @@ struct PushPart {
     __device__ void add_to(physics::FlexPush<Real>& sum) const { sum.add(difference, distance, left, compressions); }
 };
 template <class Real>
-__device__ PushPart<Real> push_part(const ModelView<Real>& model, const Quad<Real>& here, const Quad<Real>& there) {
+__device__ PushPart<Real> push_part(const ModelView<Real>& model, const Vec4<Real>& here, const Vec4<Real>& there) {
     const Vec3<Real> difference = xyz(here) - xyz(there);
     const physics::Distance<Real> distance = physics::distance_of(difference);
     return {difference, distance, 1 - distance.r * model.inverse_radius, here.w + there.w};
@@ -212,7 +212,7 @@ __device__ void add_springs(Correction<Real>& correction, const Vec3<Real>& x, R
                                              spring.rule),
                         inverse_mass);
         },
-        [&](const Quad<Real>& push) { correction.add(push); });
+        [&](const Vec4<Real>& push) { correction.add(push); });
 }
 /// A cluster as one of its members sees it.
 template <class Real>
@@ -230,7 +230,7 @@ __device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, 
             const ClusterMember<Real> member = member_of(e);
             return quad(physics::way_to_goal(member.fit.centre, member.fit.matrix, member.offset, x), member.stiffness);
         },
-        [&](const Quad<Real>& push) { correction.add(push); });
+        [&](const Vec4<Real>& push) { correction.add(push); });
 }
 
 /// Of springs and clusters, seen from one solid, by the `lanes` threads that share it; of none if it is -1.
@@ -242,7 +242,7 @@ __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, c
     const auto end = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid + 1]; };
     add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_shares_begin), end(model.spring_shares_begin),
                        [&](int e) {
-                           const Share share = model.spring_share[e];
+                           const Incidence share = model.spring_share[e];
                            return SpringEnd<Real>{xyz(team.next()[team.slot_of_solid()[share.other]]),
                                                   model.inverse_mass[model.fluid + share.other],
                                                   team.rest_length()[share.constraint],
@@ -250,7 +250,7 @@ __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, c
                        });
     add_clusters<lanes>(correction, x, begin(model.cluster_shares_begin), end(model.cluster_shares_begin),
                         [&](int e) {
-                            const Share share = model.cluster_share[e];
+                            const Incidence share = model.cluster_share[e];
                             return ClusterMember<Real>{team.fit()[share.constraint], model.offset[share.other],
                                                        model.cluster[share.constraint].stiffness};
                         });
@@ -280,10 +280,10 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& tea
 
 /// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last. Returns where it is then.
 template <class Real, class Team>
-__device__ Quad<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
+__device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
                             Correction<Real> correction, const Touch& touch) {
     if (touch.contacts) {
-        const Quad<Real> push = team.contact_push()[s];
+        const Vec4<Real> push = team.contact_push()[s];
         correction.sum = correction.sum + xyz(push);
         correction.constraints += push.w;
     }
@@ -298,7 +298,7 @@ __device__ void correct_solids(const ModelView<Real>& model, const Team& team, i
     const int s = model.fluid + (unit * 32 + threadIdx.x % 32) / lanes;
     const bool there = s < model.particles;
     if (lanes == 1 && !there) return;
-    const Quad<Real> here = team.next()[there ? s : model.particles];
+    const Vec4<Real> here = team.next()[there ? s : model.particles];
     const Real inverse_mass = team.position()[there ? s : model.particles].w;
     const int solid = there ? team.number()[s] - model.fluid : -1;
     const auto correction = springs_and_clusters<lanes>(model, team, solid, xyz(here), inverse_mass);
@@ -316,7 +316,7 @@ __host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
 /// Corrects fluid slot s; push_of(here) is what the density constraint pushes it by.
 template <class Real, class Team, class PushOf>
 __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s, const PushOf& push_of) {
-    const Quad<Real> here = team.next()[s];
+    const Vec4<Real> here = team.next()[s];
     const Real inverse_mass = team.position()[s].w;
     const Touch touch = touch_of(model, team, s);
     const physics::FlexPush<Real> push = push_of(here);
@@ -326,7 +326,7 @@ __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, in
 }
 template <class Real, class Team>
 __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
-    correct_fluid(model, team, s, [&](const Quad<Real>& here) {
+    correct_fluid(model, team, s, [&](const Vec4<Real>& here) {
         physics::FlexPush<Real> push;
         for_each_neighbour(model, team, s, [&](int other) { push_part(model, here, team.next()[other]).add_to(push); });
         return push;
@@ -364,7 +364,7 @@ struct SmoothingPart {
 template <class Real>
 __device__ SmoothingPart<Real> smoothing_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& u,
                                               const Vec3<Real>& there, const Vec3<Real>& movement) {
-    return {left_of(model, x, there), movement - u};
+    return {kernel_argument(model, x, there), movement - u};
 }
 
 template <class Real>
@@ -404,7 +404,7 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& tea
 /// Writes the velocity of slot s; true if it and the position are finite.
 template <class Real, class Team>
 __device__ bool set_new_velocity(const Team& team, int s, const Vec3<Real>& v) {
-    const Quad<Real> here = team.position()[s];
+    const Vec4<Real> here = team.position()[s];
     team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
     return isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
 }

@@ -2,7 +2,7 @@
 
 // Scheme flex for a large State: its velocities. Its iteration is that of flex.cuh.
 #include "flex.cuh"
-#include "solver/cuda/large/search.cuh"
+#include "solver/cuda/grid/search.cuh"
 
 namespace natator::cuda {
 
@@ -22,7 +22,7 @@ __device__ void note_if_bad(const Slots<Real>& slots, int s, const Vec3<Real>& x
 /// their place.
 template <class Real>
 __device__ void commit_large(const Slots<Real>& slots, int s, const Vec3<Real>& v) {
-    const Quad<Real> x = slots.position()[s];
+    const Vec4<Real> x = slots.position()[s];
     note_if_bad(slots, s, xyz(x), v);
     slots.at.state_position[s] = x.w > 0 ? x : slots.start()[s];
     slots.at.state_velocity[s] = quad(x.w > 0 ? v : xyz(slots.predicted_velocity()[s]), as_number<Real>(slots.number()[s]));

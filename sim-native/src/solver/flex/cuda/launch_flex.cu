@@ -13,12 +13,12 @@ struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
 
     void compute_density_and_fits() {
         constexpr int blocks = sizeof(Real) == sizeof(float) ? 3 : 2;  // registers for fits would leave too few warps at a time
-        launch.template each_thread<compute_density<Real, const Slots<Real>>, large_threads, blocks>(
+        launch.template each_thread<compute_density<Real, const Slots<Real>>, grid_threads, blocks>(
             model.particles + 32 * model.clusters);
     }
     void apply_corrections() {
         const int units = solid_units(model, Slots<Real>::shares_solids()) + fluid_units(model);
-        launch.template each_thread<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(32 * units);
+        launch.template each_thread<cuda::apply_corrections<Real, const Slots<Real>>, grid_threads, 6>(32 * units);
     }
     void update_velocities() {
         if (model.plan.viscosity) launch.template each_slot<movements_large<Real>>(model.fluid);

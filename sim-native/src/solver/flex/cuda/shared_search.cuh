@@ -39,15 +39,15 @@ __device__ void list_fluid_neighbours_of_unit(const ModelView<Real>& model, cons
     const int lane = static_cast<int>(threadIdx.x) % pair_lanes, first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
     const Vec3<Real> x = xyz(team.base()[there]);
     const int i = model.plan.uniform_fluid ? 0 : team.number()[there];
-    std::uint16_t* const list = team.chip_neighbour() + most_listed_on_chip * own;
+    std::uint16_t* const list = team.chip_neighbour() + max_listed_on_chip * own;
     int n = 0;
-    const auto look_at = [&](int other, const Quad<Real>& at) {
+    const auto look_at = [&](int other, const Vec4<Real>& at) {
         const bool found = is_near(model, x, at) &&
                            (model.plan.uniform_fluid || collides(model, i, static_cast<int>(team.number()[other])));
         const unsigned all_found = __ballot_sync(all_lanes, found) >> first_lane & 0xff;
         const int place = n + __popc(all_found & ((1u << lane) - 1));
-        if (found && place < most_listed_on_chip) list[place] = static_cast<std::uint16_t>(other);
-        if (found && place >= most_listed_on_chip && place < model.most_neighbours)
+        if (found && place < max_listed_on_chip) list[place] = static_cast<std::uint16_t>(other);
+        if (found && place >= max_listed_on_chip && place < model.most_neighbours)
             list_entry(model, team, s, place) = static_cast<std::uint16_t>(other);
         n += __popc(all_found);
     };
@@ -56,7 +56,7 @@ __device__ void list_fluid_neighbours_of_unit(const ModelView<Real>& model, cons
     const SlotRun mine = run_of(lane), last = run_of(pair_lanes);
     for (int z = 0; z < GridView<Real>::runs; z += rows) {
         SlotRun run[rows]{};
-        Quad<Real> at[rows][at_once];
+        Vec4<Real> at[rows][at_once];
         const auto slot = [&](int k, int u) {
             const int other = run[k].begin + u * pair_lanes + lane;
             return other < run[k].end ? other : model.particles;
@@ -78,11 +78,11 @@ __device__ void list_fluid_neighbours_of_unit(const ModelView<Real>& model, cons
     if (s < 0) return;
     const auto beyond = static_cast<std::uint16_t>(model.particles);
     n = min(n, model.most_neighbours);
-    for (int k = n + lane; k < most_listed_on_chip; k += pair_lanes) list[k] = beyond;
-    if (n > most_listed_on_chip && lane < (8 - n % 8) % 8) list_entry(model, team, s, n + lane) = beyond;
+    for (int k = n + lane; k < max_listed_on_chip; k += pair_lanes) list[k] = beyond;
+    if (n > max_listed_on_chip && lane < (8 - n % 8) % 8) list_entry(model, team, s, n + lane) = beyond;
     if (lane == 0) team.neighbour_count()[s] = team.chip_neighbour_count()[own] = static_cast<std::uint16_t>(n);
     __syncwarp(0xffu << first_lane);
-    if (8 * lane < min(n, most_listed_on_chip))
+    if (8 * lane < min(n, max_listed_on_chip))
         team.neighbour()[static_cast<std::size_t>(lane) * model.fluid + s] = reinterpret_cast<const uint4*>(list)[lane];
 }
 
@@ -112,13 +112,13 @@ __device__ const std::uint16_t* contacts_of(const ModelView<Real>& model, const 
 template <class Real, class Team>
 __device__ void load_contacts(const ModelView<Real>& model, const Team& team, int touched) {
     const int lane = static_cast<int>(threadIdx.x) % 32;
-    for (int own = static_cast<int>(threadIdx.x) / 32; own < most_touched_on_chip; own += Team::warps) {
+    for (int own = static_cast<int>(threadIdx.x) / 32; own < max_touched_on_chip; own += Team::warps) {
         const int unit = own * (team.blocks() - 1) + team.block();
         if (unit >= touched) break;
         const int s = team.touched()[unit], count = team.contact_count()[s];
         std::size_t stride;
         const std::uint16_t* const list = contacts_of(model, team, s, stride);
-        if (lane < min(count, most_listed_on_chip)) team.chip_contact()[most_listed_on_chip * own + lane] = list[lane * stride];
+        if (lane < min(count, max_listed_on_chip)) team.chip_contact()[max_listed_on_chip * own + lane] = list[lane * stride];
         if (lane == 0) {
             team.chip_touched()[own] = static_cast<std::uint16_t>(s);
             team.chip_contact_count()[own] = static_cast<std::uint16_t>(count);

@@ -45,35 +45,35 @@ template <class Real, class Team>
 __device__ void push_touched_by_warp(const ModelView<Real>& model, const Team& team, int unit) {
     constexpr int rounds = 32 / pair_lanes;
     const int lane = static_cast<int>(threadIdx.x) % 32, own = unit / (team.blocks() - 1);
-    const bool on_chip = own < most_touched_on_chip;
+    const bool on_chip = own < max_touched_on_chip;
     const int s = on_chip ? team.chip_touched()[own] : team.touched()[unit];
     const int count = on_chip ? team.chip_contact_count()[own] : team.contact_count()[s];
-    const Quad<Real> here = team.position()[s];
+    const Vec4<Real> here = team.position()[s];
     const Vec3<Real> start = xyz(team.start()[s]);
     std::size_t stride;
     const std::uint16_t* const list = contacts_of(model, team, s, stride);
     Correction<Real> push;
     for (int first = 0; first < count; first += 32) {
-        Quad<Real> found{};
+        Vec4<Real> found{};
         bool touches = false;
         if (first + lane < count) {
-            const int other = on_chip && first == 0 ? team.chip_contact()[most_listed_on_chip * own + lane]
+            const int other = on_chip && first == 0 ? team.chip_contact()[max_listed_on_chip * own + lane]
                                                     : list[(first + lane) * stride];
-            const Quad<Real> there = team.position()[other];
+            const Vec4<Real> there = team.position()[other];
             const Vec3<Real> start_there = xyz(team.start()[other]);
             push_by_contact(model, team, s, here, other, there, [&](int slot) { return slot == s ? start : start_there; },
-                            [&](const Quad<Real>& by) {
+                            [&](const Vec4<Real>& by) {
                                 found = by;
                                 touches = true;
                             });
         }
         for (int round = 0; round < rounds; ++round) {
             const auto of_round = [&](auto value) { return __shfl_sync(0xffffffff, value, round * pair_lanes + lane % pair_lanes); };
-            const Quad<Real> by{of_round(found.x), of_round(found.y), of_round(found.z), of_round(found.w)};
+            const Vec4<Real> by{of_round(found.x), of_round(found.y), of_round(found.z), of_round(found.w)};
             if (of_round(static_cast<int>(touches))) push.add(by);
         }
     }
-    const Quad<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
+    const Vec4<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
                          sum_of_lanes(push.constraints)};
     if (lane == 0) team.contact_push()[s] = all;
 }
@@ -103,10 +103,10 @@ template <class Real, class Team>
 __device__ void correct_fluid_by_lanes(const ModelView<Real>& model, Team& team) {
     for_each_unit(team, team.blocks() - 1, 0, shared_fluid_units<slot_lanes>(model), [&](int unit) {
         const int s = shared_fluid_slot<slot_lanes>(model, unit);
-        const Quad<Real> here = team.next()[s < 0 ? model.particles : s];
+        const Vec4<Real> here = team.next()[s < 0 ? model.particles : s];
         const auto push = sum_over_neighbours<physics::FlexPush<Real>>(
             model, team, s, [&](int other) { return push_part(model, here, team.next()[other]); });
-        if (s >= 0 && threadIdx.x % slot_lanes == 0) correct_fluid(model, team, s, [&](const Quad<Real>&) { return push; });
+        if (s >= 0 && threadIdx.x % slot_lanes == 0) correct_fluid(model, team, s, [&](const Vec4<Real>&) { return push; });
     });
 }
 

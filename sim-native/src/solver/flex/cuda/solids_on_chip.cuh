@@ -23,7 +23,7 @@ __device__ void load_constraints_of_solids(const ModelView<Real>& model, const T
         team.chip_members_begin()[i] = model.cluster_shares_begin[i];
     });
     for_each_in_block(team, 2 * model.springs, [&](int e) {
-        const Share share = model.spring_share[e];
+        const Incidence share = model.spring_share[e];
         team.chip_spring()[e] = {share.other, team.rest_length()[share.constraint], model.spring[share.constraint].rule};
     });
     for_each_in_block(team, model.members, [&](int e) {
@@ -48,7 +48,7 @@ __device__ void fit_clusters_on_chip(const ModelView<Real>& model, const Team& t
     if (first < 0) return;
     for (int k = first; k < model.clusters; k += Team::warps - of_solids) {
         const int begin = team.chip_cluster()[k].begin, end = team.chip_cluster()[k].end;
-        const Quad<Real>* const member = team.chip_member() + begin;
+        const Vec4<Real>* const member = team.chip_member() + begin;
         ClusterFit<Real>& fit = team.chip_fit()[k];
         fit_members(
             end - begin, fit, [&](int m) { return xyz(team.chip_solid()[number_in(member[m].w)]); },
@@ -63,7 +63,7 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
     const int i = static_cast<int>(threadIdx.x);
     const bool there = i < model.solids;
     Correction<Real> correction;
-    Quad<Real> here{};
+    Vec4<Real> here{};
     int s = 0;
     Touch touch{};
     if (there) {
@@ -73,7 +73,7 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
         add_springs<1>(correction, xyz(here), here.w, team.chip_springs_begin()[i], team.chip_springs_begin()[i + 1],
                        [&](int e) {
                            const ChipSpring<Real>& spring = team.chip_spring()[e];
-                           const Quad<Real> other = team.chip_solid()[spring.other];
+                           const Vec4<Real> other = team.chip_solid()[spring.other];
                            return SpringEnd<Real>{xyz(other), other.w, spring.rest_length, spring.rule};
                        });
     }
@@ -81,7 +81,7 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
     if (!there) return;
     add_clusters<1>(correction, xyz(here), team.chip_members_begin()[i], team.chip_members_begin()[i + 1],
                     [&](int e) {
-                        const Share share = team.chip_member_share()[e];
+                        const Incidence share = team.chip_member_share()[e];
                         return ClusterMember<Real>{team.chip_fit()[share.constraint], xyz(team.chip_member()[share.other]),
                                                    team.chip_cluster()[share.constraint].stiffness};
                     });

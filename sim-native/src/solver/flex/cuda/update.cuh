@@ -47,7 +47,7 @@ __device__ void actuate(const BatchView<Real>& batch, int state, int number, dou
 }
 
 template <class Real, class Team>
-__device__ void record(const Team& team, int particles, Quad<Real>* to, int row) {
+__device__ void record(const Team& team, int particles, Vec4<Real>* to, int row) {
     if (!to) return;
     for (int s = team.thread(); s < particles; s += team.size())
         to[static_cast<std::size_t>(row) * particles + s] =
@@ -180,7 +180,7 @@ template <class Real, class Team>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Team& team, int number) {
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         if (!(team.position()[s].w > 0)) team.position()[s] = team.start()[s];
-        const Quad<Real> v = team.next_velocity()[s];
+        const Vec4<Real> v = team.next_velocity()[s];
         team.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
@@ -192,7 +192,7 @@ __device__ void note_instability(const ModelView<Real>& model, Team& team, doubl
     if (team.thread() == 0) {
         int lowest = model.particles;
         for (int s = 0; s < model.particles; ++s) {
-            const Quad<Real> x = team.position()[s], v = team.next_velocity()[s];
+            const Vec4<Real> x = team.position()[s], v = team.next_velocity()[s];
             const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
             if (!finite) lowest = min(lowest, static_cast<int>(team.number()[s]));
         }
@@ -285,14 +285,14 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, T
 template <bool effects, class Real, class Team>
 __device__ void update(const BatchView<Real>& batch, int state, int number, Team& team) {
     const ModelView<Real>& model = batch.model;
-    Quad<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
-    Quad<Real>* const velocity = batch.velocity + static_cast<std::size_t>(state) * model.particles;
+    Vec4<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
+    Vec4<Real>* const velocity = batch.velocity + static_cast<std::size_t>(state) * model.particles;
     ClusterFit<Real>* const fit = batch.fit + state * model.clusters;
     Progress& progress = batch.progress[state];
     team.shared().watch.start(team.thread());
     team.velocity = velocity;
     for (int s = team.thread(); s < model.particles; s += team.size()) {
-        const Quad<Real> x = position[s];
+        const Vec4<Real> x = position[s];
         const int i = number_in(x.w);
         team.position()[s] = quad(xyz(x), model.inverse_mass[i]);
         team.number()[s] = static_cast<std::uint16_t>(i);

@@ -25,9 +25,9 @@ void ConservingStages<Real>::solve_density_constraint() {
 /// The fluid goes where its velocities take it.
 template <class Real>
 void ConservingStages<Real>::move_fluid() {
-    push_solids([this] { water_->return_relief(*this->team_); });
+    push_solids([this] { water_->return_zeroth_order_correction(*this->team_); });
     water_->add_pressure_forces();
-    water_->hold_at_walls(*this->team_);
+    water_->apply_wall_pressure(*this->team_);
     this->team_->for_each(static_cast<int>(ws_.fluid_ids.size()), this->shortest_part * lanes, [this](int k) {
         const int i = ws_.fluid_ids[k], slot = ws_.slot_of[i];
         if (!(inverse_mass_[i] > 0)) return;

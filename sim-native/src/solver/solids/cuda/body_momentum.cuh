@@ -2,7 +2,7 @@
 
 // Scheme conserving: the velocities of a substep, but for the water's.
 #include "physics/body_momentum.h"
-#include "solver/cuda/large/slots.cuh"
+#include "solver/cuda/grid/slots.cuh"
 
 namespace natator::cuda {
 
@@ -14,7 +14,7 @@ __device__ inline void sum_over_warp(Vec3<double>& v) {
 template <class Real>
 __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Real>& slots) {
     const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
-    const auto at = [](const Quad<Real>& x) { return physics::cast<double>(xyz(x)); };
+    const auto at = [](const Vec4<Real>& x) { return physics::cast<double>(xyz(x)); };
     for (int k = warp; k < model.free_bodies; k += slots.size() / 32) {
         // Calls work(slot, solid, mass) for this lane's share of the body.
         const auto for_own = [&](const auto& work) {
@@ -42,7 +42,7 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Rea
             *entry = sum_of_warp(*entry);
         const physics::BodyMotion motion = motion_of(centres, moments);
         for_own([&](int s, int, double) {
-            const Quad<Real> v = slots.next()[s];
+            const Vec4<Real> v = slots.next()[s];
             const Vec3<Real> change = physics::cast<Real>(velocity_at(motion, at(slots.position()[s])));
             slots.next()[s] = quad(xyz(v) + change, v.w);
         });
@@ -51,8 +51,8 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Rea
 
 /// The velocity that the displacement of slot s means, with its inverse mass.
 template <class Real>
-__device__ Quad<Real> constrained_velocity(const Slots<Real>& slots, int s) {
-    const Quad<Real> predicted = slots.predicted_velocity()[s];
+__device__ Vec4<Real> constrained_velocity(const Slots<Real>& slots, int s) {
+    const Vec4<Real> predicted = slots.predicted_velocity()[s];
     return quad(xyz(predicted) + (1 / slots.h) * xyz(slots.displacement()[s]), predicted.w);
 }
 

@@ -2,7 +2,7 @@
 
 // What springs, clusters and planes of scheme conserving go by: in device memory, or on the chip of the block that has the solids
 // (chip_solids.cuh). The code of solids.cuh takes either.
-#include "solver/cuda/large/slots.cuh"
+#include "solver/cuda/grid/slots.cuh"
 
 namespace natator::cuda {
 
@@ -10,34 +10,34 @@ namespace natator::cuda {
 #define NATATOR_SOLID_MODEL_ARRAYS(X)                  \
     X(SpringView<Real>, spring, size.springs)          \
     X(int, spring_shares_begin, size.solids + 1)       \
-    X(Share, spring_share, 2 * size.springs)           \
+    X(Incidence, spring_share, 2 * size.springs)           \
     X(ClusterView<Real>, cluster, size.clusters)       \
     X(int, member, size.members)                       \
     X(Vec3<Real>, offset, size.members)                \
     X(Real, member_mass, size.members)                 \
     X(int, cluster_shares_begin, size.solids + 1)      \
-    X(Share, cluster_share, size.members)
+    X(Incidence, cluster_share, size.members)
 
 // Of the State. By place: in device memory a solid's slot, on the chip its number. The first are what iterations change.
 #define NATATOR_MOVED_SOLID_ARRAYS(X)                  \
-    X(Quad<Real>, position, size.solids)               \
-    X(Quad<Real>, displacement, size.solids)
+    X(Vec4<Real>, position, size.solids)               \
+    X(Vec4<Real>, displacement, size.solids)
 #define NATATOR_PLACED_SOLID_ARRAYS(X)                 \
-    X(Quad<Real>, base, size.solids)                   \
-    X(Quad<Real>, start, size.solids)                  \
+    X(Vec4<Real>, base, size.solids)                   \
+    X(Vec4<Real>, start, size.solids)                  \
     X(int, plane_contact, size.solids)
 
 // By solid, spring, member and cluster, what iterations change; what they read, and what is only there within one.
 #define NATATOR_CHANGED_SOLID_ARRAYS(X)                \
-    X(Quad<Real>, internal, size.solids)               \
+    X(Vec4<Real>, internal, size.solids)               \
     X(Real, spring_lambda, size.springs)               \
-    X(Quad<Real>, member_displacement, size.members)   \
+    X(Vec4<Real>, member_displacement, size.members)   \
     X(ClusterFit<Real>, fit, size.clusters)
 #define NATATOR_KEPT_SOLID_ARRAYS(X) X(Real, rest_length, size.springs)
 #define NATATOR_PASSING_SOLID_ARRAYS(X)                \
     X(SpringTerms<Real>, spring_terms, size.springs)   \
-    X(Quad<Real>, spring_push, 2 * size.springs)       \
-    X(Quad<Real>, cluster_push, size.members)          \
+    X(Vec4<Real>, spring_push, 2 * size.springs)       \
+    X(Vec4<Real>, cluster_push, size.members)          \
     X(Real, compliance, size.clusters)                 \
     X(ClusterPose, cluster_pose, size.clusters)
 

@@ -2,14 +2,14 @@
 
 // Contacts of scheme conserving, by one block of threads, in device memory.
 #include "solids.cuh"
-#include "solver/cuda/large/search.cuh"
+#include "solver/cuda/grid/search.cuh"
 
 namespace natator::cuda {
 
 /// Depth of a contact beyond what this substep may leave of it.
 template <class Real>
 __device__ Real contact_depth(const ModelView<Real>& model, const Slots<Real>& slots, int s, int other) {
-    const auto distance = [&](const Quad<Real>* places) { return norm(xyz(places[s]) - xyz(places[other])); };
+    const auto distance = [&](const Vec4<Real>* places) { return norm(xyz(places[s]) - xyz(places[other])); };
     return physics::limited_depth(
         model.solid_rest_distance, distance(slots.position()), model.overlap_acceleration * slots.h * slots.h,
         [&] { return distance(slots.start()); }, [&] { return distance(slots.base()); });
@@ -44,7 +44,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
                                                             static_cast<Real>(slots.constraint_count()[other]));
                     sum += share * contact_push(model, slots, s, other, depth);
                 });
-            const Quad<Real> push{sum_of_lanes(sum.x), sum_of_lanes(sum.y), sum_of_lanes(sum.z), Real(0)};
+            const Vec4<Real> push{sum_of_lanes(sum.x), sum_of_lanes(sum.y), sum_of_lanes(sum.z), Real(0)};
             if (s >= 0 && lane == 0) slots.contact_push()[s] = push;
         });
     });

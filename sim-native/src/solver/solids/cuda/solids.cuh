@@ -14,7 +14,7 @@ template <class Real, class Solids>
 __device__ void move(const Solids& solids, int place, const Vec3<Real>& by) {
     const Vec3<Real> displacement = xyz(solids.displacement()[place]) + by;
     solids.displacement()[place] = quad(displacement, Real(0));
-    const Quad<Real> base = solids.base()[place];
+    const Vec4<Real> base = solids.base()[place];
     solids.position()[place] = quad(xyz(base) + displacement, base.w);
 }
 
@@ -49,7 +49,7 @@ __device__ void prepare_constraints(const ModelView<Real>& model, const Solids& 
         terms.compliance = physics::spring_compliance(spring.rule, wa + wb, h);
     });
     for_each_in_block(2 * model.springs, [&](int e) {
-        const Share* const share = solids.spring_share() + e;
+        const Incidence* const share = solids.spring_share() + e;
         const int k = share->constraint, a = solids.spring()[k].a, b = solids.spring()[k].b;
         // Of a spring that has both its ends on a solid, the first share is before the other.
         const bool of_a = a != b ? share->other == b : e == 0 || share[-1].constraint != k;
@@ -140,12 +140,12 @@ __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids)
 
 /// What a cluster asks of one of its members.
 template <class Real, class Solids>
-__device__ Vec3<Real> push_of_share(const Solids& solids, const Share& share) {
+__device__ Vec3<Real> push_of_share(const Solids& solids, const Incidence& share) {
     const int k = share.constraint, m = share.other;
     const Real alpha = solids.compliance()[k];
     if (!isfinite(alpha)) return {0, 0, 0};
     const ClusterPose& pose = solids.cluster_pose()[k];
-    const Quad<Real> here = position_of(solids, solids.member()[m]);
+    const Vec4<Real> here = position_of(solids, solids.member()[m]);
     Vec3<Real> displacement = xyz(solids.member_displacement()[m]);
     const Vec3<Real> change =
         compliant_goal_change(pose.centre, pose.rotation, solids.offset()[m], xyz(here), alpha, displacement);
@@ -178,7 +178,7 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Solids& solid
 /// Moves what is at a place out of the planes near it, one after the other.
 template <class Real, class Solids>
 __device__ void solve_planes_of(const ModelView<Real>& model, const Solids& solids, int place) {
-    const Quad<Real> here = solids.position()[place];
+    const Vec4<Real> here = solids.position()[place];
     Vec3<Real> x = xyz(here), base, displacement, start;
     bool moved = false;
     for_each_near_plane(model, solids, place, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {

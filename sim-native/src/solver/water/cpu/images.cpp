@@ -40,7 +40,7 @@ const std::vector<typename Images<Real>::Image>& Images<Real>::of(const std::vec
         };
         const std::size_t images = images_.size();
         const int turn = turned(0, border);
-        found_.resize(team.most_parts());
+        found_.resize(team.max_parts());
         for (std::vector<Image>& found : found_) found.clear();
         team.for_parts(static_cast<int>(positions.size()), shortest_part, [&](int part, int begin, int end) {
             for (int i = begin; i < end; ++i) add(found_[part], i, 1, positions[i], [turn] { return turn; });

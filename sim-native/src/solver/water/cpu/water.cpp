@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/borders.h"
-#include "model/carried_weight.h"
+#include "model/background_pressure.h"
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -29,7 +29,7 @@ Water<Real>::Water(const Model& model)
     effect_radius_ = static_cast<Real>(effect_radius(model));
     fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
     weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
-    carried_ = carried_weight<Real>(model);
+    carried_ = background_pressure<Real>(model);
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
@@ -44,7 +44,7 @@ Water<Real>::Water(const Model& model)
     particle_of_.assign(image_begin_, -1);
     row_begin_.assign(image_begin_ / lanes + 1, 0);
     neighbour_count_.assign(image_begin_, 0);
-    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_, &relief_}) array->resize(image_begin_);
+    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_, &zeroth_order_correction_}) array->resize(image_begin_);
     for (auto& array : correction_) array.resize(image_begin_);
     crowding_.resize(image_begin_);
     zeroth_.resize(image_begin_);
@@ -62,7 +62,7 @@ Vec3<Real> Water<Real>::shift(int particle) const {
 /// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
-bool Water<Real>::part_overlaps(ThreadTeam& team) {
+bool Water<Real>::separate_overlaps(ThreadTeam& team) {
     parting_.clear();
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     std::atomic<bool> any = false;
@@ -84,14 +84,14 @@ bool Water<Real>::part_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
-    for (int pass = 0; pass < physics::parting_passes; ++pass) {
+    for (int pass = 0; pass < physics::separation_passes; ++pass) {
         compute_impulses(team);
         apply_impulses(team);
         give_images_velocities(team);
     }
     parting_.resize(particles_);
     for_each_slot(team, [this](int slot) {
-        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::longest_parting) * spacing_);
+        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::max_separation) * spacing_);
         velocity_.set(slot, kept_velocity_.at(slot));
         inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
     });
@@ -163,12 +163,12 @@ WaterView<Real> Water<Real>::view() {
                         .impulse = impulse_.data(),
                         .impulse_sum = impulse_sum_.data(),
                         .zeroth = {zeroth[0], zeroth[1], zeroth[2]},
-                        .relief = relief_.data(),
+                        .zeroth_order_correction = zeroth_order_correction_.data(),
                         .packed = packed_.data(),
                         .packed_velocity = packed_velocity_.data(),
                         .packed_correction = packed_correction_.data(),
                         .packed_shear = packed_shear_.data(),
-                        .packed_relief = packed_relief_.data(),
+                        .packed_zeroth_order = packed_zeroth_order_.data(),
                         .distance = distance_.data(),
                         .gradient = {gradient[0], gradient[1], gradient[2]}};
     for (int k = 0; k < 6; ++k) all.correction[k] = correction_[k].data();
@@ -187,25 +187,25 @@ void Water<Real>::apply_impulses(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::apply_relieved_impulses(ThreadTeam& team) {
+void Water<Real>::apply_corrected_impulses(ThreadTeam& team) {
     apply_impulses(team);
-    const Real strength = physics::kept_strength(h_, fluid_density_);
-    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
+    const Real strength = physics::uncorrected_strength(h_, fluid_density_);
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->apply_zeroth_order_correction(part, strength); });
     give_images_velocities(team);
 }
 
 template <class Real>
 void Water<Real>::push_apart(ThreadTeam& team) {
     compute_impulses(team);
-    apply_relieved_impulses(team);
+    apply_corrected_impulses(team);
 }
 
 template <class Real>
-void Water<Real>::return_relief(ThreadTeam& team) {
-    on_all_threads(team, kernels_->lay_out_relief);
-    give_images(packed_relief_, team);
-    std::fill_n(packed_relief_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
-    on_all_threads(team, kernels_->return_relief);
+void Water<Real>::return_zeroth_order_correction(ThreadTeam& team) {
+    on_all_threads(team, kernels_->lay_out_zeroth_order_correction);
+    give_images(packed_zeroth_order_, team);
+    std::fill_n(packed_zeroth_order_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
+    on_all_threads(team, kernels_->return_zeroth_order_correction);
 }
 
 template <class Real>
@@ -217,14 +217,14 @@ void Water<Real>::compute_gradients(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
-    const bool parted = part_overlaps(team);
-    std::fill(relief_.begin(), relief_.end(), Real(0));
+    const bool parted = separate_overlaps(team);
+    std::fill(zeroth_order_correction_.begin(), zeroth_order_correction_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
     if (parted) {
         std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
         compute_impulses(team);
     }  // else compute_gradients has computed them
-    apply_relieved_impulses(team);
+    apply_corrected_impulses(team);
     for (int pass = 1; pass < physics::divergence_passes; ++pass) push_apart(team);
 }
 
@@ -256,7 +256,7 @@ void Water<Real>::add_gravity(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::hold_at_walls(ThreadTeam& team) {
+void Water<Real>::apply_wall_pressure(ThreadTeam& team) {
     if (image_owner_.empty() || !(norm(weight_on_walls_) > 0)) return;
     std::fill_n(impulse_.begin(), image_begin_, Real(0));
     const auto weight = [this](int owner) {
@@ -265,7 +265,7 @@ void Water<Real>::hold_at_walls(ThreadTeam& team) {
     };
     for_each_image(team, [&](int k) {
         const int slot = image_begin_ + k, owner = image_owner_[k];
-        impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_, weight(owner),
+        impulse_[slot] = is_fluid_slot(owner) ? physics::hydrostatic_ghost_impulse(inverse_mass_[owner], volume_[owner], h_, weight(owner),
                                                                          position_.at(slot) - position_.at(owner),
                                                                          impulse_sum_[owner])
                                               : Real(0);

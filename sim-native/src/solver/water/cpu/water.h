@@ -6,7 +6,7 @@
 #include "images.h"
 #include "natator/model.h"
 #include "natator/state.h"
-#include "physics/carried_weight.h"
+#include "physics/background_pressure.h"
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/neighbour_lists.h"
@@ -36,10 +36,10 @@ public:
     void add_forces(ThreadTeam& team);
     void add_gravity(ThreadTeam& team);
     /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after add_gravity() is
-    /// where they lead to more than rest density. Takes off what physics::relief says.
+    /// where they lead to more than rest density. Takes off what physics::zeroth_order_correction says.
     void push_apart(ThreadTeam& team);
     /// Once all passes are done: gives back what push_apart has taken off.
-    void return_relief(ThreadTeam& team);
+    void return_zeroth_order_correction(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
@@ -51,8 +51,8 @@ public:
         packed_velocity_[4 * slot + 1] = v.y;
         packed_velocity_[4 * slot + 2] = v.z;
     }
-    /// Once all passes are done: holds up what lies at walls, see physics::weight_to_ghost.
-    void hold_at_walls(ThreadTeam& team);
+    /// Once all passes are done: holds up what lies at walls, see physics::hydrostatic_ghost_impulse.
+    void apply_wall_pressure(ThreadTeam& team);
     /// Gives the images the velocities of what they are images of.
     void give_images_velocities(ThreadTeam& team);
     /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
@@ -71,7 +71,7 @@ public:
     /// From now on impulses of the water on solids are summed.
     void keep_forces() { impulse_on_.assign(particles_, {}); }
     void clear_forces();
-    /// To be called after return_relief.
+    /// To be called after return_zeroth_order_correction.
     void add_pressure_forces();
     /// By particle, of the substeps since clear_forces; see Solver::forces.
     std::vector<Vector3<Real>> forces() const;
@@ -87,11 +87,11 @@ private:
     void list_neighbours(ThreadTeam& team);
     void give_images_corrections(ThreadTeam& team);
     /// Returns whether there are any.
-    bool part_overlaps(ThreadTeam& team);
+    bool separate_overlaps(ThreadTeam& team);
     void compute_impulses(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
-    /// The same, and takes off the relief.
-    void apply_relieved_impulses(ThreadTeam& team);
+    /// The same, and takes off the zeroth_order_correction.
+    void apply_corrected_impulses(ThreadTeam& team);
     /// Turns vectors that neighbours gather into those of the images.
     void give_images(AlignedVector<Real>& packed, ThreadTeam& team);
     WaterView<Real> view();
@@ -178,15 +178,15 @@ private:
     std::vector<int> cell_of_;  ///< by particle
 
     Vector3Array<Real> position_, velocity_, crowding_;
-    Vector3Array<Real> kept_velocity_;  ///< room for part_overlaps
+    Vector3Array<Real> kept_velocity_;  ///< room for separate_overlaps
     Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
-    std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
+    std::vector<Vec3<Real>> parting_;   ///< displacement by separate_overlaps, by slot; empty where nothing overlaps
     AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_,
-        impulse_sum_, relief_;
+        impulse_sum_, zeroth_order_correction_;
     Vector3Array<Real> zeroth_;
     std::array<AlignedVector<Real>, 6> correction_;
-    AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_, packed_relief_;
+    AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_, packed_zeroth_order_;
     std::vector<int> row_begin_, neighbour_count_;
     AlignedVector<std::int32_t> neighbour_;
     AlignedVector<Real> distance_;

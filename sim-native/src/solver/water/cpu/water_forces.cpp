@@ -1,5 +1,5 @@
 // What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs keep
-// their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the relief
+// their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the zeroth_order_correction
 // that is given back once they are over.
 #include "physics/dfsph.h"
 #include "physics/water_force.h"
@@ -31,7 +31,7 @@ void Water<Real>::add_viscous_forces(Real strength, Real most) {
         for_each_neighbour_of(slot, [&](int entry, int other) {
             if (!is_fluid_slot(other)) return;
             const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most) *
-                               physics::viscous_grip(Real(1), Real(0));
+                               physics::wall_viscosity_factor(Real(1), Real(0));
             sums.add(position_.at(slot) - position_.at(other), packed_velocity(other) - velocity_.at(slot), softening,
                      share, gradient_.at(entry));
         });
@@ -46,9 +46,9 @@ void Water<Real>::add_pressure_forces() {
     for_each_solid_slot([&](int slot, int particle) {
         if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
-            const Real* const relief = &packed_relief_[4 * static_cast<std::size_t>(of)];
+            const Real* const zeroth_order_correction = &packed_zeroth_order_[4 * static_cast<std::size_t>(of)];
             return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],
-                    {relief[0], relief[1], relief[2]}};
+                    {zeroth_order_correction[0], zeroth_order_correction[1], zeroth_order_correction[2]}};
         };
         const physics::PairSide<Real> own = side(slot);
         for_each_neighbour_of(slot, [&](int entry, int other) {

@@ -119,7 +119,7 @@ void add_viscosity(WaterView<Real> water, Real strength, Real most) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             const Four<Lane> shear = Group::gather(water.packed_shear, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     viscous_share(own, other.w * moves.w, most) * viscous_grip(solid, shear.z),
+                     viscous_share(own, other.w * moves.w, most) * wall_viscosity_factor(solid, shear.z),
                      get3<Group>(water.gradient, entry));
         });
         const Lane scale = strength * inverse_mass;
@@ -171,41 +171,41 @@ void apply_impulse(WaterView<Real> water) {
 }
 
 template <class Group, class Real>
-void relieve(WaterView<Real> water, Real strength) {
+void apply_zeroth_order_correction(WaterView<Real> water, Real strength) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
-        const Lane kept = kept_impulse(Group::get(water.fastest_square + first), strength);
+        const Lane kept = uncorrected_impulse(Group::get(water.fastest_square + first), strength);
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
         const Vec3<Lane> zeroth = get3<Group>(water.zeroth, first);
         const Lane own = own_response(inverse_mass, zeroth, Group::get(water.response + first));
-        const Lane all = relief(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept, own);
-        const Lane now = inverse_mass > 0 ? all : Lane{}, more = now - Group::get(water.relief + first);
-        Group::put(water.relief + first, now);
+        const Lane all = zeroth_order_correction(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept, own);
+        const Lane now = inverse_mass > 0 ? all : Lane{}, more = now - Group::get(water.zeroth_order_correction + first);
+        Group::put(water.zeroth_order_correction + first, now);
         put_velocity<Group>(water, first,
                             get3<Group>(water.velocity, first) + inverse_mass * more * zeroth);
     });
 }
 
 template <class Group, class Real>
-void lay_out_relief(WaterView<Real> water) {
+void lay_out_zeroth_order_correction(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {
         const Lane share =
-            relief_share(Group::get(water.density + first), Group::get(water.volume + first), kernel);
-        const Vec3<Lane> all = Group::get(water.relief + first) * share * get3<Group>(water.zeroth, first);
-        Group::put_quadruples(water.packed_relief + 4 * first, {all.x, all.y, all.z, Lane{}});
+            zeroth_order_share(Group::get(water.density + first), Group::get(water.volume + first), kernel);
+        const Vec3<Lane> all = Group::get(water.zeroth_order_correction + first) * share * get3<Group>(water.zeroth, first);
+        Group::put_quadruples(water.packed_zeroth_order + 4 * first, {all.x, all.y, all.z, Lane{}});
     });
 }
 
 template <class Group, class Real>
-void return_relief(WaterView<Real> water) {
+void return_zeroth_order_correction(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_block(water, [&](int block) {
         Vec3<Lane> sum[groups<Group>]{};
         for_each_entry<Group>(water, block, [&](int k, int entry) {
-            const Four<Lane> part = Group::gather(water.packed_relief, water.neighbour + entry);
+            const Four<Lane> part = Group::gather(water.packed_zeroth_order, water.neighbour + entry);
             sum[k] += kernel.value(Group::get(water.distance + entry)) * Vec3<Lane>{part.x, part.y, part.z};
         });
         for_groups_of<Group>(block, [&](int k, int first) {
@@ -219,7 +219,7 @@ template <class Group, class Real>
 WaterKernels<Real> kernels_by() {
     return {&pack<Group>,          &compute_moments<Group>, &compute_gradients<Group>,
             &add_viscosity<Group>, &compute_impulse<Group>, &apply_impulse<Group>,
-            &relieve<Group>,       &lay_out_relief<Group>,  &return_relief<Group>};
+            &apply_zeroth_order_correction<Group>,       &lay_out_zeroth_order_correction<Group>,  &return_zeroth_order_correction<Group>};
 }
 
 }  // namespace

@@ -34,14 +34,14 @@ struct WaterView {
     Real* impulse;          ///< pressure impulse of one pass
     Real* impulse_sum;      ///< of the substep so far
     Real* zeroth[3];        ///< sum of G_ij
-    Real* relief;           ///< of the pressure, see physics::relief
+    Real* zeroth_order_correction;           ///< of the pressure, see physics::zeroth_order_correction
 
     // By slot, four at a time, also for images: what neighbours gather.
     Real* packed;             ///< position and volume
     Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy
     Real* packed_shear;       ///< L: xz, yz; solid
-    Real* packed_relief;      ///< E_j times its relief_share
+    Real* packed_zeroth_order;      ///< E_j times its zeroth_order_share
 
     // By entry of the rows.
     Real* distance;     ///< cheaper to read than to compute anew from two positions
@@ -65,12 +65,12 @@ struct WaterKernels {
     void (*compute_impulse)(WaterView<Real> water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
     void (*apply_impulse)(WaterView<Real> water);
-    /// Takes off what the relief has grown by, also laid out. `strength`: see physics::kept_impulse.
-    void (*relieve)(WaterView<Real> water, Real strength);
+    /// Takes off what the zeroth_order_correction has grown by, also laid out. `strength`: see physics::uncorrected_impulse.
+    void (*apply_zeroth_order_correction)(WaterView<Real> water, Real strength);
     /// Lays E out for the neighbours.
-    void (*lay_out_relief)(WaterView<Real> water);
+    void (*lay_out_zeroth_order_correction)(WaterView<Real> water);
     /// Gives it back.
-    void (*return_relief)(WaterView<Real> water);
+    void (*return_zeroth_order_correction)(WaterView<Real> water);
 };
 
 NATATOR_DECLARE_KERNELS(WaterKernels, water_kernels)

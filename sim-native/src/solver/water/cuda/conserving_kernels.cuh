@@ -10,7 +10,7 @@ namespace natator::cuda {
 
 template <class Real>
 __device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slots) {
-    const Quad<Real> zero{0, 0, 0, 0};
+    const Vec4<Real> zero{0, 0, 0, 0};
     const int first = own_index(), step = static_cast<int>(gridDim.x * blockDim.x);
     for (int s = first; s < model.particles; s += step) {
         slots.displacement()[s] = zero;

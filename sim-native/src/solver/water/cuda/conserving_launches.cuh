@@ -24,11 +24,11 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     /// So many blocks of floats shall fit on a multiprocessor: kernels that wait for memory want to be many.
     template <int at_once>
-    static constexpr int least_blocks = std::is_same_v<Real, float> ? at_once : 0;
+    static constexpr int min_blocks = std::is_same_v<Real, float> ? at_once : 0;
 
     template <auto work, int at_once = 0, class... More>
     void each_pair(More... more) const {
-        launch.template each_slot<work, pair_lanes, large_threads, least_blocks<at_once>>(model.particles, more...);
+        launch.template each_slot<work, pair_lanes, grid_threads, min_blocks<at_once>>(model.particles, more...);
     }
     template <auto work>
     void each_pair_of_fluid() const {
@@ -57,9 +57,9 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void each_pair_by_lanes() const {
         constexpr std::size_t filling = 50'000;  // slots: with fewer, many threads are faster
         if (std::size_t(model.particles) * launch.states > filling)
-            launch.template each_slot<by_few, few_lanes, large_threads, least_blocks<few_at_once>>(model.particles);
+            launch.template each_slot<by_few, few_lanes, grid_threads, min_blocks<few_at_once>>(model.particles);
         else
-            launch.template each_slot<by_many, many_lanes, large_threads, least_blocks<many_at_once>>(model.particles);
+            launch.template each_slot<by_many, many_lanes, grid_threads, min_blocks<many_at_once>>(model.particles);
     }
     /// Of the passes that most substeps need not: few blocks, as those that find nothing to do cost time, too.
     template <Pass which>
@@ -93,7 +93,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void compute_water_gradients() const { each_pair<water_gradients<pairs, Real>, 4>(); }
     void solve_divergence() const {
         seldom_pass<Pass::first_parting>();
-        for (int k = 1; k < physics::parting_passes; ++k) seldom_pass<Pass::parting>();
+        for (int k = 1; k < physics::separation_passes; ++k) seldom_pass<Pass::parting>();
         push_apart<Pass::divergence>();
     }
     void add_viscosity() const {
@@ -134,7 +134,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void update_velocities() const {
         if (model.plan.water) {
-            each_particle<lay_out_relief<Real>>();
+            each_particle<lay_out_zeroth_order_correction<Real>>();
             each_pair<end_water_passes<pairs, Real>, 6>(model.planes > 0 && norm(model.water.weight_on_walls) > 0);
             if (launch.keeps_forces) each_pair_of_solids<add_pressure_forces<pairs, Real>>();
             launch.template each_slot<move_water<Real>>(model.fluid);

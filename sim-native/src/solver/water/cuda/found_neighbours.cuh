@@ -25,7 +25,7 @@ __device__ int hand_out_found(const ModelView<Real>& model, const Slots<Real>& s
         }
         __syncwarp(lanes);
     };
-    const auto take = [&](int before, bool near, int n, int k, const Quad<Real>& candidate) {
+    const auto take = [&](int before, bool near, int n, int k, const Vec4<Real>& candidate) {
         if (__any_sync(lanes, before - handed_out > found_room - pair_lanes)) hand_out(before, pair_lanes);
         if (near) found[static_cast<unsigned>(n) % found_room] = keep(k, candidate);
     };
@@ -40,7 +40,7 @@ __device__ int hand_out_found(const ModelView<Real>& model, const Slots<Real>& s
 template <class Real, class Keep, class Visit>
 __device__ int for_each_found(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end, bool wanted, int residue,
                               const Keep& keep, const Visit& visit) {
-    __shared__ unsigned room[large_threads / pair_lanes * found_stride];
+    __shared__ unsigned room[grid_threads / pair_lanes * found_stride];
     const int first = s - static_cast<int>(threadIdx.x) % 32 / pair_lanes;  // of the warp
     if (first + slots_of_warp <= end) return hand_out_found(model, slots, s, wanted, residue, AllLanes(), room, keep, visit);
     const unsigned lanes = (1u << (end - first) * pair_lanes) - 1;

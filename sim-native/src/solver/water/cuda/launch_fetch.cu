@@ -1,4 +1,4 @@
-#include "solver/cuda/large/substep.cuh"
+#include "solver/cuda/grid/substep.cuh"
 #include "water_kernels.cuh"
 
 namespace natator::cuda {
@@ -9,7 +9,7 @@ template <Fetch what, int lanes, class Real>
 __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* sums) {
     ListSums<lanes, Real> sum;
     if constexpr (what == Fetch::velocities) {
-        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, const Quad<Real>& v) {
+        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, const Vec4<Real>& v) {
             sum[list] += gradient.x + gradient.y + gradient.z + v.x + v.y + v.z;
         };
         for_each_listed_pair<lanes, rows_of_velocities<lanes>>(slots, s, add, slots.water.velocity);
@@ -32,10 +32,10 @@ void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums) {
     constexpr bool single = std::is_same_v<Real, float>;
     const int particles = launch.model.particles;
     if (what == Fetch::velocities)
-        launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, large_threads, single ? 3 : 0>(
+        launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, grid_threads, single ? 3 : 0>(
             particles, sums);
     else
-        launch.template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, large_threads, single ? 4 : 0>(
+        launch.template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads, single ? 4 : 0>(
             particles, sums);
     check(cudaGetLastError(), "launch");
 }

@@ -107,7 +107,7 @@ __device__ void for_each_listed_pair(const Slots<Real>& slots, int s, const Visi
 #pragma unroll
             for (int list = 0; list < own; ++list)
                 if (has(begin + r, list))
-                    visit(list, gradient[r].of[list].value(), entry[r].of[list] >> most_slot_bits, there[r].of[list]);
+                    visit(list, gradient[r].of[list].value(), entry[r].of[list] >> max_slot_bits, there[r].of[list]);
         }
     }
 }
@@ -121,10 +121,10 @@ __device__ void for_each_searched_pair(const ModelView<Real>& model, const Slots
     const GradientsOf<Real> own(model, water, s);
     for_each_found(
         model, slots, s, model.particles, wanted, reversed_list(own_lane()),
-        [](int, const Quad<Real>& candidate) { return entry_of(candidate); },
+        [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
         [&](unsigned entry) {
-            const auto add = [&](int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
-                                 const Quad<Real>& shear, const Value& value) {
+            const auto add = [&](int, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+                                 const Vec4<Real>& shear, const Value& value) {
                 visit(0, own.kept(borders, there, correction, shear), borders, value);
             };
             visit_entry(entry, values_at(entry, water.position, water.correction, water.shear, array), add);

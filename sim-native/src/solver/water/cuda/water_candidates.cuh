@@ -7,7 +7,7 @@
 
 namespace natator::cuda {
 
-inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
+inline constexpr unsigned slot_mask = (1u << max_slot_bits) - 1;
 
 /// Of the threads that share a slot.
 __device__ inline int own_lane() {
@@ -16,7 +16,7 @@ __device__ inline int own_lane() {
 
 /// Of a candidate: its slot, with the borders that it is the ghost of.
 template <class Real>
-__device__ unsigned entry_of(const Quad<Real>& candidate) {
+__device__ unsigned entry_of(const Vec4<Real>& candidate) {
     return static_cast<unsigned>(number_in(candidate.w));
 }
 
@@ -79,7 +79,7 @@ __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slo
     const unsigned own_lanes = kept_value(lanes, ((1u << pair_lanes) - 1) << first_lane);
     const unsigned lanes_before = kept_value(lanes, ((1u << lane) - 1) << first_lane);
     const unsigned last_copy = slots.water_room.copies - 1;
-    const Quad<Real>* const candidate = water.candidate;
+    const Vec4<Real>* const candidate = water.candidate;
     Candidates own{0, 0};
     int n = 0;
 #pragma unroll 1
@@ -91,7 +91,7 @@ __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slo
         int most = largest_of_slots(lanes, end - begin);
 #pragma unroll unrolled
         for (int k = begin + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
-            const Quad<Real> there = candidate[min(static_cast<unsigned>(k), last_copy)];
+            const Vec4<Real> there = candidate[min(static_cast<unsigned>(k), last_copy)];
             const Real r2 = physics::squared_length(x - xyz(there));
             const bool near = k < end && r2 < distance_squared && r2 > 0;
             const unsigned found = __ballot_sync(lanes, near);

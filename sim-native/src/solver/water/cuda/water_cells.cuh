@@ -10,10 +10,10 @@ template <class Real>
 __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (s == 0) slots.shared().high = slots.shared().rows = 0;
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> before = slots.at.state_velocity[s];
+    const Vec4<Real> before = slots.at.state_velocity[s];
     const int number = number_in(before.w);
     const bool fluid = number < model.fluid;
-    Quad<Real> x = slots.at.state_position[s];
+    Vec4<Real> x = slots.at.state_position[s];
     if (x.w > 0) {
         const Vec3<Real> there = fluid ? wrapped_water(model.water, xyz(x)) : xyz(x);
         x = quad(put_before_planes(model, there, wall_distance(model, fluid)), x.w);
@@ -55,7 +55,7 @@ __device__ void order_water(const ModelView<Real>& model, const Slots<Real>& slo
         const int begin = cell > 0 ? water.table[cell - 1] : 0, end = min(water.table[cell], copies);
         int rank = begin;
         for (int other = begin; other < end; ++other) rank += water.keys[other] < key;
-        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(borders << most_slot_bits | slot)));
+        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(borders << max_slot_bits | slot)));
     }
 }
 

@@ -38,7 +38,7 @@ __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<
     const bool cohesive = of.cohesion_strength > 0, tense = model.surface_tension > 0, confined = model.vorticity > 0;
     const Vec3<Real> x = xyz(water.position[s]);
     const Vec3<Real> normal = tense ? xyz(water.normal[s]) : Vec3<Real>{};
-    const Quad<Real> vorticity = confined ? water.vorticity[s] : Quad<Real>{};
+    const Vec4<Real> vorticity = confined ? water.vorticity[s] : Vec4<Real>{};
     const Real w = water.velocity[s].w, inverse_radius = 1 / of.effect_radius;
     Vec3<Real> pull{}, tension{}, towards_stronger{};
     if (cohesive || tense || confined)
@@ -56,7 +56,7 @@ __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<
     tension = sum_of_lanes(tension);
     towards_stronger = sum_of_lanes(towards_stronger);
     if (own_lane() != 0) return;
-    const Quad<Real> pushed = pushed_by_viscosity(model, water, s);
+    const Vec4<Real> pushed = pushed_by_viscosity(model, water, s);
     Vec3<Real> v = physics::dragged(xyz(pushed), water.density[s], slots.h * model.free_surface_drag);
     if (pushed.w > 0) {
         constexpr Real thesis_substep = static_cast<Real>(physics::thesis_substep);

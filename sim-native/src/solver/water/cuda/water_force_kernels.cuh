@@ -9,7 +9,7 @@ namespace natator::cuda {
 /// Adds an impulse to those on the solid in slot s.
 template <class Real>
 __device__ void add_impulse(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& impulse) {
-    Quad<Real>& sum = slots.water.impulse_on[number_in(slots.at.state_velocity[s].w) - model.fluid];
+    Vec4<Real>& sum = slots.water.impulse_on[number_in(slots.at.state_velocity[s].w) - model.fluid];
     sum = quad(xyz(sum) + impulse, Real(0));
 }
 
@@ -28,20 +28,20 @@ __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Rea
     if (own_lane() == 0) add_impulse(model, slots, s, strength * sum);
 }
 
-/// Of all passes of a substep together, and of the relief that was given back after them; of solid slot `model.fluid + k`.
+/// Of all passes of a substep together, and of the zeroth_order_correction that was given back after them; of solid slot `model.fluid + k`.
 template <Pairs pairs, class Real>
 __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s];
-    const physics::PairSide<Real> own{here.w, water.impulse_sum[s], xyz(water.relief[s])};
+    const Vec4<Real> here = water.position[s];
+    const physics::PairSide<Real> own{here.w, water.impulse_sum[s], xyz(water.zeroth_order_correction[s])};
     Vec3<Real> sum{};
     for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         if (other >= model.fluid) return;
-        const Quad<Real> there = water.position[other];
+        const Vec4<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
         const physics::PairSide<Real> its{there.w, water.impulse_sum[other],
-                                          xyz(seen(model, water.relief[other], borders))};
+                                          xyz(seen(model, water.zeroth_order_correction[other], borders))};
         sum += pressure_impulse_between(own, its, gradient, model.water.kernel.value(physics::length_of(difference)));
     });
     sum = sum_of_lanes(sum);

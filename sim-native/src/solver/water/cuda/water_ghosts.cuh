@@ -27,7 +27,7 @@ __device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& 
 /// What a particle keeps from planes. Water does not touch them otherwise: its ghosts hold it.
 template <class Real>
 __device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
-    return fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
+    return fluid ? Real(physics::min_wall_distance) * model.water.spacing : model.collision_distance;
 }
 
 /// Calls visit(borders, position) for the ghosts of what is at x, itself a ghost of `borders` or none, in up to `most` more
@@ -49,7 +49,7 @@ __device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x
 template <class Real, class Visit>
 __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
     visit(0u, x);
-    for_each_ghost<most_borders_at_once>(model, x, x, 0, 0, visit);
+    for_each_ghost<max_borders_at_once>(model, x, x, 0, 0, visit);
 }
 
 /// Where the water has what is at x: in a periodic tank within its ends.

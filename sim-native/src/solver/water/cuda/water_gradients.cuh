@@ -8,12 +8,12 @@ namespace natator::cuda {
 
 /// A vector of a neighbour; of a ghost as it is beyond the borders. w as it is.
 template <class Real>
-__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned borders) {
+__device__ Vec4<Real> seen(const ModelView<Real>& model, const Vec4<Real>& v, unsigned borders) {
     return borders == 0 ? v : quad(turned(model.water.ghost_map[borders], xyz(v)), v.w);
 }
 
 template <class Real>
-__device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
+__device__ physics::Symmetric3<Real> correction_of(const Vec4<Real>& correction, const Vec4<Real>& shear) {
     return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
 }
 
@@ -29,7 +29,7 @@ public:
     __device__ GradientsOf(const ModelView<Real>& model, const WaterArrays<Real>& water, int s)
         : model_(model), here_(water.position[s]), own_(correction_of(water.correction[s], water.shear[s])) {}
 
-    __device__ Pair with(unsigned borders, const Quad<Real>& there, const Quad<Real>& correction, const Quad<Real>& shear) const {
+    __device__ Pair with(unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction, const Vec4<Real>& shear) const {
         Vec3<Real> x = xyz(there);
         physics::Symmetric3<Real> its = correction_of(correction, shear);
         if (borders != 0) {  // few warps have ghosts
@@ -41,8 +41,8 @@ public:
         return {physics::pair_gradient(difference, slope, here_.w * there.w, own_ + its), slope};
     }
     /// The same as if it had been kept.
-    __device__ Vec3<Real> kept(unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
-                               const Quad<Real>& shear) const {
+    __device__ Vec3<Real> kept(unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+                               const Vec4<Real>& shear) const {
         Vec3<Real> gradient = with(borders, there, correction, shear).gradient;
         PairGradient<Real>::keep(gradient);
         return gradient;
@@ -50,7 +50,7 @@ public:
 
 private:
     const ModelView<Real>& model_;
-    const Quad<Real> here_;
+    const Vec4<Real> here_;
     const physics::Symmetric3<Real> own_;
 };
 
@@ -71,8 +71,8 @@ __device__ void for_each_water_pair(const ModelView<Real>& model, const Slots<Re
         const GradientsOf<Real> own(model, water, s);
         for_each_water_neighbour<pairs, batch>(
             model, slots, s, end,
-            [&](std::size_t, int slot, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
-                const Quad<Real>& shear, const Value&... value) {
+            [&](std::size_t, int slot, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+                const Vec4<Real>& shear, const Value&... value) {
                 visit(own.kept(borders, there, correction, shear), slot, borders, value...);
             },
             water.position, water.correction, water.shear, array...);

@@ -19,8 +19,8 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     physics::ResponseSums<Real> sums;
     physics::PassingSpeed<Real> fastest;
     Real rate = 0;
-    const auto add = [&](std::size_t place, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
-                         const Quad<Real>& shear, const Quad<Real>& velocity) {
+    const auto add = [&](std::size_t place, int, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+                         const Vec4<Real>& shear, const Vec4<Real>& velocity) {
         auto [gradient, slope] = own.with(borders, there, correction, shear);
         const Vec3<Real> relative = xyz(seen(model, velocity, borders)) - v;
         const PairGradient<Real> kept = PairGradient<Real>::keep(gradient);
@@ -62,10 +62,10 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
     ListSums<lanes, Real> rates;
     if constexpr (pass != Pass::first_parting) {
         const bool wet = density > Real(physics::wet_density);  // else it has no impulse
-        const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
+        const Vec4<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
-        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned borders, const Quad<Real>& u) {
-            rates[list] += dot_as_everywhere(xyz(seen(model, u, borders)) - v, gradient);
+        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned borders, const Vec4<Real>& u) {
+            rates[list] += dot_unfused(xyz(seen(model, u, borders)) - v, gradient);
         };
         for_each_pass_pair<pairs, lanes, rows_of_velocities<lanes>>(model, slots, s, wet, add, velocity);
     }
@@ -81,14 +81,14 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
     if (!parts(pass)) water.impulse_sum[s] += impulse;
 }
 
-/// Impulse that the relief of slot s has grown by, see physics::relief.
+/// Impulse that the zeroth_order_correction of slot s has grown by, see physics::zeroth_order_correction.
 template <class Real>
-__device__ Vec3<Real> relieve(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+__device__ Vec3<Real> apply_zeroth_order_correction(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> zeroth = water.zeroth[s];
-    const Real strength = physics::kept_strength(slots.h, model.water.density);
-    const Real now = physics::relief(water.density[s], water.impulse_sum[s],
-                                     physics::kept_impulse(water.fastest_square[s], strength),
+    const Vec4<Real> zeroth = water.zeroth[s];
+    const Real strength = physics::uncorrected_strength(slots.h, model.water.density);
+    const Real now = physics::zeroth_order_correction(water.density[s], water.impulse_sum[s],
+                                     physics::uncorrected_impulse(water.fastest_square[s], strength),
                                      physics::own_response(water.velocity[s].w, xyz(zeroth), water.response[s]));
     water.zeroth[s].w = now;
     return (now - zeroth.w) * xyz(zeroth);
@@ -100,7 +100,7 @@ __device__ void move_solid(const ModelView<Real>& model, const Slots<Real>& slot
     move(slots, slots.slot_of_solid()[number_in(slots.at.state_velocity[s].w) - model.fluid], by);
 }
 
-/// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief. `lanes` threads share a slot.
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and zeroth_order_correction. `lanes` threads share a slot.
 template <Pass pass, Pairs pairs, int lanes, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
@@ -112,7 +112,7 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
     const Vec3<Real> sum = sums.total();
     if (!sums.first_lane()) return;
     const bool fluid = s < model.fluid;
-    const Quad<Real> v = water.velocity[s];
+    const Vec4<Real> v = water.velocity[s];
     if constexpr (parts(pass)) {
         const Real w = fluid ? v.w : Real(0);  // to push a body's particles would bend it
         const Vec3<Real> before = pass == Pass::parting ? xyz(water.parting[s]) : Vec3<Real>{0, 0, 0};
@@ -120,7 +120,7 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
         return;
     }
     Vec3<Real> push = -v.w * sum;
-    if (v.w > 0) push += v.w * relieve(model, slots, s);
+    if (v.w > 0) push += v.w * apply_zeroth_order_correction(model, slots, s);
     water.velocity[s] = quad(xyz(v) + push, v.w);
     if (pass == Pass::density && !fluid && v.w > 0) move_solid(model, slots, s, slots.h * push);
 }
@@ -137,12 +137,12 @@ public:
           most_(physics::viscous_limit(model.water.spacing, strength)) {}
 
     /// `there`, `velocity` and `shear`: the other's, as they are laid out.
-    __device__ void add(const Vec3<Real>& gradient, unsigned borders, const Quad<Real>& there, const Quad<Real>& velocity,
-                        const Quad<Real>& shear) {
+    __device__ void add(const Vec3<Real>& gradient, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& velocity,
+                        const Vec4<Real>& shear) {
         const Vec3<Real> difference = xyz(here_) - ghost_of(model_.water, xyz(there), borders);
         const Vec3<Real> moves = xyz(seen(model_, velocity, borders)) - xyz(moves_);
         const Real share = physics::viscous_share(here_.w * shear_.z, there.w * shear.z, most_) *
-                           physics::viscous_grip(shear_.w, shear.w);
+                           physics::wall_viscosity_factor(shear_.w, shear.w);
         sums_.add(difference, moves, model_.water.softening, share, gradient);
     }
 
@@ -150,7 +150,7 @@ public:
 
 private:
     const ModelView<Real>& model_;
-    const Quad<Real> here_, moves_, shear_;
+    const Vec4<Real> here_, moves_, shear_;
     const Real most_;
     physics::ViscousSums<Real> sums_;
 };
@@ -167,23 +167,23 @@ __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>&
     const WaterArrays<Real>& water = slots.water;
     const Real strength = viscous_strength(model, slots);
     ViscousPairs<Real> sums(model, water, s, strength);
-    const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& there,
-                         const Quad<Real>& velocity, const Quad<Real>& shear) {
+    const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Vec4<Real>& there,
+                         const Vec4<Real>& velocity, const Vec4<Real>& shear) {
         sums.add(gradient, borders, there, velocity, shear);
     };
     for_each_water_pair<pairs, 2>(model, slots, s, model.particles, add, water.position, water.velocity, water.shear);
-    const Quad<Real> moves = water.velocity[s];
+    const Vec4<Real> moves = water.velocity[s];
     const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sums.impulse();
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
 }
 
 /// What slot s moves with by the stages so far.
 template <class Real>
-__device__ Quad<Real> pushed_by_viscosity(const ModelView<Real>& model, const WaterArrays<Real>& water, int s) {
+__device__ Vec4<Real> pushed_by_viscosity(const ModelView<Real>& model, const WaterArrays<Real>& water, int s) {
     return model.plan.viscosity ? water.pushed[s] : water.velocity[s];
 }
 template <class Real>
-__device__ Quad<Real> pushed_by_forces(const ModelView<Real>& model, const WaterArrays<Real>& water, int s,
+__device__ Vec4<Real> pushed_by_forces(const ModelView<Real>& model, const WaterArrays<Real>& water, int s,
                                        bool fluid) {
     return model.plan.fluid_forces && fluid ? water.pushed[s] : pushed_by_viscosity(model, water, s);
 }
@@ -192,15 +192,15 @@ __device__ Quad<Real> pushed_by_forces(const ModelView<Real>& model, const Water
 template <class Real>
 __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> x = slots.at.state_position[s];
+    const Vec4<Real> x = slots.at.state_position[s];
     const Real number = slots.at.state_velocity[s].w;
     const bool fluid = number_in(number) < model.fluid;
-    const Quad<Real> pushed = pushed_by_forces(model, water, s, fluid);
+    const Vec4<Real> pushed = pushed_by_forces(model, water, s, fluid);
     Vec3<Real> with_gravity = xyz(pushed);
     if (pushed.w > 0) {
         Vec3<Real> gravity = fluid ? model.fluid_gravity : model.gravity;
         if (const auto& carried = model.water.carried; carried.any()) {
-            const Quad<Real> here = water.position[s];
+            const Vec4<Real> here = water.position[s];
             gravity = gravity - carried.acceleration(xyz(here), fluid, model.water.density, here.w, pushed.w);
         }
         with_gravity += slots.h * gravity;
@@ -212,7 +212,7 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
         there += physics::shift_of(water.density[s], xyz(water.crowding[s]), water.fastest_square[s], model.water.radius,
                                    model.water.spacing, slots.h);
     if (slots.shared().high)
-        there += clamped(slots.h * xyz(water.parting[s]), Real(physics::longest_parting) * model.water.spacing);
+        there += clamped(slots.h * xyz(water.parting[s]), Real(physics::max_separation) * model.water.spacing);
     const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
     slots.at.unsorted_position[s] = quad(there, x.w);
     slots.at.unsorted_velocity[s] = quad(v, number);
@@ -222,11 +222,11 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
 
 /// Lays E out for the neighbours.
 template <class Real>
-__device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+__device__ void lay_out_zeroth_order_correction(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> zeroth = water.zeroth[s];
-    const Real share = physics::relief_share(water.density[s], water.position[s].w, model.water.kernel);
-    water.relief[s] = quad(zeroth.w * share * xyz(zeroth), water.impulse_sum[s]);
+    const Vec4<Real> zeroth = water.zeroth[s];
+    const Real share = physics::zeroth_order_share(water.density[s], water.position[s].w, model.water.kernel);
+    water.zeroth_order_correction[s] = quad(zeroth.w * share * xyz(zeroth), water.impulse_sum[s]);
 }
 
 /// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
@@ -234,16 +234,16 @@ __device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& 
 template <Pairs pairs, class Real>
 __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s];
+    const Vec4<Real> here = water.position[s];
     Vec3<Real> given_back{}, weight{};
-    const auto gradient_at = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& there) {
+    const auto gradient_at = [&](std::size_t place, int other, unsigned borders, const Vec4<Real>& there) {
         if constexpr (pairs == Pairs::listed)
             return water.pair[place].value();
         else
             return GradientsOf<Real>(model, water, s).kept(borders, there, water.correction[other], water.shear[other]);
     };
-    const auto add = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& x, const Quad<Real>& relief) {
-        Vec3<Real> there = xyz(x), its = xyz(relief);
+    const auto add = [&](std::size_t place, int other, unsigned borders, const Vec4<Real>& x, const Vec4<Real>& zeroth_order_correction) {
+        Vec3<Real> there = xyz(x), its = xyz(zeroth_order_correction);
         if (borders != 0) {  // all at once: few warps have ghosts
             there = ghost_of(model.water, there, borders);
             its = turned(model.water.ghost_map[borders], its);
@@ -251,18 +251,18 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
                 Vec3<Real> gravity = model.water.weight_on_walls;
                 if (const auto& carried = model.water.carried; carried.any())
                     gravity = gravity - carried.part(xyz(x)) * carried.gravity;
-                weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
-                                                   relief.w) *
+                weight += physics::hydrostatic_ghost_impulse(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
+                                                   zeroth_order_correction.w) *
                           gradient_at(place, other, borders, x);
             }
         }
         given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * its;
     };
-    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.relief);
+    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.zeroth_order_correction);
     given_back = sum_of_lanes(given_back);
     weight = sum_of_lanes(weight);
     if (own_lane() != 0) return;
-    const Quad<Real> v = water.velocity[s];
+    const Vec4<Real> v = water.velocity[s];
     const Vec3<Real> push = (-v.w * here.w) * given_back;
     water.velocity[s] = quad(xyz(v) + push - v.w * weight, v.w);
     if (s >= model.fluid && v.w > 0) move_solid(model, slots, s, slots.h * push);
@@ -271,7 +271,7 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
 /// The fluid goes where its velocities take it.
 template <class Real>
 __device__ void move_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    const Quad<Real> base = slots.base()[s];
+    const Vec4<Real> base = slots.base()[s];
     if (!(base.w > 0)) return;
     Vec3<Real> v = xyz(slots.water.velocity[slots.water.slot_before[s]]);
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);

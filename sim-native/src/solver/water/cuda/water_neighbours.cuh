@@ -4,7 +4,7 @@
 #include <cuda/std/tuple>
 
 #include "found_neighbours.cuh"
-#include "solver/cuda/large/pair_gradient.cuh"
+#include "solver/cuda/grid/pair_gradient.cuh"
 #include "solver/solids/cuda/body_momentum.cuh"
 
 namespace natator::cuda {
@@ -49,7 +49,7 @@ __device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*..
 template <class Visit, class... Value>
 __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& there, const Visit& visit) {
     const int slot = static_cast<int>(entry & slot_mask);
-    const unsigned borders = entry >> most_slot_bits;
+    const unsigned borders = entry >> max_slot_bits;
     ::cuda::std::apply([&](const Value&... value) { visit(slot, borders, value...); }, there);
 }
 
@@ -103,7 +103,7 @@ __device__ void for_each_water_neighbour(const ModelView<Real>& model, const Slo
             array...);
     else
         for_each_found(
-            model, slots, s, end, true, own_lane(), [](int, const Quad<Real>& candidate) { return entry_of(candidate); },
+            model, slots, s, end, true, own_lane(), [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
             [&](unsigned entry) {
                 visit_entry(entry, values_at(entry, array...), [&](int slot, unsigned borders, const Value&... value) {
                     visit(std::size_t{0}, slot, borders, value...);

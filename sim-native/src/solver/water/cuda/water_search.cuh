@@ -59,7 +59,7 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     if (threadIdx.x == 0) longest = 0;
     constexpr int unrolled = 2;
     const bool wanted = slot < model.particles;
-    const auto stage = [&](int, bool near, int k, int candidate, const Quad<Real>&) {
+    const auto stage = [&](int, bool near, int k, int candidate, const Vec4<Real>&) {
         list[near && k < staged ? k : staged + lane] = candidate;
     };
     const int n = search_water<unrolled>(model, slots, slot, wanted, AllLanes(), stage);
@@ -76,7 +76,7 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     unsigned* const place = water.neighbour + static_cast<std::size_t>(max(first_row, 0)) * water_row + own * water_lists;
     const bool on_chip = longest <= staged;
     if (!on_chip && first_row >= 0) {
-        const auto keep = [&](int, bool near, int k, int candidate, const Quad<Real>&) {
+        const auto keep = [&](int, bool near, int k, int candidate, const Vec4<Real>&) {
             if (near) place[place_of(k)] = candidate;
         };
         search_water<unrolled>(model, slots, slot, wanted, AllLanes(), keep);
@@ -85,7 +85,7 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     const Vec3<Real> x = xyz(water.position[min(slot, model.particles - 1)]);
     physics::MomentSums<Real> sums;
     for (int k = lane, at = reversed_list(lane); k < kept; k += water_lists, at += water_row) {
-        const Quad<Real> other = water.candidate[on_chip ? list[k] : place[at]];
+        const Vec4<Real> other = water.candidate[on_chip ? list[k] : place[at]];
         const unsigned entry = entry_of(other);
         place[at] = entry;
         sums.add(x - xyz(other), model.water.kernel, model.water.at_spacing, volume_at(model, slots, entry & slot_mask));
@@ -100,9 +100,9 @@ __device__ void measure_moments(const ModelView<Real>& model, const Slots<Real>&
     const Vec3<Real> x = xyz(water.position[s]);
     physics::MomentSums<Real> sums;
     const int n = for_each_found(
-        model, slots, s, model.particles, true, own_lane(), [](int k, const Quad<Real>&) { return k; },
+        model, slots, s, model.particles, true, own_lane(), [](int k, const Vec4<Real>&) { return k; },
         [&](int k) {
-            const Quad<Real> other = water.candidate[k];
+            const Vec4<Real> other = water.candidate[k];
             sums.add(x - xyz(other), model.water.kernel, model.water.at_spacing,
                      volume_at(model, slots, entry_of(other) & slot_mask));
         });

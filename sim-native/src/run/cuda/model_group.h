@@ -9,7 +9,7 @@
 namespace natator::cuda {
 
 /// Members whose Models differ in nothing but where their water begins.
-struct Company {
+struct ModelGroup {
     Model model;                                        ///< what the device knows of all of them
     std::map<int, std::vector<Eigen::Vector3d>> begin;  ///< places of the particles, by arrangement
     std::vector<BatchMember> members{};
@@ -22,6 +22,6 @@ int arrangement_of(const BatchMember& member, const Scene& scene);
 /// Where nothing but the water's places depends on its arrangement, the device gets the Model of the usual one whatever the
 /// members', so that a member's bits do not depend on its company. An arrangement that asks for more substeps, say, stays
 /// alone.
-std::vector<Company> companies(const Scene& scene, const Model& model, const std::vector<BatchMember>& members);
+std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, const std::vector<BatchMember>& members);
 
 }  // namespace natator::cuda

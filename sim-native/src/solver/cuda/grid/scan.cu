@@ -8,7 +8,7 @@ namespace natator::cuda {
 namespace {
 
 constexpr int scan_threads = 1024, scan_items = 8, tile = scan_threads * scan_items;
-constexpr int most_by_block = 4 * tile;  // more are faster by several
+constexpr int max_by_block = 4 * tile;  // more are faster by several
 
 constexpr int tiles_of(int count) {
     return (count + tile - 1) / tile;
@@ -82,7 +82,7 @@ std::size_t scan_bytes(int count, int arrays) {
 
 void exclusive_scan(int* values, int count, int arrays, std::size_t stride, void* room, cudaStream_t stream) {
     const dim3 by_array{1, static_cast<unsigned>(arrays)};
-    if (count <= most_by_block) {
+    if (count <= max_by_block) {
         scan_by_block<<<by_array, scan_threads, 0, stream>>>(values, count, stride);
         return;
     }

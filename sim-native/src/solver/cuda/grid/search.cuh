@@ -73,7 +73,7 @@ __device__ void list_contacts_of_fluid(const ModelView<Real>& model, const Slots
 /// Lists fluid neighbours, contacts and planes of a fluid slot. Walls of water are mirrors.
 template <class Real>
 __device__ void find_neighbours_of_fluid(const ModelView<Real>& model, const Slots<Real>& slots, int s, int* staging) {
-    const Quad<Real> here = slots.base()[s];
+    const Vec4<Real> here = slots.base()[s];
     const Vec3<Real> x = xyz(here);
     if (model.plan.fluid) slots.neighbour_count()[s] = list_fluid_neighbours(model, slots, s, x, staging);
     if (model.plan.contacts) {

@@ -1,4 +1,4 @@
-#include "carried_weight.h"
+#include "background_pressure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,9 @@
 namespace natator {
 namespace {
 
-constexpr double most_weight = 2;         ///< largest g H h^2 / s^2 that a pass supports, per density excess
+constexpr double max_weight = 2;         ///< largest g H h^2 / s^2 that a pass supports, per density excess
 constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes support: all of it oscillates at some depths
-constexpr double least_supports = 1.5;    ///< least depth that is left to the passes, in kernel supports
+constexpr double min_supports = 1.5;    ///< least depth that is left to the passes, in kernel supports
 
 /// The axis along which gravity is largest; the floor is normal to it.
 int upright_axis(const Eigen::Vector3d& gravity) {
@@ -47,24 +47,24 @@ double pushed_sideways(const Model& model) {
     return pushed / weight.norm();
 }
 
-double least_solved_of(const Model& model, double all) {
-    return may_carry(model, all) ? std::min(all, least_supports * support(model) + pushed_sideways(model)) : all;
+double min_solved_of(const Model& model, double all) {
+    return may_carry(model, all) ? std::min(all, min_supports * support(model) + pushed_sideways(model)) : all;
 }
 
 /// Largest H h^2 that the pressure passes can support, per unit of the density excess that they may remove, length s^2.
-double held_by_passes(const Model& model) {
+double max_solved_depth(const Model& model) {
     const SolverParameters& p = model.parameters;
     const int passes = physics::divergence_passes + p.numIterations;
-    return most_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
+    return max_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
 }
 
 /// The depth D that is left to the passes, length: a share of the one at which longest_substep is the Model's, within limits.
 double solved_of(const Model& model, double all) {
-    if (!(least_solved_of(model, all) < all)) return all;
+    if (!(min_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
-    const double h = model.time_step / p.substeps, least = least_supports * support(model);
+    const double h = model.time_step / p.substeps, least = min_supports * support(model);
     const double shallow = physics::shallow_layers * p.fluidRestDistance;
-    const double held = held_by_passes(model) / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
+    const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, fastest_expansion(p, shallow));
     const double most = std::min(solved_share * held, held - pushed_sideways(model));
     return std::min(all, std::max(least, std::min(most, shallow)));
 }
@@ -122,19 +122,19 @@ double weight_on_walls(const Model& model) {
     return gravity_on_walls(model).norm() * std::max(1.0, std::abs(model.parameters.buoyancy));
 }
 
-/// A pass supports g H h^2/s^2 = most_weight times the density excess that it may remove.
+/// A pass supports g H h^2/s^2 = max_weight times the density excess that it may remove.
 double longest_substep(const Model& model, double depth) {
     const SolverParameters& p = model.parameters;
-    const double held = held_by_passes(model) / depth;
-    return std::min(std::sqrt(held * physics::most_excess), held * fastest_expansion(p, depth));
+    const double held = max_solved_depth(model) / depth;
+    return std::min(std::sqrt(held * physics::max_excess), held * fastest_expansion(p, depth));
 }
 
-double least_solved_depth(const Model& model) { return least_solved_of(model, depth(model)); }
+double min_solved_depth(const Model& model) { return min_solved_of(model, depth(model)); }
 
 double solved_depth(const Model& model) { return solved_of(model, depth(model)); }
 
 template <class Real>
-physics::CarriedWeight<Real> carried_weight(const Model& model) {
+physics::CarriedWeight<Real> background_pressure(const Model& model) {
     const double all = depth(model);
     if (!may_carry(model, all)) return {};
     const Eigen::Vector3d gravity = weight_of(model);
@@ -164,7 +164,7 @@ physics::CarriedWeight<Real> carried_weight(const Model& model) {
             .width = static_cast<Real>(reach)};
 }
 
-template physics::CarriedWeight<float> carried_weight(const Model&);
-template physics::CarriedWeight<double> carried_weight(const Model&);
+template physics::CarriedWeight<float> background_pressure(const Model&);
+template physics::CarriedWeight<double> background_pressure(const Model&);
 
 }  // namespace natator

@@ -38,30 +38,30 @@ struct LargeLaunch {
     }
 
     /// Calls work(model, slots, s, more...) for the slots s below `count` of each State, by `lanes` threads each.
-    template <auto work, int lanes = 1, int most_threads = large_threads, int least_blocks = 0, class... More>
+    template <auto work, int lanes = 1, int max_threads = grid_threads, int min_blocks = 0, class... More>
     void each_slot(int count, More... more) const {
-        const int threads = count * lanes, block = block_for(threads, most_threads);
+        const int threads = count * lanes, block = block_for(threads, max_threads);
         if (count > 0)
-            for_each_slot<work, Of::running, lanes, most_threads, least_blocks>
+            for_each_slot<work, Of::running, lanes, max_threads, min_blocks>
                 <<<grid(blocks_for(threads, block)), block, 0, stream>>>(model, slots, count, more...);
     }
-    template <auto work, int least_blocks = 0>
+    template <auto work, int min_blocks = 0>
     void each_particle() const {
-        each_slot<work, 1, large_threads, least_blocks>(model.particles);
+        each_slot<work, 1, grid_threads, min_blocks>(model.particles);
     }
     /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many slots there are.
     template <auto work, int lanes>
     void each_crowded_slot(int count) const {
         constexpr int filling = 2048;
-        const int blocks = std::min(blocks_for(count * lanes, large_threads), blocks_for(filling, states));
+        const int blocks = std::min(blocks_for(count * lanes, grid_threads), blocks_for(filling, states));
         if (count > 0)
-            for_each_crowded_slot<work, Of::running, lanes, large_threads>
-                <<<grid(blocks), large_threads, 0, stream>>>(model, slots, count);
+            for_each_crowded_slot<work, Of::running, lanes, grid_threads>
+                <<<grid(blocks), grid_threads, 0, stream>>>(model, slots, count);
     }
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.
-    template <auto work, int block = large_threads, int least_blocks = 0, class... More>
+    template <auto work, int block = grid_threads, int min_blocks = 0, class... More>
     void each_state(int blocks, More... more) const {
-        for_each_state<work, Of::running, block, least_blocks>
+        for_each_state<work, Of::running, block, min_blocks>
             <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
     }
     /// Has a block so many bytes on its chip?
@@ -79,18 +79,18 @@ struct LargeLaunch {
         kernel<<<grid(1), block, bytes, stream>>>(model, slots, more...);
     }
     /// The same by at least so many threads for each State.
-    template <auto work, int most_threads = large_threads, int least_blocks = 0, class... More>
+    template <auto work, int max_threads = grid_threads, int min_blocks = 0, class... More>
     void each_thread(int threads, More... more) const {
-        const int block = block_for(threads, most_threads);
-        for_each_state<work, Of::running, most_threads, least_blocks>
+        const int block = block_for(threads, max_threads);
+        for_each_state<work, Of::running, max_threads, min_blocks>
             <<<grid(blocks_for(threads, block)), block, 0, stream>>>(model, slots, more...);
     }
     /// The same for what is asked about all States, also those that are not advanced any more.
     template <auto work, class... More>
     void report_slots(int count, More... more) const {
         if (count > 0)
-            for_each_slot<work, Of::all, 1, large_threads, 0>
-                <<<grid(blocks_for(count, large_threads)), large_threads, 0, stream>>>(model, slots, count, more...);
+            for_each_slot<work, Of::all, 1, grid_threads, 0>
+                <<<grid(blocks_for(count, grid_threads)), grid_threads, 0, stream>>>(model, slots, count, more...);
         check(cudaGetLastError(), "launch");
     }
     template <auto work, int block>
@@ -131,11 +131,11 @@ void launch_find_neighbours(const LargeLaunch<Real>& launch);
 
 /// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
 template <class Real>
-void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row);
+void record_positions(const LargeLaunch<Real>& launch, Vec4<Real>* to, int row);
 
 /// Places of the body's particles as the State has them, in the order of Body::particles, by State.
 template <class Real>
-void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places);
+void launch_body_places(const LargeLaunch<Real>& launch, Vec4<Real>* places);
 /// Densities of the fluid and numbers of neighbours, by State and number, as the last substep left them.
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density);
@@ -174,7 +174,7 @@ struct LaunchStages {
     const LargeLaunch<Real>& launch;
     const ModelView<Real>& model = launch.model;
     const Slots<Real>& slots = launch.slots;
-    int blocks = blocks_for(model.particles, large_threads);
+    int blocks = blocks_for(model.particles, grid_threads);
     int iteration = 0;
 
     void predict() { launch_predict<Real, scheme>(launch); }

@@ -11,9 +11,9 @@
 
 namespace natator::cuda {
 
-inline constexpr int most_law_blocks = 32;
+inline constexpr int max_law_blocks = 32;
 /// How many blocks look at the laws of a State, the same for a Model in any company.
-inline int law_blocks(int particles) { return std::clamp(particles / 1024, 1, most_law_blocks); }
+inline int law_blocks(int particles) { return std::clamp(particles / 1024, 1, max_law_blocks); }
 
 /// What the kernels of a large State tell each other and the host.
 template <class Real>
@@ -26,7 +26,7 @@ struct LargeShared : Shared<Real> {
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
-    physics::LawMeasures laws[most_law_blocks];  ///< of the particles that a block of threads has looked at
+    physics::LawMeasures laws[max_law_blocks];  ///< of the particles that a block of threads has looked at
 };
 
 /// Where a cluster of scheme conserving is, in double.
@@ -49,25 +49,25 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
 // Model.
 #define NATATOR_LARGE_ARRAYS(X)                                                                                       \
     /* The State, in the order of slots that the last substep left; w: inverse mass, and the number as an integer. */ \
-    X(Quad<Real>, state_position, all)                                                                                \
-    X(Quad<Real>, state_velocity, all)                                                                                \
+    X(Vec4<Real>, state_position, all)                                                                                \
+    X(Vec4<Real>, state_velocity, all)                                                                                \
     /* In the order before slots are numbered. */                                                                     \
     X(int, cell, all)                                                                                                 \
     X(std::uint64_t, keys, all) /* particle << 32 | slot before, cell by cell */                                      \
-    X(Quad<Real>, base, all)    /* predicted positions by slot */                                                     \
+    X(Vec4<Real>, base, all)    /* predicted positions by slot */                                                     \
     X(int, contact_row, plan.contacts && plan.fluid ? size.fluid : 0) /* of a touched slot's list, see ContactRoom */   \
-    X(Quad<Real>, change, plan.dissipation ? all : 0)                                                                 \
+    X(Vec4<Real>, change, plan.dissipation ? all : 0)                                                                 \
     /* Of solids, in scheme conserving. */                                                                            \
     X(int, constraint_count, turns ? all : 0)                                                                                   \
-    X(Quad<Real>, displacement, turns ? all : 0)                                                                      \
-    X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
+    X(Vec4<Real>, displacement, turns ? all : 0)                                                                      \
+    X(Vec4<Real>, internal, turns ? size.solids : 0)                                                                  \
     X(SpringTerms<Real>, spring_terms, turns ? size.springs : 0)                                                      \
-    X(Quad<Real>, spring_push, turns ? 2 * size.springs : 0) /* by share, see ModelView::spring_share */              \
+    X(Vec4<Real>, spring_push, turns ? 2 * size.springs : 0) /* by share, see ModelView::spring_share */              \
     X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
     X(Real, compliance, turns ? size.clusters : 0)                                                                    \
     X(ClusterPose, cluster_pose, turns ? size.clusters : 0)                                                           \
-    X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
-    X(Quad<Real>, cluster_push, turns ? size.members : 0) /* likewise, see ModelView::cluster_share */
+    X(Vec4<Real>, member_displacement, turns ? size.members : 0)                                                      \
+    X(Vec4<Real>, cluster_push, turns ? size.members : 0) /* likewise, see ModelView::cluster_share */
 
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
@@ -91,22 +91,22 @@ __device__ inline int place_of(unsigned neighbour) {
 }
 
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the slots of the
-// fluid. An entry is a slot with the set of borders that it is the ghost of: borders << most_slot_bits | slot.
+// fluid. An entry is a slot with the set of borders that it is the ghost of: borders << max_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
     X(int, table, plan.water ? size.water.grid.cells : 0) /* ends of the cells */                                       \
     X(int, first_row, (water + slots_of_row - 1) / slots_of_row) /* of the slots that share rows */                     \
     X(int, count, water) /* of neighbours */                                                                          \
-    X(Quad<Real>, position, water)   /* w: volume */                                                                  \
-    X(Quad<Real>, velocity, water)   /* w: inverse mass */                                                            \
-    X(Quad<Real>, pushed, water)     /* the same with the viscosity and effects of the substep */                     \
-    X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
-    X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
-    X(Quad<Real>, parting, plan.water ? all : 0) /* velocities that part overlaps; w: inverse mass, 0 for solids */   \
-    X(Quad<Real>, crowding, water)                                                                                    \
-    X(Quad<Real>, relief, 0)         /* in the same place, later: E_j times its relief_share; w: impulse_sum */       \
-    X(Quad<Real>, zeroth, water)     /* sum of G_ij; w: physics::relief */                                            \
-    X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
-    X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
+    X(Vec4<Real>, position, water)   /* w: volume */                                                                  \
+    X(Vec4<Real>, velocity, water)   /* w: inverse mass */                                                            \
+    X(Vec4<Real>, pushed, water)     /* the same with the viscosity and effects of the substep */                     \
+    X(Vec4<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
+    X(Vec4<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
+    X(Vec4<Real>, parting, plan.water ? all : 0) /* velocities that part overlaps; w: inverse mass, 0 for solids */   \
+    X(Vec4<Real>, crowding, water)                                                                                    \
+    X(Vec4<Real>, zeroth_order_correction, 0)         /* in the same place, later: E_j times its zeroth_order_share; w: impulse_sum */       \
+    X(Vec4<Real>, zeroth, water)     /* sum of G_ij; w: physics::zeroth_order_correction */                                            \
+    X(Vec4<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
+    X(Vec4<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \
     X(Real, fastest_square, water) /* largest |v_j - v_i|^2 */                                                        \
     X(Real, response, water)                                                                                          \
@@ -115,7 +115,7 @@ __device__ inline int place_of(unsigned neighbour) {
     X(Real, impulse, water)                                                                                           \
     X(int, slot_before, water) /* by slot of this substep */                                                          \
     X(int, slot_of_solid, plan.water ? size.solids : 0)                                                               \
-    X(Quad<Real>, impulse_on, keeps_forces ? size.solids : 0) /* of the water, in the update so far; by solid */
+    X(Vec4<Real>, impulse_on, keeps_forces ? size.solids : 0) /* of the water, in the update so far; by solid */
 
 #define NATATOR_MEMBER(type, name, ...) type* name = nullptr;
 template <class Real>
@@ -132,7 +132,7 @@ struct WaterArrays {
     // By themselves, as their room may grow. Of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their
     // positions, w: the entry as an integer.
     std::uint64_t* keys = nullptr;
-    Quad<Real>* candidate = nullptr;
+    Vec4<Real>* candidate = nullptr;
     // Of neighbour k of slot s at [Slots::water_place(s) + place_of(k)].
     unsigned* neighbour = nullptr;  ///< entries
     PairGradient<Real>* pair = nullptr;
@@ -171,8 +171,8 @@ public:
 #undef NATATOR_ACCESSOR
     __device__ LargeShared<Real>& shared() const { return *at.shared; }
     __device__ Real* rest_length() const { return rest_lengths; }
-    __device__ Quad<Real>* new_velocity() const { return at.state_velocity; }
-    __device__ Quad<Real>* end_position() const { return at.state_position; }
+    __device__ Vec4<Real>* new_velocity() const { return at.state_velocity; }
+    __device__ Vec4<Real>* end_position() const { return at.state_position; }
 
     /// State k of those that lie side by side.
     __host__ __device__ Slots state(unsigned k) const {

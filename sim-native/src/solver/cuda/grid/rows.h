@@ -6,7 +6,7 @@ namespace natator::cuda {
 
 /// The most bytes from one row to the next that CUDA takes in one copy (cudaDeviceProp::memPitch); the arrays of a
 /// State of some million particles are further apart.
-inline constexpr std::size_t most_pitch = 0x7fffffff;
+inline constexpr std::size_t max_pitch = 0x7fffffff;
 
 /// Copies a row of `count` on the device, to it or from it.
 template <class T>
@@ -20,7 +20,7 @@ void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_str
                cudaStream_t stream) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes == 0) return;
-    if (rows > 1 && to_stride <= most_pitch && from_stride <= most_pitch) {
+    if (rows > 1 && to_stride <= max_pitch && from_stride <= max_pitch) {
         check(cudaMemcpy2DAsync(to, to_stride, from, from_stride, bytes, rows, cudaMemcpyDeviceToDevice, stream),
               "copy");
         return;
@@ -37,7 +37,7 @@ template <class T>
 void clear_rows(T* rows_begin, std::size_t stride, std::size_t count, int rows, cudaStream_t stream) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes == 0) return;
-    if (rows > 1 && stride <= most_pitch) {
+    if (rows > 1 && stride <= max_pitch) {
         check(cudaMemset2DAsync(rows_begin, stride, 0, bytes, rows, stream), "clear");
         return;
     }

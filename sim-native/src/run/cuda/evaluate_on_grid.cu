@@ -1,4 +1,4 @@
-#include "evaluate_large.h"
+#include "evaluate_on_grid.h"
 
 #include <algorithm>
 #include <future>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "large_scene.h"
+#include "grid_scene.h"
 #include "parts.h"
 
 namespace natator::cuda {
@@ -14,7 +14,7 @@ namespace {
 
 /// Side by side. While one waits for what takes long but is little, such as the solids of its States, the water of the others
 /// fills the GPU.
-constexpr int most_streams = 3;
+constexpr int max_streams = 3;
 /// Of all streams together: so many fill a GPU; more at a time only take more memory.
 constexpr int particles_at_a_time = 2'000'000;
 
@@ -22,7 +22,7 @@ constexpr int particles_at_a_time = 2'000'000;
 template <class Real>
 class Stream {
 public:
-    Stream(const Scene& scene, const Company& company, SettledStarts<Real>& starts, const Parts& parts, int number,
+    Stream(const Scene& scene, const ModelGroup& company, SettledStarts<Real>& starts, const Parts& parts, int number,
            WaterLists lists, const BatchOptions& options)
         : parts_(parts),
           number_(number),
@@ -41,7 +41,7 @@ private:
     const Parts& parts_;
     int number_;
     BatchTimes times_;
-    LargeScene<Real> large_;
+    GridScene<Real> large_;
     std::vector<std::vector<Evaluation>> evaluations_;  ///< by part, of its own
 };
 
@@ -61,7 +61,7 @@ void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchT
 }
 
 template <class Real>
-std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, const Parts& parts, WaterLists lists,
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const ModelGroup& company, const Parts& parts, WaterLists lists,
                                           const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
@@ -86,9 +86,9 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
 
 /// Where there is not the memory for it, fewer at a time, and one by itself without lists. Stages are timed in one stream, as those of two overlap.
 template <class Real>
-std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, const BatchOptions& options) {
+std::vector<Evaluation> evaluate_company(const Scene& scene, const ModelGroup& company, const BatchOptions& options) {
     const int members = static_cast<int>(company.members.size());
-    int streams = options.times && options.times->profile ? 1 : most_streams;
+    int streams = options.times && options.times->profile ? 1 : max_streams;
     int most = particles_at_a_time / streams / company.model.particles() + 1;
     WaterLists lists = options.without_lists ? WaterLists::never : WaterLists::always;
     for (;;) {
@@ -108,10 +108,10 @@ std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& comp
 }  // namespace
 
 template <class Real>
-std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
+std::vector<Evaluation> evaluate_on_grid(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                        const BatchOptions& options) {
     std::vector<Evaluation> evaluations(members.size());
-    for (const Company& company : companies(scene, model, members)) {
+    for (const ModelGroup& company : model_groups(scene, model, members)) {
         if (company.members.empty()) continue;
         const std::vector<Evaluation> own = evaluate_company<Real>(scene, company, options);
         for (std::size_t k = 0; k < own.size(); ++k) evaluations[company.numbers[k]] = own[k];
@@ -119,9 +119,9 @@ std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, c
     return evaluations;
 }
 
-template std::vector<Evaluation> evaluate_large<float>(const Scene&, const Model&, const std::vector<BatchMember>&,
+template std::vector<Evaluation> evaluate_on_grid<float>(const Scene&, const Model&, const std::vector<BatchMember>&,
                                                        const BatchOptions&);
-template std::vector<Evaluation> evaluate_large<double>(const Scene&, const Model&, const std::vector<BatchMember>&,
+template std::vector<Evaluation> evaluate_on_grid<double>(const Scene&, const Model&, const std::vector<BatchMember>&,
                                                         const BatchOptions&);
 
 }  // namespace natator::cuda

@@ -14,8 +14,8 @@ __device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real>
 /// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
 template <Scheme scheme, class Real>
 __device__ void predict_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    Quad<Real> x = slots.at.state_position[s];
-    const Quad<Real> before = slots.at.state_velocity[s];
+    Vec4<Real> x = slots.at.state_position[s];
+    const Vec4<Real> before = slots.at.state_velocity[s];
     const bool fluid = number_in(before.w) < model.fluid;
     if (scheme == Scheme::conserving && x.w > 0) {
         x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
@@ -48,7 +48,7 @@ __device__ void order_in_cells(const ModelView<Real>& model, const Slots<Real>& 
     const int begin = cell > 0 ? at.table[cell - 1] : 0, end = at.table[cell];
     int s = begin;
     for (int other = begin; other < end; ++other) s += at.keys[other] < key;
-    const Quad<Real> there = at.unsorted_position[before];
+    const Vec4<Real> there = at.unsorted_position[before];
     at.start[s] = at.state_position[before];
     at.predicted_velocity[s] = quad(xyz(at.unsorted_velocity[before]), there.w);
     at.position[s] = at.base[s] = there;

@@ -14,10 +14,10 @@ namespace natator::cuda {
 /// Values that several threads need: each is made by the first that needs it, while others that do wait, and is forgotten with
 /// the last need. For several threads.
 template <class Key, class Value>
-class MadeOnce {
+class SharedOnce {
 public:
     /// Each key as often as it is needed.
-    explicit MadeOnce(const std::vector<Key>& needs) {
+    explicit SharedOnce(const std::vector<Key>& needs) {
         for (const Key& key : needs) ++places_[key].needs;
     }
 

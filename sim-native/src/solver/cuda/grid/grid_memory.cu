@@ -1,4 +1,4 @@
-#include "large_memory.h"
+#include "grid_memory.h"
 
 #include <algorithm>
 #include <bit>
@@ -29,7 +29,7 @@ Real as_quad_number(int i) {
 template <class Real>
 int usual_copies(const ModelView<Real>& size) {
     const double particles = size.particles;
-    return static_cast<int>(std::min(size.water.most_copies * particles, particles + 20 * std::pow(particles, 2.0 / 3)));
+    return static_cast<int>(std::min(size.water.max_copies * particles, particles + 20 * std::pow(particles, 2.0 / 3)));
 }
 
 /// A new array in a buffer, in place of the old one: both are never there.
@@ -43,7 +43,7 @@ void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
 }  // namespace
 
 template <class Real>
-LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states,
+GridMemory<Real>::GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states,
                                const LargeOptions& options, cudaStream_t stream)
     : model_(model),
       device_model_(device_model),
@@ -55,8 +55,8 @@ LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& devi
     slots_.room = options.room;
     allocate(options.keeps_forces);
     const std::size_t particles = view_.particles;
-    before_.position = DeviceBuffer<Quad<Real>>(states * particles);
-    before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
+    before_.position = DeviceBuffer<Vec4<Real>>(states * particles);
+    before_.velocity = DeviceBuffer<Vec4<Real>>(states * particles);
     before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(view_.clusters));
     if (!view_.plan.water) return;
     make_room_for_copies(usual_copies(view_));
@@ -66,7 +66,7 @@ LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& devi
 
 /// The arrays of a State one behind the other, and so for each State.
 template <class Real>
-void LargeMemory<Real>::allocate(bool keeps_forces) {
+void GridMemory<Real>::allocate(bool keeps_forces) {
     const ModelView<Real>& size = view_;
     const Plan& plan = size.plan;
     const bool turns = size.scheme != Scheme::flex;
@@ -108,18 +108,18 @@ void LargeMemory<Real>::allocate(bool keeps_forces) {
 /// What the water needs for a part of a substep lies where something else does in another. Only solids are touched, whose slots come
 /// last.
 template <class Real>
-void LargeMemory<Real>::share_places() {
+void GridMemory<Real>::share_places() {
     StateArrays<Real>& at = slots_.at;
     WaterArrays<Real>& water = slots_.water;
     at.unsorted_position = water.pushed;
-    at.unsorted_velocity = water.relief = water.crowding;
+    at.unsorted_velocity = water.zeroth_order_correction = water.crowding;
     at.next = water.parting;
     at.contact_push -= view_.fluid;
 }
 
 /// Lists with so many rows, or none. Without the memory for them nothing has changed, but that the old ones are gone.
 template <class Real>
-void LargeMemory<Real>::list_water(int rows) {
+void GridMemory<Real>::list_water(int rows) {
     if (lists_ == WaterLists::never) return;
     try {
         make_room_for_rows(rows);
@@ -132,7 +132,7 @@ void LargeMemory<Real>::list_water(int rows) {
 
 /// In the water's lists of each State.
 template <class Real>
-void LargeMemory<Real>::make_room_for_rows(int rows) {
+void GridMemory<Real>::make_room_for_rows(int rows) {
     const std::size_t entries = static_cast<std::size_t>(rows) * water_row * states_;
     slots_.water_room.lists = rows;
     renew(neighbour_room_, entries, slots_.water.neighbour);
@@ -141,7 +141,7 @@ void LargeMemory<Real>::make_room_for_rows(int rows) {
 
 /// Of the water's particles in each State: themselves and their ghosts.
 template <class Real>
-void LargeMemory<Real>::make_room_for_copies(int copies) {
+void GridMemory<Real>::make_room_for_copies(int copies) {
     const std::size_t all = static_cast<std::size_t>(copies) * states_;
     slots_.water_room.copies = copies;
     renew(key_room_, all, slots_.water.keys);
@@ -150,14 +150,14 @@ void LargeMemory<Real>::make_room_for_copies(int copies) {
 
 /// Likewise in the lists of scheme flex.
 template <class Real>
-void LargeMemory<Real>::make_room_in_fluid(int neighbours) {
+void GridMemory<Real>::make_room_in_fluid(int neighbours) {
     slots_.chunks = (neighbours + 3) / 4;
     slots_.list_chunks = static_cast<std::size_t>(blocks_for(view_.fluid, 32)) * 32 * slots_.chunks;
     renew(chunk_room_, slots_.list_chunks * states_, slots_.at.neighbour);
 }
 
 template <class Real>
-void LargeMemory<Real>::make_room(ListRoom needed) {
+void GridMemory<Real>::make_room(ListRoom needed) {
     if (needed.copies > room().copies) make_room_for_copies(needed.copies);
     if (needed.lists <= room().lists) return;
     if (view_.plan.water)
@@ -167,7 +167,7 @@ void LargeMemory<Real>::make_room(ListRoom needed) {
 }
 
 template <class Real>
-void LargeMemory<Real>::keep_before() const {
+void GridMemory<Real>::keep_before() const {
     const auto keep = [&](const auto& to, const auto* from, std::size_t count) {
         copy_rows(to.data(), count * sizeof *from, from, slots_.stride, count, states_, stream_);
     };
@@ -177,7 +177,7 @@ void LargeMemory<Real>::keep_before() const {
 }
 
 template <class Real>
-void LargeMemory<Real>::restore_before(int k) const {
+void GridMemory<Real>::restore_before(int k) const {
     const Slots<Real> slots = slots_.state(k);
     const auto restore = [&](auto* to, const auto& from, std::size_t count) {
         copy_row(to, from.data() + k * count, count, stream_);
@@ -188,15 +188,15 @@ void LargeMemory<Real>::restore_before(int k) const {
 }
 
 template <class Real>
-void LargeMemory<Real>::wait() const {
+void GridMemory<Real>::wait() const {
     check(cudaStreamSynchronize(stream_), "run");
 }
 
 template <class Real>
-void LargeMemory<Real>::upload(int k, const State<Real>& state) const {
+void GridMemory<Real>::upload(int k, const State<Real>& state) const {
     const std::vector<int>& number_of = device_model_.number_of();
     const std::size_t particles = number_of.size();
-    std::vector<Quad<Real>> position(particles), velocity(particles);
+    std::vector<Vec4<Real>> position(particles), velocity(particles);
     for (std::size_t i = 0; i < particles; ++i) {
         const Vector3<Real>&x = state.position[i], &v = state.velocity[i];
         const int number = number_of[i];
@@ -221,9 +221,9 @@ void LargeMemory<Real>::upload(int k, const State<Real>& state) const {
 }
 
 template <class Real>
-State<Real> LargeMemory<Real>::download(int k, const State<Real>& like) const {
+State<Real> GridMemory<Real>::download(int k, const State<Real>& like) const {
     const std::size_t particles = view_.particles;
-    std::vector<Quad<Real>> position(particles), velocity(particles);
+    std::vector<Vec4<Real>> position(particles), velocity(particles);
     std::vector<ClusterFit<Real>> fits(view_.clusters);
     const Slots<Real> slots = slots_.state(k);
     const StateArrays<Real>& at = slots.at;
@@ -242,12 +242,12 @@ State<Real> LargeMemory<Real>::download(int k, const State<Real>& like) const {
 }
 
 template <class Real>
-void LargeMemory<Real>::set_idle(const std::vector<bool>& idle) {
+void GridMemory<Real>::set_idle(const std::vector<bool>& idle) {
     idle_.assign(idle.begin(), idle.end());
     device_idle_.upload(idle_);
 }
 
-template class LargeMemory<float>;
-template class LargeMemory<double>;
+template class GridMemory<float>;
+template class GridMemory<double>;
 
 }  // namespace natator::cuda

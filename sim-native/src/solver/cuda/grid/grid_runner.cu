@@ -1,4 +1,4 @@
-#include "large_runner.h"
+#include "grid_runner.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +10,7 @@
 namespace natator::cuda {
 
 template <class Real>
-struct LargeRunner<Real>::Graph {
+struct GridRunner<Real>::Graph {
     cudaGraphExec_t exec = nullptr;
     ~Graph() {
         if (exec) cudaGraphExecDestroy(exec);
@@ -30,7 +30,7 @@ struct Captured {
 }  // namespace
 
 template <class Real>
-LargeRunner<Real>::LargeRunner(const Model& model, int states, const LargeOptions& options)
+GridRunner<Real>::GridRunner(const Model& model, int states, const LargeOptions& options)
     : host_model_(model),
       device_model_(model, true),
       base_{.model = device_model_.view(),
@@ -47,10 +47,10 @@ LargeRunner<Real>::LargeRunner(const Model& model, int states, const LargeOption
 }
 
 template <class Real>
-LargeRunner<Real>::~LargeRunner() = default;
+GridRunner<Real>::~GridRunner() = default;
 
 template <class Real>
-void LargeRunner<Real>::make_room(ListRoom needed) {
+void GridRunner<Real>::make_room(ListRoom needed) {
     if (memory_.has_room(needed)) return;
     graphs_.clear();  // they know the old place
     memory_.make_room(needed);
@@ -59,7 +59,7 @@ void LargeRunner<Real>::make_room(ListRoom needed) {
 
 /// Was there room for what the last update found? If not, makes more than that.
 template <class Real>
-bool LargeRunner<Real>::had_room() {
+bool GridRunner<Real>::had_room() {
     ListRoom needed;
     for (int k = 0; k < base_.states; ++k) {
         needed.lists = std::max(needed.lists, end_[k].needed.lists);
@@ -72,19 +72,19 @@ bool LargeRunner<Real>::had_room() {
 }
 
 template <class Real>
-void LargeRunner<Real>::wait() const {
+void GridRunner<Real>::wait() const {
     check(cudaStreamSynchronize(base_.stream), "run");
 }
 
 template <class Real>
-void LargeRunner<Real>::upload(int k, const State<Real>& state) {
+void GridRunner<Real>::upload(int k, const State<Real>& state) {
     memory_.upload(k, state);
     muscles_[k].spring_rest_length = state.spring_rest_length;
 }
 
 /// Scheme flex sets the muscles once for a frame, the others for the end of every substep.
 template <class Real>
-void LargeRunner<Real>::set_muscles(const Update& update) {
+void GridRunner<Real>::set_muscles(const Update& update) {
     const std::size_t springs = base_.model.springs, of_state = springs * (update.substeps + 1);
     const std::size_t size = of_state * base_.states;
     if (size > rest_lengths_.size()) {
@@ -108,7 +108,7 @@ void LargeRunner<Real>::set_muscles(const Update& update) {
 }
 
 template <class Real>
-LargeLaunch<Real> LargeRunner<Real>::launch_of(const Update& update, int substep) const {
+LargeLaunch<Real> GridRunner<Real>::launch_of(const Update& update, int substep) const {
     LargeLaunch<Real> launch = base_;
     launch.slots.substep = substep;
     launch.slots.h = static_cast<Real>(update.time_step) / static_cast<Real>(update.substeps);
@@ -119,7 +119,7 @@ LargeLaunch<Real> LargeRunner<Real>::launch_of(const Update& update, int substep
 
 /// The first substeps of an update, whose rest lengths are there.
 template <class Real>
-void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
+void GridRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
                                         const Trace<Real>& trace) const {
     check(cudaMemsetAsync(base_.slots.at.shared, 0xff, base_.states * sizeof(LargeShared<Real>), base_.stream), "clear");
     if (base_.keeps_forces)
@@ -135,7 +135,7 @@ void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, Stag
 }
 
 template <class Real>
-void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
+void GridRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
     const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
     copy_row(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
     memory_.keep_before();
@@ -147,7 +147,7 @@ void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Tr
 }
 
 template <class Real>
-cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
+cudaGraphExec_t GridRunner<Real>::graph_of(const Update& update) {
     std::unique_ptr<Graph>& known = graphs_[{update.time_step, update.substeps, update.settling}];
     if (known) return known->exec;
     Captured captured;
@@ -166,7 +166,7 @@ cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
 }
 
 template <class Real>
-void LargeRunner<Real>::prepare(const Update& update) {
+void GridRunner<Real>::prepare(const Update& update) {
     const std::vector<State<Real>> muscles = muscles_;
     set_muscles(update);
     muscles_ = muscles;  // the update itself is still to come
@@ -175,14 +175,14 @@ void LargeRunner<Real>::prepare(const Update& update) {
 }
 
 template <class Real>
-physics::LawMeasures LargeRunner<Real>::laws_of(int k) const {
+physics::LawMeasures GridRunner<Real>::laws_of(int k) const {
     physics::LawMeasures all;
     for (int block = 0; block < law_blocks(base_.model.particles); ++block) physics::add(all, end_[k].laws[block]);
     return all;
 }
 
 template <class Real>
-typename LargeRunner<Real>::End LargeRunner<Real>::end_of(int k) const {
+typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
     End end;
     end.laws = laws_of(k);
     end.mean_x = end_[k].mean_x;
@@ -197,7 +197,7 @@ typename LargeRunner<Real>::End LargeRunner<Real>::end_of(int k) const {
 }
 
 template <class Real>
-std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update& update, StageProfile* profile,
+std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& update, StageProfile* profile,
                                                                     const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
@@ -222,7 +222,7 @@ std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update
 
 /// Takes State k, which `update` has changed, to the start of a substep of it.
 template <class Real>
-void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
+void GridRunner<Real>::go_to(int k, int substep, const Update& update) {
     memory_.restore_before(k);
     wait();
     if (substep == 0) return;
@@ -236,7 +236,7 @@ void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
 }
 
 template <class Real>
-std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
+std::vector<typename GridRunner<Real>::Place> GridRunner<Real>::places() {
     launch_measure(base_);
     copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     wait();
@@ -246,15 +246,15 @@ std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
 }
 
 template <class Real>
-std::vector<Quad<Real>> LargeRunner<Real>::body_places() const {
-    const DeviceBuffer<Quad<Real>> places(std::size_t(base_.states) * base_.model.body);
+std::vector<Vec4<Real>> GridRunner<Real>::body_places() const {
+    const DeviceBuffer<Vec4<Real>> places(std::size_t(base_.states) * base_.model.body);
     launch_body_places(base_, places.data());
     wait();
     return places.download();
 }
 
 template <class Real>
-std::vector<Real> LargeRunner<Real>::densities() const {
+std::vector<Real> GridRunner<Real>::densities() const {
     if (!base_.model.plan.fluid && !base_.model.plan.water) return {};
     const DeviceBuffer<Real> densities(std::size_t(base_.states) * base_.model.fluid);
     launch_densities(base_, densities.data());
@@ -263,7 +263,7 @@ std::vector<Real> LargeRunner<Real>::densities() const {
 }
 
 template <class Real>
-std::vector<int> LargeRunner<Real>::neighbour_counts() const {
+std::vector<int> GridRunner<Real>::neighbour_counts() const {
     const DeviceBuffer<int> counts(std::size_t(base_.states) * base_.model.particles);
     launch_neighbour_counts(base_, counts.data());
     wait();
@@ -271,7 +271,7 @@ std::vector<int> LargeRunner<Real>::neighbour_counts() const {
 }
 
 template <class Real>
-std::vector<Real> LargeRunner<Real>::pressures(Real h) const {
+std::vector<Real> GridRunner<Real>::pressures(Real h) const {
     if (!base_.model.plan.water) return {};
     const DeviceBuffer<Real> pressures(std::size_t(base_.states) * base_.model.fluid);
     LargeLaunch<Real> launch = base_;
@@ -282,18 +282,18 @@ std::vector<Real> LargeRunner<Real>::pressures(Real h) const {
 }
 
 template <class Real>
-std::vector<Quad<Real>> LargeRunner<Real>::impulses_on_solids() const {
+std::vector<Vec4<Real>> GridRunner<Real>::impulses_on_solids() const {
     if (!base_.keeps_forces) return {};
     const std::size_t solids = base_.model.solids;
-    const DeviceBuffer<Quad<Real>> impulses(base_.states * solids);
-    copy_rows(impulses.data(), solids * sizeof(Quad<Real>), base_.slots.water.impulse_on, base_.slots.stride, solids,
+    const DeviceBuffer<Vec4<Real>> impulses(base_.states * solids);
+    copy_rows(impulses.data(), solids * sizeof(Vec4<Real>), base_.slots.water.impulse_on, base_.slots.stride, solids,
               base_.states, base_.stream);
     wait();
     return impulses.download();
 }
 
 template <class Real>
-double LargeRunner<Real>::fetch_seconds(Fetch what) const {
+double GridRunner<Real>::fetch_seconds(Fetch what) const {
     constexpr int launches = 20;
     const DeviceBuffer<Real> sums(std::size_t(base_.states) * base_.model.particles);
     double least = std::numeric_limits<double>::infinity();
@@ -308,7 +308,7 @@ double LargeRunner<Real>::fetch_seconds(Fetch what) const {
     return least;
 }
 
-template class LargeRunner<float>;
-template class LargeRunner<double>;
+template class GridRunner<float>;
+template class GridRunner<double>;
 
 }  // namespace natator::cuda

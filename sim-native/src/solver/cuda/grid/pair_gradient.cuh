@@ -7,7 +7,7 @@ namespace natator::cuda {
 /// G_ij as the water's lists keep it: as it is, or packed where it is of floats.
 template <class Real>
 struct PairGradient {
-    Quad<Real> kept;
+    Vec4<Real> kept;
 
     /// A gradient as it is kept; it becomes what value() gives.
     __device__ static PairGradient keep(const Vec3<Real>& gradient) { return {quad(gradient, Real(0))}; }
@@ -24,7 +24,7 @@ struct PairGradient<float> {
     /// A gradient as it is kept; it becomes what value() gives.
     __device__ static PairGradient keep(Vec3<float>& gradient) {
         const float largest = fmaxf(fmaxf(fabsf(gradient.x), fabsf(gradient.y)), fabsf(gradient.z));
-        const int exponent = min(max(static_cast<int>(__float_as_uint(largest) >> 23) - least_exponent, 0), 127);
+        const int exponent = min(max(static_cast<int>(__float_as_uint(largest) >> 23) - min_exponent, 0), 127);
         const unsigned upper = static_cast<unsigned>(exponent) << 25;
         const float one = unit(upper), to_integer = __uint_as_float((254u << 23) - __float_as_uint(one));  // 1 / one
         const auto whole = [&](float component) {
@@ -44,11 +44,11 @@ struct PairGradient<float> {
 private:
     static constexpr int most = (1 << 18) - 1;
     static constexpr float zero = (1 << 23) + (1 << 18);  ///< what stands for 0: floats of 2^23 and more have no fraction
-    static constexpr int least_exponent = 40;  // of 2^-87
+    static constexpr int min_exponent = 40;  // of 2^-87
 
     /// What the integers count: 2^-17 of the power of two at or below the largest component. Of the upper word.
     __device__ static float unit(unsigned upper) {
-        return __uint_as_float((upper >> 2 & 0x3f800000u) + (static_cast<unsigned>(least_exponent - 17) << 23));
+        return __uint_as_float((upper >> 2 & 0x3f800000u) + (static_cast<unsigned>(min_exponent - 17) << 23));
     }
     __device__ static unsigned last_bits(float integer) { return __float_as_uint(integer) & 0x7ffffu; }
     /// The last 19 bits, in units of `one`.
@@ -60,7 +60,7 @@ private:
 /// u G, in the order that a state's hash stands for; of numbers in double it is dot's.
 template <class Real>
 __device__ Real along(const Vec3<Real>& gradient, const Vec3<Real>& u) {
-    return dot_as_everywhere(u, gradient);
+    return dot_unfused(u, gradient);
 }
 __device__ inline float along(const Vec3<float>& gradient, const Vec3<float>& u) {
     return __fmaf_rn(u.x, gradient.x, __fmaf_rn(u.z, gradient.z, u.y * gradient.y));

@@ -21,11 +21,11 @@ struct LargeOptions {
 
 /// The device memory of States of a Model side by side, and the way of States to it and back.
 template <class Real>
-class LargeMemory {
+class GridMemory {
 public:
     /// `device_model` is the copy of `model`; both must outlive it. All copies are asked of `stream`. Throws
     /// std::bad_alloc without memory for so many States.
-    LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const LargeOptions& options,
+    GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const LargeOptions& options,
                 cudaStream_t stream);
 
     /// Where everything lies: until the next make_room.
@@ -75,11 +75,11 @@ private:
     DeviceBuffer<LargeShared<Real>> shared_;
     DeviceBuffer<uint4> chunk_room_;
     DeviceBuffer<std::uint64_t> key_room_;
-    DeviceBuffer<Quad<Real>> candidate_room_;
+    DeviceBuffer<Vec4<Real>> candidate_room_;
     DeviceBuffer<unsigned> neighbour_room_;
     DeviceBuffer<PairGradient<Real>> pair_room_;
     struct {
-        DeviceBuffer<Quad<Real>> position, velocity;
+        DeviceBuffer<Vec4<Real>> position, velocity;
         DeviceBuffer<ClusterFit<Real>> fit;
     } before_;  ///< the States at an update's start
     std::vector<int> idle_;

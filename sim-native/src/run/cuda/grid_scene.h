@@ -14,16 +14,16 @@
 #include <vector>
 
 #include "busy_time.h"
-#include "company.h"
+#include "model_group.h"
 #include "evaluation.h"
-#include "kept_starts.h"
-#include "made_once.h"
+#include "device_state_cache.h"
+#include "shared_once.h"
 #include "natator/laws.h"
 #include "run/companions.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
 #include "run/swim_record.h"
-#include "solver/cuda/large/large_runner.h"
+#include "solver/cuda/grid/grid_runner.h"
 
 namespace natator::cuda {
 
@@ -55,14 +55,14 @@ struct Settled {
     Progress progress;
 };
 template <class Real>
-using SettledStarts = MadeOnce<Start, Settled<Real>>;
+using SettledStarts = SharedOnce<Start, Settled<Real>>;
 
 /// Evaluates as many members at a time as there are States side by side.
 template <class Real>
-class LargeScene {
+class GridScene {
 public:
     /// `starts` of all members of the company.
-    LargeScene(const Scene& scene, const Company& company, SettledStarts<Real>& starts, int states, WaterLists lists,
+    GridScene(const Scene& scene, const ModelGroup& company, SettledStarts<Real>& starts, int states, WaterLists lists,
                bool keeps_starts, BatchTimes* times)
         : scene_(scene),
           company_(company),
@@ -82,7 +82,7 @@ public:
         records_.clear();
         for (int k = 0; k < runner_.states(); ++k) records_.emplace_back(scene_, company_.model);
         const std::vector<typename Runner::Place> begin = runner_.places();
-        const std::vector<Quad<Real>> bodies = places_of_bodies();
+        const std::vector<Vec4<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k)
             records_[k].start(frame_of(begin[k], false, bodies, k));
         watches_.clear();
@@ -120,7 +120,7 @@ public:
     const std::vector<Span>& busy() const { return busy_; }
 
 private:
-    using Runner = LargeRunner<Real>;
+    using Runner = GridRunner<Real>;
 
     /// `gait` as for evaluation_of; `densities` of all States.
     Evaluation evaluation_of_member(int k, const Gait* gait, State<Real>& end, const std::vector<Real>& densities) const {
@@ -161,7 +161,7 @@ private:
         std::vector<std::optional<std::string>> keys;  // of those
         for (const Start& start : claimed) {
             std::optional<std::string> key = key_of(start);
-            if (auto known = kept_starts().find(key)) {
+            if (auto known = device_state_cache().find(key)) {
                 starts_.give(start, {std::move(*known), Progress{}});
             } else {
                 unsettled.push_back(start);
@@ -179,7 +179,7 @@ private:
         settle(different);
         for (int k = 0; k < different; ++k) {
             const KeptStart<Real> settled{runner_.download(k, initial_state<Real>(company_.model)), runner_.room()};
-            if (progress_[k].stopped < 0) kept_starts().keep(keys[k], settled);
+            if (progress_[k].stopped < 0) device_state_cache().keep(keys[k], settled);
             starts_.give(unsettled[k], {settled, progress_[k]});
         }
     }
@@ -195,13 +195,13 @@ private:
     State<Real> begin_of(const Start& start) const { return initial_state<Real>(model_of(start)); }
 
     /// Of all scenes that the whole GPU computes.
-    static KeptStarts<Real>& kept_starts() {
-        static KeptStarts<Real> kept;
+    static DeviceStateCache<Real>& device_state_cache() {
+        static DeviceStateCache<Real> kept;
         return kept;
     }
     /// None if it is not to be kept.
     std::optional<std::string> key_of(const Start& start) const {
-        return keeps_starts_ ? KeptStarts<Real>::key_of(model_of(start), scene_.settling) : std::nullopt;
+        return keeps_starts_ ? DeviceStateCache<Real>::key_of(model_of(start), scene_.settling) : std::nullopt;
     }
 
     void settle(int count) {
@@ -230,7 +230,7 @@ private:
     }
 
     void note(const std::vector<typename Runner::End>& ends, const typename Runner::Update& update) {
-        const std::vector<Quad<Real>> bodies = places_of_bodies();
+        const std::vector<Vec4<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k) {
             Progress& progress = progress_[k];
             if (idle_[k] || note_instability(ends[k], update, progress)) continue;
@@ -252,13 +252,13 @@ private:
         watches_[k].begin_anew();
     }
 
-    std::vector<Quad<Real>> places_of_bodies() const {
-        return records_.front().needs_body() ? runner_.body_places() : std::vector<Quad<Real>>{};
+    std::vector<Vec4<Real>> places_of_bodies() const {
+        return records_.front().needs_body() ? runner_.body_places() : std::vector<Vec4<Real>>{};
     }
 
     /// `place`: where State k's body is; `bodies`: of all States, or empty.
     template <class Place>
-    SwimRecord::Frame frame_of(const Place& place, bool touches_plane, const std::vector<Quad<Real>>& bodies, int k) const {
+    SwimRecord::Frame frame_of(const Place& place, bool touches_plane, const std::vector<Vec4<Real>>& bodies, int k) const {
         SwimRecord::Frame frame;
         frame.mean_x = place.mean_x;
         frame.tail_z = place.tail_z;
@@ -296,7 +296,7 @@ private:
     }
 
     const Scene& scene_;
-    const Company& company_;
+    const ModelGroup& company_;
     SettledStarts<Real>& starts_;
     bool keeps_starts_;
     BatchTimes* times_;

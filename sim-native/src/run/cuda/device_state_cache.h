@@ -22,11 +22,11 @@ struct KeptStart {
 
 /// The last settled starts on the devices, so that batches that begin alike settle once. For several threads.
 template <class Real>
-class KeptStarts {
+class DeviceStateCache {
 public:
     /// Of a model on the current device; to be kept, if it is not too large for that.
     static std::optional<std::string> key_of(const Model& model, const Settling& settling) {
-        if (model.particles() > most_particles) return std::nullopt;
+        if (model.particles() > max_particles) return std::nullopt;
         int device = 0;
         check(cudaGetDevice(&device), "current device");
         return std::to_string(device) + settled_state_key(model, settling, sizeof(Real));
@@ -48,7 +48,7 @@ private:
         return std::ranges::find_if(kept_, [&](const auto& one) { return one.first == key; });
     }
 
-    static constexpr int most_particles = 100'000;
+    static constexpr int max_particles = 100'000;
     static constexpr std::size_t most = 16;
     mutable std::mutex mutex_;
     std::deque<std::pair<std::string, KeptStart<Real>>> kept_;

@@ -1,4 +1,4 @@
-#include "company.h"
+#include "model_group.h"
 
 #include "natator/model_builder.h"
 
@@ -19,8 +19,8 @@ Model arranged(Scene scene, const Model& model, int arrangement) {
 
 }  // namespace
 
-std::vector<Company> companies(const Scene& scene, const Model& model, const std::vector<BatchMember>& members) {
-    std::vector<Company> all;
+std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, const std::vector<BatchMember>& members) {
+    std::vector<ModelGroup> all;
     std::map<int, std::size_t> company_of;
     const bool arranges = model.scheme == Scheme::conserving && scene.fluid;
     const int usual = arranges ? FluidBlock{}.disorder : 0;
@@ -36,7 +36,7 @@ std::vector<Company> companies(const Scene& scene, const Model& model, const std
             company_of[arrangement] = alike ? 0 : all.size() - 1;
             all[company_of[arrangement]].begin[arrangement] = own.position;
         }
-        Company& company = all[company_of[arrangement]];
+        ModelGroup& company = all[company_of[arrangement]];
         company.members.push_back(members[k]);
         company.numbers.push_back(k);
     }

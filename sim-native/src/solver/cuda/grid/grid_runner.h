@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "large_memory.h"
+#include "grid_memory.h"
 #include "natator/gait.h"
 #include "natator/state.h"
 #include "solver/cuda/device_model.h"
@@ -19,13 +19,13 @@ namespace natator::cuda {
 /// Advances States of a Model side by side by kernels of the whole GPU. An update is a graph of kernels, launched at
 /// once; the host waits for its end.
 template <class Real>
-class LargeRunner {
+class GridRunner {
 public:
     /// Throws std::bad_alloc without memory for so many States.
-    explicit LargeRunner(const Model& model, int states = 1, const LargeOptions& options = {});
-    ~LargeRunner();
-    LargeRunner(const LargeRunner&) = delete;
-    LargeRunner& operator=(const LargeRunner&) = delete;
+    explicit GridRunner(const Model& model, int states = 1, const LargeOptions& options = {});
+    ~GridRunner();
+    GridRunner(const GridRunner&) = delete;
+    GridRunner& operator=(const GridRunner&) = delete;
 
     const DeviceModel<Real>& model() const { return device_model_; }
     int states() const { return base_.states; }
@@ -76,14 +76,14 @@ public:
     };
     std::vector<Place> places();
     /// Places of the body's particles, in the order of Body::particles, one State after the other.
-    std::vector<Quad<Real>> body_places() const;
+    std::vector<Vec4<Real>> body_places() const;
     /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;
     /// Of the fluid in the last substep, of length h (s), likewise, mass/(length s^2); empty in scheme flex.
     std::vector<Real> pressures(Real h) const;
     /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless kept.
-    std::vector<Quad<Real>> impulses_on_solids() const;
+    std::vector<Vec4<Real>> impulses_on_solids() const;
     /// What a launch takes that only reads, for all States, what a pass over the pairs of the water reads; the least of some,
     /// s. For measurements, after an update.
     double fetch_seconds(Fetch what) const;
@@ -104,7 +104,7 @@ private:
     DeviceModel<Real> device_model_;
     Stream stream_;
     LargeLaunch<Real> base_;
-    LargeMemory<Real> memory_;
+    GridMemory<Real> memory_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;

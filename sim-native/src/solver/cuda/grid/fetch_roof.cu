@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "large_runner.h"
+#include "grid_runner.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
 #include "solver/cuda/device.h"
@@ -15,7 +15,7 @@
 namespace natator::cuda {
 namespace {
 
-using FetchRunner = LargeRunner<float>;
+using FetchRunner = GridRunner<float>;
 
 void run_stable(FetchRunner& runner, const FetchRunner::Update& update, StageProfile* profile = nullptr) {
     for (const FetchRunner::End& end : runner.run(update, profile))

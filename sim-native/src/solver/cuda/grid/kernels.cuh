@@ -4,7 +4,7 @@
 
 namespace natator::cuda {
 
-inline constexpr int large_threads = 256;  ///< of a block
+inline constexpr int grid_threads = 256;  ///< of a block
 
 __device__ inline int own_index() {
     return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
@@ -22,8 +22,8 @@ __device__ bool left_out(const Slots<Real>& slots) {
 // Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
 
 /// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.
-template <auto work, Of which, int lanes, int block, int least_blocks, class Real, class... More>
-__global__ void __launch_bounds__(block, least_blocks)
+template <auto work, Of which, int lanes, int block, int min_blocks, class Real, class... More>
+__global__ void __launch_bounds__(block, min_blocks)
     for_each_slot(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states, int count,
                   More... more) {
     const Slots<Real> slots = states.state(blockIdx.y);
@@ -43,8 +43,8 @@ __global__ void __launch_bounds__(block)
 }
 
 /// Calls work(model, slots, more...) by every thread.
-template <auto work, Of which, int block, int least_blocks, class Real, class... More>
-__global__ void __launch_bounds__(block, least_blocks)
+template <auto work, Of which, int block, int min_blocks, class Real, class... More>
+__global__ void __launch_bounds__(block, min_blocks)
     for_each_state(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
                    More... more) {
     const Slots<Real> slots = states.state(blockIdx.y);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "natator/model.h"
-#include "physics/carried_weight.h"
+#include "physics/background_pressure.h"
 
 namespace natator {
 
@@ -24,12 +24,12 @@ double longest_substep(const Model& model, double depth);
 /// two thirds of what the passes hold up in the Model's substep.
 double solved_depth(const Model& model);
 /// The same, with modifiedPressure the least: 1.5 kernel supports, as waves must find water that weighs.
-double least_solved_depth(const Model& model);
+double min_solved_depth(const Model& model);
 
 /// What of the water's weight its solver does not have to carry: what solved_depth leaves, nothing unless the Model asks for it by
 /// modifiedPressure. w is the kernel's support R, and the level solved_depth - R/2 below the surface that all water has at rest in
 /// the tank. Throws InputError without such a tank.
 template <class Real>
-physics::CarriedWeight<Real> carried_weight(const Model& model);
+physics::CarriedWeight<Real> background_pressure(const Model& model);
 
 }  // namespace natator
