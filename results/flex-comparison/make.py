@@ -1,4 +1,4 @@
-"""Compares swimming speeds with those of NVIDIA Flex 1.2.0: comparison.csv, the tables of the page and its pictures, of evaluations.jsonl.
+"""Compares swimming speeds with those of NVIDIA Flex 1.2.0: comparison.csv, the summary of the page and its pictures, of evaluations.jsonl.
 
 Each variant of variants.json swims from the start as stated, and from RUNS starts that differ invisibly.
 """
@@ -132,23 +132,6 @@ def summary(table):
     return text
 
 
-def speeds_table(table):
-    def shown(mean, deviation, count):
-        return f"{study.fixed(mean, 4)} ({count})" if deviation != deviation else f"{study.with_error(mean, deviation, 4)} ({count})"
-
-    head = ["variant", "what differs"]
-    for time in TIMES:
-        head += [f"Flex 0–{time} s", f"ours 0–{time} s", "as stated", "Δ"]
-    rows = []
-    for (name, about), own in table.groupby(["variant", "about"], sort=False):
-        cells = [name, about]
-        for one in own.itertuples():
-            cells += [shown(one.flex_mean, one.flex_sd, one.flex_n), shown(one.ours_mean, one.ours_sd, one.ours_n),
-                      study.fixed(one.ours_as_stated, 4), f"{one.difference_in_spreads:+.1f}"]
-        rows.append(cells)
-    return study.table(head, rows, "<<" + ">" * 4 * len(TIMES))
-
-
 def draw(table, medium, file):
     """Our speeds against those of Flex, with one standard deviation to each side; equal speeds lie on the diagonal."""
     chart = study.Chart(f"Speed in {medium}", "NVIDIA Flex 1.2.0 (units/s)", "Natator (units/s)", size=(7.6, 7.6))
@@ -164,8 +147,7 @@ def make(folder):
     table = compared()
     own = {medium: table[table.medium == medium] for medium in ("fluid", "vacuum")}
     (folder / "comparison.csv").write_text(csv(table.drop(columns="scene")), encoding="utf-8")
-    (folder / PAGE.name).write_text(study.filled(PAGE, summary=summary(table), **{medium: speeds_table(rows) for medium, rows in own.items()}),
-                                    encoding="utf-8")
+    (folder / PAGE.name).write_text(study.filled(PAGE, summary=summary(table)), encoding="utf-8")
     for medium, rows in own.items():
         draw(rows, medium, folder / f"comparison-{medium}.png")
 

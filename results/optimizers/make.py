@@ -23,6 +23,7 @@ BUDGETS = {
     "simulated time": (lambda run: (run.get("statistics") or {}).get("simulatedSeconds", np.nan), lambda step: step.get("simulated"),
                        lambda place: study.fixed(place, 1 if place < 100 else 0) + " s"),
 }
+TOLD = "evaluations"  # the budget that the page tells of; fresh.csv and tests.csv have both
 JUDGES = {"mean": np.mean, "median": np.median, "lower-quartile": lambda runs: np.quantile(runs, 0.25)}
 
 
@@ -125,31 +126,18 @@ def tests(scene):
                                            "cliffs_delta", "verdict"])
 
 
-def best_table(scene, best):
-    def cells(name, own):
-        last = own.iloc[-1]
-        vacuum = [run["best"]["vacuum"]["distance"] for run in scene.own[name] if run["best"] and run["best"].get("vacuum")]
-        return [name, str(last.population), str(last.runs),
-                *(study.interval_text((row.median, row.lower_quartile, row.upper_quartile), 4) for row in own.itertuples()),
-                study.with_error(last["mean"], last.sd, 4) if last.runs > 1 else study.fixed(last["mean"], 4),
-                study.fixed(np.median(vacuum), 4) if vacuum else "–"]
-
-    head = ["optimizer", "population", "runs", *(f"after {place}" for place in best.evaluations.unique()), "mean ± sd", "in vacuum"]
-    return study.table(head, [cells(name, own) for name, own in best.groupby("optimizer", sort=False)])
-
-
-def again_table(scene, found, budget):
-    own = found[found.equal == budget]
-    places = [BUDGETS[budget][2](place) for place in own.place.unique()]
+def again_table(found):
+    own = found[found.equal == TOLD]
+    places = [BUDGETS[TOLD][2](place) for place in own.place.unique()]
     rows = [[name, str(rows.runs.iloc[-1]), *(study.interval_text((row.median, row.low, row.high), 4) for row in rows.itertuples())]
             for name, rows in own.groupby("optimizer", sort=False)]
     return study.table(["optimizer", "runs", *(f"after {place}" for place in places)], rows)
 
 
-def tests_table(found, budget):
+def tests_table(found):
     rows = [[row.first, row.second, study.interval_text((row.difference, row.low, row.high), 4), study.chance(row.p_holm).removeprefix("= "),
-             study.fixed(row.a, 2), study.fixed(row.cliffs_delta, 2), row.verdict] for row in found[found.equal == budget].itertuples(name="Pair")]
-    return study.table(["first", "second", "difference of medians", "p", "A", "Cliff's δ", "verdict"], rows, "<<>>>><") if rows else "nothing to compare\n"
+             study.fixed(row.a, 2), study.fixed(row.cliffs_delta, 2)] for row in found[found.equal == TOLD].itertuples(name="Pair")]
+    return study.table(["first", "second", "difference of medians", "p", "A", "Cliff's δ"], rows, "<<>>>>") if rows else "nothing to compare\n"
 
 
 def choice_table(scene):
@@ -163,20 +151,11 @@ def choice_table(scene):
                        [cells(name, runs) for name, runs in [*scene.own.items(), ("all", scene.runs)]])
 
 
-def section(scene, best, again, differences):
+def section(scene, again, differences):
     starts = max(4, 2 * scene.runs[0]["settings"].get("starts", 1))
-    parts = [f"## {scene.name}", best_table(scene, best), f"![best distance against evaluations]({scene.name}.png)", said(scene.runs[0]["settings"]),
-             f"### Again\n\nThe best gaits so far from {starts} fresh starts each: median over the runs [95 % bootstrap interval] of what they are "
-             "worth then."]
-    for budget in BUDGETS:
-        parts += [f"At equal {budget}:", again_table(scene, again, budget)]
-    parts.append("### Differences\n\nFrom fresh starts, at the end. *A* is the chance that a run of the first comes further than one of the second; "
-                 "p is corrected for all pairs of the table.")
-    for budget in BUDGETS:
-        parts += [f"At equal {budget}:", tests_table(differences, budget)]
-    parts += ["### The choice\n\nMedian over the runs [95 % bootstrap interval]: the share of what winners were chosen for that they lack from fresh "
-              "starts, where they were chosen for more than those are uncertain by; and the rank correlation (Spearman) of the last generation's "
-              "gaits as the run ranked them with their order by fresh starts.", choice_table(scene)]
+    parts = [f"## {scene.name}", f"![best distance against evaluations]({scene.name}.png)", said(scene.runs[0]["settings"]),
+             f"Worth of the best gaits so far, from {starts} fresh starts each:", again_table(again),
+             "Differences at the end:", tests_table(differences), "The choice:", choice_table(scene)]
     return "\n".join(part if part.endswith("\n") else part + "\n" for part in parts)
 
 
@@ -210,7 +189,7 @@ def make(folder, data):
     tables = [(scene, frame(scene), medians(scene), tests(scene)) for scene in scenes]
     for k, name in enumerate(["comparison", "fresh", "tests"], 1):
         pandas.concat([parts[k] for parts in tables]).to_csv(folder / f"{name}.csv", index=False)
-    page, sections = data / "README.md", {parts[0].name: section(*parts) for parts in tables}
+    page, sections = data / "README.md", {scene.name: section(scene, again, differences) for scene, _, again, differences in tables}
     if not page.exists():
         page.write_text("# Optimizers side by side\n" + "".join(f"\n<!-- {name} -->\n<!-- /{name} -->\n" for name in sections), encoding="utf-8")
     (folder / page.name).write_text(study.filled(page, **sections), encoding="utf-8")

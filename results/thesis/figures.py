@@ -159,7 +159,7 @@ def title(name):
 
 
 def draw(study, found, anew):
-    """All pictures, drawn anew or as they are; what page.md shows of them by name."""
+    """All pictures, drawn anew or as they are; what README.md shows of them by name."""
     folder = study.folder / "figures"
     drawings = {"speeds": ("speeds in water with error bars", lambda: speeds(study, folder)),
                 **{name: (title(name), lambda name=name, one=one: swim(title(name), one, folder, name)) for name, one in found.items()},

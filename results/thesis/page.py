@@ -13,7 +13,7 @@ from measured import FISH, Sample, error_text, fixed, percent, with_error
 from plan import GAITS, WATERS
 
 WORDS = {"flex": "flex", "open-water": "open water"}
-MARK = "Generated; do not edit."
+MARK = "<!-- answer -->"
 BOUND = 0.02  # from here on a gene counts as being on its bound, as a share of its range
 
 
@@ -34,7 +34,8 @@ class Page:
         """All of them, by name."""
         found = {f"{name}-{water}": table(water) for name, table in (("speeds", self.speeds), ("verdicts", self.verdicts), ("controls", self.controls))
                  for water in WATERS}
-        found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "decisive": self.decisive(), "fish": self.fish("fits", True),
+        found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "agreement": self.agreement(), "beside-flex": self.beside_flex(),
+                  "decisive": self.decisive(), "fish": self.fish("fits", True),
                   "fish-upright": self.fish("fitsOfBody", False), "attitudes": self.attitudes(), "parameters": self.parameters(),
                   "potentiation": self.potentiation(), "two-clusters": self.two_clusters()}
         return {name: table for name, table in found.items() if len(table) > 1}
@@ -99,7 +100,9 @@ class Page:
         rows = {one.says: {} for one in self.claims}
         for one in self.claims:
             rows[one.says][one.water] = one.outcome
-        return [["the thesis says", "in flex", "in open water"]] + [[says, *(row.get(water, "") for water in WATERS)] for says, row in rows.items()]
+        def sign(outcome):
+            return outcome[0] if outcome in ("✔ holds", "✘ does not hold", "– open") else outcome
+        return [["the thesis says", "in flex", "in open water"]] + [[says, *(sign(row.get(water, "")) for water in WATERS)] for says, row in rows.items()]
 
     def claim_numbers(self):
         return [["the thesis says", "water", "what was measured", "holds"]] + [[one.says, WORDS[one.water], one.measured, one.outcome]
@@ -276,7 +279,7 @@ class Page:
         ends = [f"creature {one.creature} after {self.seconds(one)}" for one in self.study.bests("open-water") if self.study.ends_at_wall(one)]
         return f" In open water a speed is that until a wall is touched: by {', '.join(ends)}." if ends else ""
 
-    # What page.md asks for by name.
+    # What README.md asks for by name.
 
     def reynolds(self):
         known = [one for subject in self.study.subjects("open-water") if self.study.may_swim(subject)
@@ -311,17 +314,12 @@ class Page:
                "which every row names by its SHA-256."
 
     def write(self, pictures):
-        """Text of the page, by page.md, in which {{name}} stands for what a method of that name says, a table, or the pictures."""
+        """Text of the page: that of README.md, with what a method says, a table or pictures between <!-- NAME --> and <!-- /NAME -->."""
         def value(match):
-            name = match.group(1)
-            if name == "commentary":
-                return commentary(self.study.folder / "commentary.md")
+            name, break_after = match.groups()
             found = pictures[name] if name in pictures else getattr(self, name)()
-            return markdown(found) if isinstance(found, list) else found
-        return re.sub(r"\{\{(\w+)\}\}", value, (plan.HERE / "page.md").read_text(encoding="utf-8"))
-
-    def mark(self):
-        return MARK
+            return f"<!-- {name} -->{break_after}{markdown(found) if isinstance(found, list) else found}{break_after}<!-- /{name} -->"
+        return re.sub(r"<!-- (\w+) -->(\n?).*?<!-- /\1 -->", value, (plan.HERE / "README.md").read_text(encoding="utf-8"), flags=re.DOTALL)
 
     def untested(self):
         return [["the thesis says", "why it is not tested"], *map(list, claims.UNTESTED)]
@@ -357,16 +355,3 @@ def csv_text(rows):
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(rows)
     return out.getvalue()
-
-
-def commentary(file):
-    """What a person wrote: each paragraph that begins *so.* is folded under these words, with the tables that follow it."""
-    if not file.exists():
-        return "Nothing is written yet."
-    parts = re.split(r"\n\n(?=\*[^*\n]+\*)", file.read_text(encoding="utf-8").strip())
-    folded = []
-    for part in parts:
-        begin = re.match(r"\*([^*\n]+)\*\s*", part)
-        summary = re.sub(r"`([^`]+)`", r"<code>\1</code>", begin.group(1)) if begin else ""
-        folded.append(f"<details><summary>{summary}</summary>\n\n{part[begin.end():].strip()}\n\n</details>" if begin else part)
-    return "\n\n".join(folded)

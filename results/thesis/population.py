@@ -6,7 +6,7 @@
     cd results/thesis; evolve 1 1; evolve 2 2; evolve 3 1; evolve 4 1; cd -
     python3 results/thesis/population.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
-    python3 results/thesis/population.py results.jsonl      # the table for commentary.md
+    python3 results/thesis/population.py results.jsonl      # tables/population.csv
 
 The best gait of each evolution, from starts of its own in the scene in which gaits are judged, until it touches a wall.
 """
@@ -53,12 +53,11 @@ def main():
         speeds = [recompute.speed(one, "open-water") for one in found]
         groups.setdefault((creature, chromosomes), []).append((*searched(folder), statistics.mean(speeds), swims.standard_error(speeds),
                                                                statistics.mean(one["simulated"] for one in found)))
-    print("| creature | chromosomes | evolutions | evaluations of one | way in the search | speed in the scene | a run ends after |")
-    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    swims.row("creature", "chromosomes", "evolutions", "evaluations of one", "way in the search", "speed in the scene", "a run ends after")
     for (creature, chromosomes), group in groups.items():
         evaluations, ways, speeds, errors, ends = zip(*group)
-        print(f"| {creature} | {chromosomes} | {len(group)} | {swims.spread(evaluations, 0)} | {swims.spread(ways, 3)} "
-              f"| {swims.spread(speeds, 3)}, each ± {max(errors):.3f} | {swims.spread(ends, 1, ' s')} |")
+        swims.row(creature, chromosomes, len(group), swims.spread(evaluations, 0), swims.spread(ways, 3),
+                  f"{swims.spread(speeds, 3)}, each ± {max(errors):.3f}", swims.spread(ends, 1, " s"))
 
 
 if __name__ == "__main__":

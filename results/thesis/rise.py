@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Why do swimmers rise in open water? How far they are up after 2 s, and how far their heads, as they are and with one thing changed.
 
-    python3 results/thesis/rise.py build/release/bin/natator-sim        # the table for commentary.md; minutes
+    python3 results/thesis/rise.py build/release/bin/natator-sim        # tables/rise.csv; minutes
 
 The best gait of the first evolution of each creature, from two perturbed starts, on a processor.
 """
@@ -51,13 +51,13 @@ def main():
     asked = [(creature, change, start) for creature in (1, 2, 3, 4) for change in CHANGES for start in STARTS]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         found = dict(zip(asked, pool.map(lambda one: swim(program, *one), asked)))
-    print("| | " + " | ".join(f"creature {creature}" for creature in (1, 2, 3, 4)) + " |\n| --- | ---: | ---: | ---: | ---: |")
+    swims.row("", *(f"creature {creature}" for creature in (1, 2, 3, 4)))
     for change in CHANGES:
         cells = []
         for creature in (1, 2, 3, 4):
             rises, heads = zip(*(found[creature, change, start] for start in STARTS))
             cells.append(f"{min(rises):.2f} to {max(rises):.2f}, {min(heads):.0f}° to {max(heads):.0f}°")
-        print(f"| {change} | {' | '.join(cells)} |")
+        swims.row(change, *cells)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 
     python3 results/thesis/search_steps.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
-    python3 results/thesis/search_steps.py results.jsonl      # search-steps.csv, and the table for commentary.md
+    python3 results/thesis/search_steps.py results.jsonl      # search-steps.csv, and tables/search-orders.csv
 
 Gaits of each creature in open water: 12 drawn at random, and the winners of four evolutions. Each swims from one start with each of the steps,
 and as it is judged from a second start, too: how far two starts order gaits alike is as much as can be asked of any steps. The last three have
@@ -99,10 +99,9 @@ def main():
             for number, row in enumerate(zip(*columns)):
                 table.writerow([creature, "drawn" if number < DRAWN else "winner", *row])
     judged, *others = RUNS
-    print("| order by " + judged + " and by | " + " | ".join(f"creature {c}" for c in CREATURES) + " |")
-    print("| --- |" + " ---: |" * len(CREATURES))
+    swims.row(f"order by {judged} and by", *(f"creature {c}" for c in CREATURES))
     for name in others:
-        print(f"| {name} | " + " | ".join(f"{spearman(ways[c, judged], ways[c, name]):.2f}" for c in CREATURES) + " |")
+        swims.row(name, *(f"{spearman(ways[c, judged], ways[c, name]):.2f}" for c in CREATURES))
 
 
 if __name__ == "__main__":

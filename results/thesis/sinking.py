@@ -10,7 +10,7 @@
     python3 results/thesis/sinking.py --spacing | while read -r request; do
         natator-sim converge --starts 2 --levels spacing/2 <<< "$request"
     done > spacing.jsonl
-    python3 results/thesis/sinking.py results.jsonl spacing.jsonl       # both tables for commentary.md
+    python3 results/thesis/sinking.py results.jsonl spacing.jsonl       # tables/sinking.csv, then tables/crawling.csv
 
 The best gait of each evolution, from starts of its own, until it touches a plane, as runs in the thesis' tank end: with the scene's four
 substeps, with eight, at half the spacing, and with resting muscles. And the published gaits for the whole 4 s, on the floor, with four,
@@ -61,8 +61,7 @@ def spacing(file):
 
 
 def falls(found, finer, length):
-    print("| creature | lies on the floor after | way until then | at half the time step | at half the spacing | resting |")
-    print("| ---: | ---: | ---: | ---: | ---: | ---: |")
+    swims.row("creature", "lies on the floor after", "way until then", "at half the time step", "at half the spacing", "resting")
     for creature in sorted({name for what, name, _ in found if what == "moving"}):
         def each(what, key):
             return [[one[key] for one in runs] for (kind, name, _), runs in found.items() if (kind, name) == (what, creature)]
@@ -73,15 +72,15 @@ def falls(found, finer, length):
         half_spacing = [finer[number] for what, name, number in found if (what, name) == ("moving", creature)]
         ways = [swims.spread([way / length[f"creature-{creature}"] for way in kind], 3)
                 for kind in (means("moving"), means("half step"), half_spacing, means("resting"))]
-        print(f"| {creature} | {swims.spread(ends, 2, ' s')} | {' | '.join(ways)} |")
+        swims.row(creature, swims.spread(ends, 2, " s"), *ways)
 
 
 def crawls(found, published):
-    print(f"\n| gait | published | {' | '.join(f'{substeps} substeps' for substeps in SUBSTEPS)} |")
-    print("| --- | ---: | ---: | ---: | ---: |")
+    print()
+    swims.row("gait", "published", *(f"{substeps} substeps" for substeps in SUBSTEPS))
     for gait in published:
         speeds = [swims.with_error([one["distance"] / SECONDS for one in found[substeps, gait["name"], None]], 2) for substeps in SUBSTEPS]
-        print(f"| {gait['creature']}, {gait['about']} | {gait.get('published', {}).get('speed', '–')} | {' | '.join(speeds)} |")
+        swims.row(f"{gait['creature']}, {gait['about']}", gait.get("published", {}).get("speed", "–"), *speeds)
 
 
 def main():

@@ -1,5 +1,6 @@
 """What search_steps.py, wider_tank.py, without_end.py, population.py, sinking.py and rise.py share. All but the last print requests, and make a table of
-their results."""
+their results, CSV."""
+import csv
 import json
 import pathlib
 import statistics
@@ -38,6 +39,11 @@ def spread(values, digits, unit=""):
     """Least to largest."""
     least, most = (f"{value:.{digits}f}" for value in (min(values), max(values)))
     return (least if least == most else f"{least} to {most}") + unit
+
+
+def row(*cells):
+    """Prints a row of a table."""
+    csv.writer(sys.stdout, lineterminator="\n").writerow(cells)
 
 
 def results(requests):

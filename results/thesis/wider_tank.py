@@ -3,7 +3,7 @@
 
     python3 results/thesis/wider_tank.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
-    python3 results/thesis/wider_tank.py results.jsonl      # the table for commentary.md
+    python3 results/thesis/wider_tank.py results.jsonl      # tables/wider-tank.csv
 
 The winner of each seed from two starts, for a time in which it touches no wall in any of the tanks, and until it touches one, be it the end of
 the tank, 4 s at most.
@@ -35,15 +35,14 @@ def main():
     found = {}
     for number, (width, time, _, _) in enumerate(asked):
         found.setdefault((width, time), []).append(results[number])
-    print(f"| width of the tank | way in {SHORT} s | a run ends after | speed until then |")
-    print("| ---: | ---: | ---: | ---: |")
+    swims.row("width of the tank", f"way in {SHORT} s", "a run ends after", "speed until then")
     for width in WIDTHS:
         if any(one["stopped"] != "completed" for one in found[width, SHORT]):
             sys.exit(f"wider_tank.py: a wall of the tank {width} wide was touched within {SHORT} s")
         ways = [one["distance"] for one in found[width, SHORT]]
         ends = [one["simulated"] for one in found[width, LONG]]
         speeds = [recompute.speed(one, "open-water") for one in found[width, LONG]]
-        print(f"| {width} | {swims.with_error(ways, 3)} | {min(ends):.1f} to {max(ends):.1f} s | {swims.with_error(speeds, 2)} |")
+        swims.row(width, swims.with_error(ways, 3), f"{min(ends):.1f} to {max(ends):.1f} s", swims.with_error(speeds, 2))
 
 
 if __name__ == "__main__":

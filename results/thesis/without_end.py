@@ -3,7 +3,7 @@
 
     python3 results/thesis/without_end.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
-    python3 results/thesis/without_end.py results.jsonl     # the table for commentary.md
+    python3 results/thesis/without_end.py results.jsonl     # tables/without-end.csv
 
 The winner of each seed from two starts, 12 s or until it touches the floor, in a tank that goes along with it to all sides.
 """
@@ -26,14 +26,13 @@ def request(number, swim):
 def main():
     winners = wider_tank.winners()
     results = swims.results(itertools.starmap(request, enumerate(itertools.product(winners, STARTS))))
-    print("| seed | lasts | way along x | speed along x | yaw at the end |")
-    print("| ---: | ---: | ---: | ---: | ---: |")
+    swims.row("seed", "lasts", "way along x", "speed along x", "yaw at the end")
     for seed in range(len(winners)):
         found = [results[seed * len(STARTS) + k] for k in range(len(STARTS))]
         columns = [[one["simulated"] for one in found], [one["distance"] for one in found],
                    [one["distance"] / one["simulated"] for one in found], [math.degrees(one["course"]["yaw"]) for one in found]]
         shown = [", ".join(f"{value:.{digits}f}" for value in column) for column, digits in zip(columns, (1, 1, 2, 0))]
-        print(f"| {seed + 1} | {shown[0]} s | {shown[1]} | {shown[2]} | {shown[3]}° |")
+        swims.row(seed + 1, f"{shown[0]} s", shown[1], shown[2], f"{shown[3]}°")
 
 
 if __name__ == "__main__":
