@@ -28,7 +28,11 @@ export class FieldValues {
   /** Ends that hold instead of its own, for pictures that share a scale; null for its own. */
   shared = null;
 
-  /** Called with its own ends when they change. */
+  /**
+   * Called with its own ends when they change.
+   *
+   * @type {(range: number[]) => void}
+   */
   onRange = () => {};
 
   /** Ends of the scale. */

@@ -40,7 +40,9 @@ export class PlainPicture {
   #field;
   #scene = null;
   #values = new Float32Array(0);
+  /** @type {Int16Array} */
   #kinds = new Int16Array(0);
+  /** @type {Uint8Array} */
   #joints = new Uint8Array(0);
   #muscles = [];
   #lines = null;

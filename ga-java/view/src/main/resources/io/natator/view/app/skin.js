@@ -39,7 +39,10 @@ export class ClusterMotion {
         }
       }
     });
-    for (let i = 0; i < ITERATIONS && this.#follow(); i++) {}
+    let left = ITERATIONS;
+    while (left > 0 && this.#follow()) {
+      left--;
+    }
   }
 
   /** Turns once towards the fit; false when there. */

@@ -73,7 +73,11 @@ export class Stage {
     document.addEventListener('visibilitychange', () => this.#quality.rest(), {signal: this.#listening.signal});
   }
 
-  /** Called with the ends of the water's colour scale. */
+  /**
+   * Called with the ends of the water's colour scale.
+   *
+   * @type {(range: number[]) => void}
+   */
   onRange = () => {};
 
   /** Ends of the colour scale that hold instead of this picture's own; null for its own. */

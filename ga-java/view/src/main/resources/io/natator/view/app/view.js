@@ -2,7 +2,7 @@
 
 import {Connection} from './connection.js';
 import {History} from './history.js';
-import {Live} from './live.js';
+import {Live, errorOf} from './live.js';
 import {Meter} from './meter.js';
 import {isSameGait, waveGait} from './gait.js';
 import {decodeFrame, sceneNumber, stopText} from './protocol.js';
@@ -289,7 +289,7 @@ export class View {
     if (gait !== null && error?.startsWith('gait.')) {
       error = await this.setScene(scene, overrides, null);  // it has other muscles now
       if (error === null && this.scene.actuators > 0) {
-        error = await this.setGait(waveGait(this.scene.actuators));
+        error = errorOf(await this.setGait(waveGait(this.scene.actuators)));
       }
     }
     this.#handlers.notice(error === null ? `${name} was read again.` : error, error !== null);
