@@ -27,6 +27,6 @@ test('axes end on round numbers', () => {
   assert.deepEqual(axis(2, 2), {low: 2, high: 2.5, step: 0.5, marks: [2, 2.5]});
   assert.equal(niceStep(0.0021), 0.005);
   assert.equal(axisText(0.25, 0.05), '0.25');
-  assert.equal(axisText(1e-12, 0.5), '0.0');
+  assert.equal(axisText(-1e-12, 0.5), '0.0');
   assert.equal(axisText(40, 20), '40');
 });
