@@ -41,7 +41,11 @@ class Player {
   #last = 0;
   #lastSlow = 0;
 
-  /** The frame that is shown, or null. */
+  /**
+   * The frame that is shown, or null.
+   *
+   * @type {Frame|null}
+   */
   frame = null;
 
   constructor() {

@@ -41,7 +41,7 @@ export class BodySkin {
   cluster;
 
   /**
-   * @param {object} scene SCEN
+   * @param {Scene} scene SCEN
    * @param {Float32Array} position of all particles, from which on the skin follows
    */
   constructor(scene, position) {

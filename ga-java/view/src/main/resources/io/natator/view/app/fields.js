@@ -18,6 +18,7 @@ export const FIELDS = {
 
 /** Values of one field for the particles of a scene, and the ends of their scale, which follow slowly. */
 export class FieldValues {
+  /** @type {Scene|null} */
   #scene = null;
   #field = null;
   #age = 0;

@@ -47,6 +47,7 @@ export class GlPicture {
   #look = null;
   #last = () => {};
   #refined = null;
+  /** @type {Scene|null} */
   #scene = null;
   #solids = [];
   #map;

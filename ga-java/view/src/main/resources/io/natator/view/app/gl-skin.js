@@ -50,6 +50,7 @@ const FRAGMENT = `
 
 /** One mesh; it is built with the first frame of a scene. */
 export class GlSkin {
+  /** @type {Scene|null} */
   #scene = null;
   #motion = null;
   #muscles = null;

@@ -19,6 +19,7 @@ const ENDLESS = {min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, 1e9]};
 
 /** Passes at the size of the picture, and some at a quarter of it. */
 export class GlSurface {
+  /** @type {Scene|null} */
   #scene = null;
   #walls = ENDLESS;
   #depth = new GlFluidDepth();

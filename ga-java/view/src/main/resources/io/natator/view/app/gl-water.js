@@ -12,6 +12,7 @@ import {GlSurface} from './gl-surface.js';
  * which the body shows.
  */
 export class GlWater {
+  /** @type {Scene|null} */
   #scene = null;
   #places = null;
   #points = null;

@@ -38,6 +38,7 @@ export class PlainPicture {
   #lineProjector = new Projector();
   #trace;
   #field;
+  /** @type {Scene|null} */
   #scene = null;
   #values = new Float32Array(0);
   /** @type {Int16Array} */

@@ -9,6 +9,7 @@ const LIGHTS = 16;
 
 /** Nothing for bodies without a mesh. */
 export class PlainSkin {
+  /** @type {Scene|null} */
   #scene = null;
   #motion = null;
   #colours = [];

@@ -20,7 +20,7 @@ const MARGIN = 0.6;
  * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first. A periodic axis
  * has no walls: of it as much is shown around the body as the tank is long.
  *
- * @param {object} scene SCEN
+ * @param {Scene} scene SCEN
  * @param {Float32Array} position of all particles in the settled start
  * @returns {{min: number[], max: number[], walls: boolean, open: boolean[]}} walls is false where planes are missing and the
  *     box is just around the particles; whether an axis is periodic

@@ -110,7 +110,7 @@ export class SkinMotion {
   /** For each vertex, the cluster that it goes with. */
   cluster;
 
-  /** @param {object} scene a SCEN with a skin */
+  /** @param {Scene} scene a SCEN with a skin */
   constructor(scene) {
     this.#skin = scene.skin;
     const rest = new Map(scene.body.map((particle, i) => [particle, scene.skin.rest[i]]));

@@ -44,7 +44,9 @@ export class Stage {
   #drawing = null;
   #trace = new SpineTrace();
   #field = new FieldValues();
+  /** @type {Scene|null} */
   #scene = null;
+  /** @type {Frame|null} */
   #frame = null;
   #bounds = null;
   #look = {...DEFAULT_LOOK};

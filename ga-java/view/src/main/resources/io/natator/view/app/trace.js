@@ -12,6 +12,7 @@ const HEAD_INTERVAL = 1 / 30;
 
 /** Rings of places that a drawing can read as they are. */
 export class SpineTrace {
+  /** @type {Scene|null} */
   #scene = null;
   #slices = 0;
   #next = 0;

@@ -32,9 +32,17 @@ export class View {
   #isFresh = false;
   #isNew = false;
 
-  /** SCEN of what runs, or null. */
+  /**
+   * SCEN of what runs, or null.
+   *
+   * @type {Scene|null}
+   */
   scene = null;
-  /** The last drawn frame, or null. */
+  /**
+   * The last drawn frame, or null.
+   *
+   * @type {Frame|null}
+   */
   frame = null;
   /** The last ANALYSIS of this motion, or null. */
   analysis = null;
