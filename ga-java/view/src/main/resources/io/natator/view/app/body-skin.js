@@ -81,7 +81,11 @@ export class BodySkin {
     }
   }
 
-  /** Moves the vertices to where the body is in a frame. */
+  /**
+   * Moves the vertices to where the body is in a frame.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     this.#clusters.forEach(cluster => cluster.update(frame.position));
     this.places.fill(0);

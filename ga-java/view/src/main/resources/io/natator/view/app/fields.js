@@ -41,7 +41,12 @@ export class FieldValues {
     return this.shared ?? this.#own;
   }
 
-  /** Fills `out` with the values of `count` particles from `first` on. */
+  /**
+   * Fills `out` with the values of `count` particles from `first` on.
+   *
+   * @param {Scene} scene
+   * @param {Frame} frame
+   */
   read(field, scene, frame, first, count, out) {
     const {velocities, density} = frame;
     if (field === 'speed' && velocities !== null) {

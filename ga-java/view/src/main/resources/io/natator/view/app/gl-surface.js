@@ -40,7 +40,11 @@ export class GlSurface {
     this.#shade = new GlFluidShade(scale);
   }
 
-  /** Takes over what is known of a scene (SCEN); `geometry` holds places and values of the particles. */
+  /**
+   * Takes over what is known of a scene (SCEN); `geometry` holds places and values of the particles.
+   *
+   * @param {Scene} scene
+   */
   setScene(scene, geometry) {
     this.#scene = scene;
     this.shapes.setScene(scene);
@@ -65,7 +69,11 @@ export class GlSurface {
     this.shapes.isPlain = value;
   }
 
-  /** Takes over the particles of a frame; see `WaterShapes.update`. */
+  /**
+   * Takes over the particles of a frame; see `WaterShapes.update`.
+   *
+   * @param {Frame} frame
+   */
   update(frame, first, chosen, count, values) {
     this.shapes.update(frame.position, frame.velocities, first, chosen, count, values, this.#walls);
     this.#depth.update(this.shapes);

@@ -15,7 +15,11 @@ export class PlainSkin {
   #colours = [];
   #projected = new Float32Array(0);
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#scene = scene;
     this.#motion = scene.skin ? new SkinMotion(scene) : null;

@@ -103,7 +103,11 @@ export class Stage {
     return this.#picture?.name ?? '';
   }
 
-  /** Takes over a scene (SCEN); the next frame is one of it. */
+  /**
+   * Takes over a scene (SCEN); the next frame is one of it.
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#bounds = this.#scene === null || scene.restarted ? null : this.#bounds;
     this.#scene = scene;
@@ -112,7 +116,11 @@ export class Stage {
     this.#picture?.setScene(scene);
   }
 
-  /** Shows this frame from the next drawing on. */
+  /**
+   * Shows this frame from the next drawing on.
+   *
+   * @param {Frame} frame
+   */
   setFrame(frame) {
     this.#frame = frame;
     if (this.#bounds === null) {

@@ -36,7 +36,11 @@ export class SpineTrace {
     return this.#slices;
   }
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     const isOther = scene.restarted || this.#slices !== scene.slices.length;
     this.#scene = scene;
@@ -57,7 +61,11 @@ export class SpineTrace {
     this.version++;
   }
 
-  /** Adds the spine of a frame when it is time for it; a jump back in time begins anew. */
+  /**
+   * Adds the spine of a frame when it is time for it; a jump back in time begins anew.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     if (this.#slices < 2) {
       return;

@@ -177,7 +177,11 @@ export class View {
     return this.#live.submit('rate', {do: 'rate', value});
   }
 
-  /** Another gait; `origin` is {run, label} of where it is from, if that is known. */
+  /**
+   * Another gait; `origin` is {run, label} of where it is from, if that is known.
+   *
+   * @param {Gait} gait
+   */
   setGait(gait, origin = null) {
     this.#setting.origin = origin === null ? null : {...origin, gait};
     return this.#live.submit('gait', {do: 'gait', gait});
@@ -188,7 +192,12 @@ export class View {
     return this.#live.submit(`overrides ${key}`, {do: 'overrides', overrides});
   }
 
-  /** Another scene from its start; gait null for none, with its `origin` if that is known. */
+  /**
+   * Another scene from its start; gait null for none, with its `origin` if that is known.
+   *
+   * @param {string} scene its name or file
+   * @param {Gait|null} gait
+   */
   setScene(scene, overrides, gait, origin = null) {
     this.#setting.origin = origin === null ? this.#setting.origin : {...origin, gait};
     return this.#connection.send({
