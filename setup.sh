@@ -7,7 +7,8 @@ usage() {
 usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
-  --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
+  --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there; and
+            node and npm, with what its scripts are checked with from the npm registry (50 MB)
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium and pycma, from PyPI into .readers (1 GB); the validator of glTF, where npm
@@ -41,17 +42,23 @@ fail() {
 # --- what is needed: tools are probed, so that they may come from anywhere; libraries are Debian packages -------------
 
 readonly libraries=(libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev)
-readonly minimum_cmake=3.25 minimum_java=17
+readonly minimum_cmake=3.25 minimum_java=17 minimum_node=18.18
 
 compiler_works() {
     echo '#include <concepts>
           static_assert(__cplusplus >= 202002L);' | "${CXX:-c++}" -std=c++20 -fsyntax-only -x c++ - 2>/dev/null
 }
 
+is_at_least() {
+    [[ -n $1 ]] && printf '%s\n' "$2" "$1" | sort --check=quiet --version-sort
+}
+
 cmake_works() {
-    local version
-    version=$(cmake --version 2>/dev/null | awk 'NR == 1 { print $3 }') || return 1
-    [[ -n $version ]] && printf '%s\n' "$minimum_cmake" "$version" | sort --check=quiet --version-sort
+    is_at_least "$(cmake --version 2>/dev/null | awk 'NR == 1 { print $3 }')" "$minimum_cmake"
+}
+
+node_works() {
+    is_at_least "$(node --version 2>/dev/null | tr --delete v)" "$minimum_node"
 }
 
 java_works() {
@@ -91,6 +98,16 @@ browser_works() {
         [[ -n $browser ]] && command -v "$browser" >/dev/null && return
     done
     return 1
+}
+
+readonly page_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/ga-java/view
+
+page_tools_work() {
+    [[ $page_folder/node_modules/.package-lock.json -nt $page_folder/package-lock.json ]]
+}
+
+install_page_tools() {
+    npm ci --silent --ignore-scripts --no-audit --no-fund --prefix "$page_folder"
 }
 
 readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
@@ -135,6 +152,8 @@ find_missing() {
         installed "$library" || missing+=("$library")
     done
     $with_browser && ! browser_works && missing+=(chromium)
+    $with_browser && ! node_works && missing+=(nodejs)
+    $with_browser && ! command -v npm >/dev/null && missing+=(npm)
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
     for library in libegl1 libgl1; do
         $with_readers && ! installed "$library" && missing+=("$library")
@@ -144,6 +163,10 @@ find_missing() {
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true
+    fi
+    page_tools_missing=false
+    if $with_browser && ! page_tools_work; then
+        page_tools_missing=true
     fi
     readers_missing=false
     if $with_readers && ! readers_work; then
@@ -175,6 +198,10 @@ finish() {
         printf 'setup: installing nvcc %s into %s\n' "$cuda_version" "$cuda_folder"
         install_nvcc && nvcc_works || fail "could not install nvcc from PyPI into $cuda_folder"
     fi
+    if $page_tools_missing; then
+        printf 'setup: installing what %s names\n' "$page_folder/package-lock.json"
+        install_page_tools && page_tools_work || fail "could not install what $page_folder/package-lock.json names from the npm registry"
+    fi
     if $readers_missing; then
         printf 'setup: installing the packages of %s into %s\n' "$readers_list" "$readers_folder"
         install_readers && readers_work || fail "could not install $readers_list from PyPI into $readers_folder"
@@ -184,8 +211,9 @@ finish() {
 }
 
 find_missing
-if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing || $readers_missing; }; then
+if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing || $page_tools_missing || $readers_missing; }; then
     $nvcc_missing && missing+=('nvcc 13')
+    $page_tools_missing && missing+=('ga-java/view/node_modules')
     $readers_missing && missing+=('.readers')
     printf 'setup: missing: %s\n' "${missing[*]}"
     exit 1
@@ -227,6 +255,6 @@ install || { apt update && install; } || fail "could not install; needed: $(need
 requested=("${missing[@]}")
 find_missing
 if (( ${#missing[@]} > 0 )); then
-    fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java)"
+    fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java, node >= $minimum_node)"
 fi
 finish 'setup: done'

@@ -1,5 +1,7 @@
 /** Swims that `natator page` packed: expanded, and any time of them as a frame. */
 
+/** @typedef {{rows: Int32Array[], columns: {low: number, step: number}[], numbers: number}} Table whole numbers, and what they stand for */
+
 /** Expands text (base64 of zlib) to bytes. */
 async function expanded(text) {
   const bytes = Uint8Array.from(atob(text), one => one.charCodeAt(0));
@@ -113,7 +115,7 @@ export class Recording {
   }
 
   #tables(head, bytes, start) {
-    const tables = {};
+    const tables = /** @type {Record<'water' | 'others' | 'density', Table>} */ ({});
     let at = start;
     for (const table of head.tables) {
       const numbers = table.numbers * table.columns.length;

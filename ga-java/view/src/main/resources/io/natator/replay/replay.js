@@ -21,7 +21,7 @@ const SLOW_MS = 100;
 
 /** One swim at a time, played round and round. */
 class Player {
-  #texts = [...document.querySelectorAll('script.swim')];
+  #texts = /** @type {HTMLElement[]} */ ([...document.querySelectorAll('script.swim')]);
   #stage = new Stage(document.querySelector('.picture'));
   #figures = new Figures(byId('stage-a'));
   #meter = new Meter();
@@ -41,7 +41,11 @@ class Player {
   #last = 0;
   #lastSlow = 0;
 
-  /** The frame that is shown, or null. */
+  /**
+   * The frame that is shown, or null.
+   *
+   * @type {Frame|null}
+   */
   frame = null;
 
   constructor() {
@@ -99,7 +103,7 @@ class Player {
     for (let i = 0; i < frames; i += every) {
       this.#history.add(this.#recording.at(i * this.#recording.interval), scene.bodyLength, scene.gait?.frequency ?? 0);
     }
-    byId('scrub').max = duration;
+    byId('scrub').max = String(duration);
     this.#stage.setScene(scene);
     this.#look.has = contents([scene]);
     this.#figures.name(this.#recording.title, `${scene.scheme}, ${scene.particles} particles`);
@@ -156,14 +160,14 @@ class Player {
   }
 
   #showSlowly() {
-    byId('scrub').value = this.#time;
+    byId('scrub').value = String(this.#time);
     byId('scrub').setAttribute('aria-valuetext', `${this.#time.toFixed(2)} s`);
     this.#figures.show(this);
     for (const chart of this.#charts) {
       chart.draw([this.#history], {from: 0, until: this.#recording.duration, cursor: this.#time});
     }
     const index = Math.round(this.#time / this.#recording.duration * (this.#history.length - 1));
-    for (const output of document.querySelectorAll('[data-chart]')) {
+    for (const output of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll('[data-chart]'))) {
       output.textContent = fixed(this.#history.at(output.dataset.chart, index), 3);
     }
   }
@@ -204,12 +208,12 @@ class Player {
     byId('play').addEventListener('click', () => this.setPaused(!this.#isPaused));
     byId('before').addEventListener('click', () => this.step(-1));
     byId('after').addEventListener('click', () => this.step(1));
-    byId('scrub').addEventListener('input', event => this.seek(Number(event.target.value)));
-    byId('speed').addEventListener('change', event => {
-      this.#speed = Number(event.target.value);
+    byId('scrub').addEventListener('input', () => this.seek(Number(byId('scrub').value)));
+    byId('speed').addEventListener('change', () => {
+      this.#speed = Number(byId('speed').value);
     });
-    byId('swim').addEventListener('change', event => this.show(Number(event.target.value)));
-    byId('theme').addEventListener('change', event => this.#theme.choose(event.target.value));
+    byId('swim').addEventListener('change', () => this.show(Number(byId('swim').value)));
+    byId('theme').addEventListener('change', () => this.#theme.choose(byId('theme').value));
     listen([
       [' ', 'play or pause', () => this.setPaused(!this.#isPaused)],
       [[',', '.'], 'frame before, after', key => this.step(key === '.' ? 1 : -1)],

@@ -41,7 +41,7 @@ export class BodySkin {
   cluster;
 
   /**
-   * @param {object} scene SCEN
+   * @param {Scene} scene SCEN
    * @param {Float32Array} position of all particles, from which on the skin follows
    */
   constructor(scene, position) {
@@ -81,7 +81,11 @@ export class BodySkin {
     }
   }
 
-  /** Moves the vertices to where the body is in a frame. */
+  /**
+   * Moves the vertices to where the body is in a frame.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     this.#clusters.forEach(cluster => cluster.update(frame.position));
     this.places.fill(0);

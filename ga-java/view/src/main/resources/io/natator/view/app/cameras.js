@@ -40,7 +40,11 @@ export class CameraRig {
 
   camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
 
-  /** Called with the mode when the user changes it by dragging. */
+  /**
+   * Called with the mode when the user changes it by dragging.
+   *
+   * @type {(mode: string) => void}
+   */
   onMode = () => {};
 
   constructor(host) {

@@ -54,7 +54,11 @@ export class Capture {
   #recorder = null;
   #isEnding = false;
 
-  /** Called with whether a film is being recorded. */
+  /**
+   * Called with whether a film is being recorded.
+   *
+   * @type {(isOn: boolean) => void}
+   */
   onRecording = () => {};
 
   /** `stages()` gives those that are seen (`Stage`). */

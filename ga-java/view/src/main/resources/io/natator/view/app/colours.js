@@ -2,13 +2,21 @@
 
 const STEPS = 256;
 
-/** OKLCH (lightness, chroma, hue in degrees) to OKLab. */
+/**
+ * OKLCH (lightness, chroma, hue in degrees) to OKLab.
+ *
+ * @param {number[]} colour
+ */
 function lab([lightness, chroma, hue]) {
   const angle = hue * Math.PI / 180;
   return [lightness, chroma * Math.cos(angle), chroma * Math.sin(angle)];
 }
 
-/** OKLab to sRGB, each 0 to 255, clipped to what a screen shows. */
+/**
+ * OKLab to sRGB, each 0 to 255, clipped to what a screen shows.
+ *
+ * @param {number[]} colour
+ */
 function labToRgb([l, a, b]) {
   const long = (l + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const medium = (l - 0.1055613458 * a - 0.0638541728 * b) ** 3;

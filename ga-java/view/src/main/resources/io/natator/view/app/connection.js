@@ -20,6 +20,7 @@ export class Connection {
   #nextId = 1;
   #granted = 0;
   #frames = [];
+  /** @type {Scene|null} */
   #scene = null;
   #retryMs = FIRST_RETRY_MS;
   #timer = 0;

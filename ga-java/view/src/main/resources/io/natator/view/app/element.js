@@ -1,8 +1,14 @@
 /** Makes elements of the page. */
 
-/** The element with this id. */
+/**
+ * The element with this id.
+ *
+ * @template {string} Id
+ * @param {Id} id
+ * @returns {Id extends keyof PageElements ? PageElements[Id] : HTMLElement}
+ */
 export function byId(id) {
-  return document.getElementById(id);
+  return /** @type {any} */ (document.getElementById(id));  // what page.d.ts says of it
 }
 
 /** A new element with these properties and children; names with a dash are set as attributes. */

@@ -72,9 +72,9 @@ export class EliteMap extends GaitPlot {
 
   /** Labels at the ends of cells, only at whole octaves, and no more than fit. */
   #marks(ends, place, anchor, most) {
-    const octaves = ends.map((end, i) => i).filter(i => Math.abs(Math.log2(ends[i]) % 1) < 1e-6);
+    const octaves = ends.map((_, i) => i).filter(i => Math.abs(Math.log2(ends[i]) % 1) < 1e-6);
     const every = Math.max(1, Math.ceil(octaves.length / Math.max(1, most)));
-    return octaves.filter((one, i) => i % every === 0).map(i => {
+    return octaves.filter((_, i) => i % every === 0).map(i => {
       const [x, y] = place(i);
       return draw('text', {x, y, 'text-anchor': anchor}, short(ends[i]));
     });

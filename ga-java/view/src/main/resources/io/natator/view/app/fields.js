@@ -18,6 +18,7 @@ export const FIELDS = {
 
 /** Values of one field for the particles of a scene, and the ends of their scale, which follow slowly. */
 export class FieldValues {
+  /** @type {Scene|null} */
   #scene = null;
   #field = null;
   #age = 0;
@@ -28,7 +29,11 @@ export class FieldValues {
   /** Ends that hold instead of its own, for pictures that share a scale; null for its own. */
   shared = null;
 
-  /** Called with its own ends when they change. */
+  /**
+   * Called with its own ends when they change.
+   *
+   * @type {(range: number[]) => void}
+   */
   onRange = () => {};
 
   /** Ends of the scale. */
@@ -36,7 +41,12 @@ export class FieldValues {
     return this.shared ?? this.#own;
   }
 
-  /** Fills `out` with the values of `count` particles from `first` on. */
+  /**
+   * Fills `out` with the values of `count` particles from `first` on.
+   *
+   * @param {Scene} scene
+   * @param {Frame} frame
+   */
   read(field, scene, frame, first, count, out) {
     const {velocities, density} = frame;
     if (field === 'speed' && velocities !== null) {

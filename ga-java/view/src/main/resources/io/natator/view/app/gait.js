@@ -20,7 +20,11 @@ export function waveGait(actuators) {
   };
 }
 
-/** What drives each actuator beside the beat. */
+/**
+ * What drives each actuator beside the beat.
+ *
+ * @param {Gait} gait
+ */
 function offsets(gait) {
   return gait.offset ?? gait.amplitude.map(() => 0);
 }
@@ -31,12 +35,20 @@ function sidewaysActuators({actuators, muscles}) {
   return Array.from({length: actuators}, (_, i) => i).filter(i => !upright.has(i));
 }
 
-/** Mean offset of some of a gait's actuators. */
+/**
+ * Mean offset of some of a gait's actuators.
+ *
+ * @param {Gait} gait
+ */
 function steering(gait, sideways) {
   return sideways.reduce((sum, i) => sum + offsets(gait)[i], 0) / sideways.length;
 }
 
-/** The offsets of a gait that steers by this mean: all of these actuators by as much more, as far as they can be driven. */
+/**
+ * The offsets of a gait that steers by this mean: all of these actuators by as much more, as far as they can be driven.
+ *
+ * @param {Gait} gait
+ */
 function steered(gait, sideways, mean) {
   const more = mean - steering(gait, sideways);
   return offsets(gait).map((offset, i) => {
@@ -108,7 +120,11 @@ export class GaitControls {
     this.#onChange = onChange;
   }
 
-  /** Shows the gait of a scene (SCEN). */
+  /**
+   * Shows the gait of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   show(scene) {
     const sideways = sidewaysActuators(scene);
     if (scene.actuators !== this.#actuators || String(sideways) !== String(this.#sideways)) {

@@ -52,7 +52,11 @@ export class GlBody {
     this.object.add(this.points, this.#skin.object);
   }
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#skin.setScene(scene);
     this.#particles = solids(scene);
@@ -68,7 +72,11 @@ export class GlBody {
     this.#material.uniforms.radius.value = BODY_RADIUS * bodySpacing(scene);
   }
 
-  /** Moves it to where it is in a frame. */
+  /**
+   * Moves it to where it is in a frame.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     this.points.visible = !this.#isSkin && this.#particles.length > 0;
     this.#skin.object.visible = this.#isSkin && this.#particles.length > 0;

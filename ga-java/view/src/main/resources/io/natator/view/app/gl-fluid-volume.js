@@ -61,7 +61,11 @@ export class GlFluidVolume {
   #material = shader(VERTEX, FRAGMENT,
       {front: null, size: new THREE.Vector2(), range: new THREE.Vector2(), peak: 1, radius: 1, pixelsPerUnit: 1}, ADDING);
 
-  /** Draws the points of this geometry (`PlaceBuffer`) from now on. */
+  /**
+   * Draws the points of this geometry (`PlaceBuffer`) from now on.
+   *
+   * @param {Scene} scene
+   */
   setScene(scene, geometry) {
     if (this.#points !== null) {
       this.#world.remove(this.#points);

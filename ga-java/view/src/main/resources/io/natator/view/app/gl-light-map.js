@@ -74,7 +74,7 @@ export class GlLightMap {
   /**
    * Takes over a frame.
    *
-   * @param {WaterShapes|null} shapes of the water, or null without
+   * @param {import('./water-shape.js').WaterShapes|null} shapes of the water, or null without
    * @param {number[]} solids particles that cast a shadow
    * @param {Float32Array} position of all particles
    */

@@ -46,7 +46,11 @@ export class GlMuscles {
   /** What to add to a scene of three.js. */
   object = new THREE.Group();
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#muscles = distinctMuscles(scene);
     this.#mesh?.geometry.dispose();
@@ -65,7 +69,11 @@ export class GlMuscles {
     this.#material.uniforms.width.value = 0.5 * MUSCLE_WIDTH * bodySpacing(scene);
   }
 
-  /** Moves and colours the ribbons; a muscle at rest is grey. */
+  /**
+   * Moves and colours the ribbons; a muscle at rest is grey.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     this.#muscles.forEach((muscle, i) => {
       for (let axis = 0; axis < 3; axis++) {

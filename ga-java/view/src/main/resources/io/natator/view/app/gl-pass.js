@@ -20,7 +20,11 @@ world.add(quad);
 export class Pass {
   #material;
 
-  /** `blending` is one of three.js; none unless given. */
+  /**
+   * @param {string} fragmentShader
+   * @param {object} values of its uniforms, by name
+   * @param {THREE.Blending} blending none unless given
+   */
   constructor(fragmentShader, values, blending = THREE.NoBlending) {
     this.#material = shader(VERTEX, `\nin vec2 place;\n${fragmentShader}`, values,
         {blending, transparent: blending !== THREE.NoBlending, depthTest: false, depthWrite: false});
@@ -30,10 +34,10 @@ export class Pass {
     return this.#material.uniforms;
   }
 
-  /** Writes all of `target`, or of the canvas if that is null. */
-  draw(renderer, target) {
+  /** Writes all of a target, or of the canvas if that is null. */
+  draw(renderer, to) {
     quad.material = this.#material;
-    renderer.setRenderTarget(target);
+    renderer.setRenderTarget(to);
     renderer.render(world, camera);
   }
 

@@ -47,6 +47,7 @@ export class GlPicture {
   #look = null;
   #last = () => {};
   #refined = null;
+  /** @type {Scene|null} */
   #scene = null;
   #solids = [];
   #map;
@@ -122,13 +123,21 @@ export class GlPicture {
     return this.#fence.isBusy;
   }
 
-  /** Draws a frame; water nearer than `from` is left out. */
+  /**
+   * Draws a frame; water nearer than `from` is left out.
+   *
+   * @param {Frame} frame
+   */
   draw(frame, camera, from) {
     this.#last = () => this.#render(frame, camera, from, null);
     this.show();
   }
 
-  /** Draws another sample of a picture that rests, moved by less than a pixel, and shows the mean of those so far. */
+  /**
+   * Draws another sample of a picture that rests, moved by less than a pixel, and shows the mean of those so far.
+   *
+   * @param {Frame} frame
+   */
   refine(frame, camera, from, sample) {
     const {width, height} = this.#renderer.domElement;
     this.#refined ??= new Refined();

@@ -50,6 +50,7 @@ const FRAGMENT = `
 
 /** One mesh; it is built with the first frame of a scene. */
 export class GlSkin {
+  /** @type {Scene|null} */
   #scene = null;
   #motion = null;
   #muscles = null;
@@ -63,7 +64,11 @@ export class GlSkin {
     this.object.frustumCulled = false;
   }
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#motion = this.#scene === null || scene.restarted ? null : this.#motion;
     this.#scene = scene;
@@ -79,7 +84,11 @@ export class GlSkin {
     this.#material.uniforms.lamp.value.copy(direction);
   }
 
-  /** Moves it to where the body is in a frame. */
+  /**
+   * Moves it to where the body is in a frame.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     if (this.#motion === null) {
       this.#build(frame);

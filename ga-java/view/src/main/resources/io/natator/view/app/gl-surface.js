@@ -19,6 +19,7 @@ const ENDLESS = {min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, 1e9]};
 
 /** Passes at the size of the picture, and some at a quarter of it. */
 export class GlSurface {
+  /** @type {Scene|null} */
   #scene = null;
   #walls = ENDLESS;
   #depth = new GlFluidDepth();
@@ -39,7 +40,11 @@ export class GlSurface {
     this.#shade = new GlFluidShade(scale);
   }
 
-  /** Takes over what is known of a scene (SCEN); `geometry` holds places and values of the particles. */
+  /**
+   * Takes over what is known of a scene (SCEN); `geometry` holds places and values of the particles.
+   *
+   * @param {Scene} scene
+   */
   setScene(scene, geometry) {
     this.#scene = scene;
     this.shapes.setScene(scene);
@@ -64,7 +69,11 @@ export class GlSurface {
     this.shapes.isPlain = value;
   }
 
-  /** Takes over the particles of a frame; see `WaterShapes.update`. */
+  /**
+   * Takes over the particles of a frame; see `WaterShapes.update`.
+   *
+   * @param {Frame} frame
+   */
   update(frame, first, chosen, count, values) {
     this.shapes.update(frame.position, frame.velocities, first, chosen, count, values, this.#walls);
     this.#depth.update(this.shapes);

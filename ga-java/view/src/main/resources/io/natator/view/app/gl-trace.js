@@ -75,7 +75,7 @@ export class GlTrace {
     this.#spines?.dispose();
     this.#head?.dispose();
     this.object.clear();
-    this.#spines = places(SPINES * this.#slices);
+    this.#spines = linePlaces(SPINES * this.#slices);
     const index = [];
     for (let spine = 0; spine < SPINES; spine++) {
       for (let slice = 0; slice + 1 < this.#slices; slice++) {
@@ -83,7 +83,7 @@ export class GlTrace {
       }
     }
     this.#spines.setIndex(index);
-    this.#head = places(HEAD_PLACES);
+    this.#head = linePlaces(HEAD_PLACES);
     this.#head.getAttribute('strength').array.fill(0.9);
     for (const line of [new THREE.LineSegments(this.#spines, this.#material), new THREE.Line(this.#head, this.#material)]) {
       line.frustumCulled = false;
@@ -93,9 +93,9 @@ export class GlTrace {
   }
 }
 
-function places(count) {
+function linePlaces(count) {
   const geometry = new THREE.BufferGeometry();
-  for (const [name, size] of [['position', 3], ['strength', 1]]) {
+  for (const [name, size] of Object.entries({position: 3, strength: 1})) {
     const attribute = new THREE.BufferAttribute(new Float32Array(size * count), size);
     geometry.setAttribute(name, attribute.setUsage(THREE.DynamicDrawUsage));
   }

@@ -12,6 +12,7 @@ import {GlSurface} from './gl-surface.js';
  * which the body shows.
  */
 export class GlWater {
+  /** @type {Scene|null} */
   #scene = null;
   #places = null;
   #points = null;
@@ -32,7 +33,11 @@ export class GlWater {
     this.#field = field;
   }
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     const count = scene.fluid[1];
     this.#scene = scene;

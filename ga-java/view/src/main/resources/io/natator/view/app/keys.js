@@ -15,7 +15,7 @@ export function listen(shortcuts) {
         || document.querySelector('dialog[open]') !== null) {
       return;
     }
-    const target = event.target;
+    const target = /** @type {Element} */ (event.target);
     const pressesButton = event.key === ' ' && target.closest('button, summary, input, a') !== null;
     if (target.closest(TYPING) !== null || pressesButton) {
       return;

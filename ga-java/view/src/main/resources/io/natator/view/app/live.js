@@ -3,6 +3,15 @@
 /** The answer to a command that a later one took the place of. */
 export const SUPERSEDED = Symbol('superseded');
 
+/**
+ * The error in an answer; null where there is none, or where a later command took its place, which has an answer of its own.
+ *
+ * @param {string|null|symbol} answer
+ */
+export function errorOf(answer) {
+  return typeof answer === 'string' ? answer : null;
+}
+
 /** Sends commands of the same key one after another. */
 export class Live {
   #send;

@@ -17,6 +17,7 @@ export function likeness({modes, nearest}) {
 export class LiveCharts {
   #modes;
   #turn = 0;
+  /** @type {[string, TimeChart|EnvelopeChart][]} */
   #charts;
   #outputs;
   #shown = [];
@@ -34,7 +35,7 @@ export class LiveCharts {
     byId('envelope-key').replaceChildren(...modes.flatMap(({name}, i) => [
       make('span', {}, make('i', {className: `key s${i + 2} dash`}), name), ' ',
     ]));
-    this.#outputs = new Map([...document.querySelectorAll('[data-chart]')].map(one => [one.dataset.chart, one]));
+    this.#outputs = new Map(/** @type {HTMLElement[]} */ ([...document.querySelectorAll('[data-chart]')]).map(one => [one.dataset.chart, one]));
   }
 
   /** Shows those that have something to tell; `has` as in `Legend.show`. */
@@ -44,7 +45,7 @@ export class LiveCharts {
     for (const [name] of this.#charts) {
       byId(`chart-${name}`).closest('figure').hidden = !needed[name];
     }
-    this.#outputs.get('distance').closest('.charts').hidden = this.#shown.length === 0;
+    /** @type {HTMLElement} */ (this.#outputs.get('distance').closest('.charts')).hidden = this.#shown.length === 0;
   }
 
   /** Takes over new colours. */

@@ -38,7 +38,11 @@ export class Lockstep {
   /** Frames that the user has asked for one by one. */
   wanted = 0;
 
-  /** Called with an error text, or null, after each step. */
+  /**
+   * Called with an error text, or null, after each step.
+   *
+   * @type {(error: string|null) => void}
+   */
   onStep = () => {};
 
   /** Whether frames are to be left where they are, since one of the views does not have its own yet. */

@@ -28,8 +28,9 @@ const FIGURES_MS = 250;
 const NAMES = ['a', 'b'];
 
 /** The whole page: one or two views, and controls for the chosen one. */
-class Page {
+export class Page {
   #setup;
+  /** @type {View[]} */
   #views = [];
   #figures = [];
   #chosen = 0;
@@ -89,8 +90,8 @@ class Page {
     byId('compare').addEventListener('click', () => this.toggleCompare());
     byId('picture-save').addEventListener('click', () => this.savePicture());
     byId('film').addEventListener('click', () => this.toggleFilm());
-    this.#capture.onRecording = isOn => byId('film').setAttribute('aria-pressed', isOn);
-    byId('theme').addEventListener('change', event => this.#theme.choose(event.target.value));
+    this.#capture.onRecording = isOn => byId('film').setAttribute('aria-pressed', String(isOn));
+    byId('theme').addEventListener('change', () => this.#theme.choose(byId('theme').value));
   }
 
   #tick(now) {
@@ -137,7 +138,7 @@ class Page {
     this.#range.keepFirst(this.#views[0]);
     const old = byId('stage-b').querySelector('.picture');
     old.replaceWith(old.cloneNode());
-    byId('stage-b').querySelector('.overlay').hidden = false;
+    /** @type {HTMLElement} */ (byId('stage-b').querySelector('.overlay')).hidden = false;
     byId('stage-b').hidden = true;
     this.#choose(0);
     this.#compareChanged();
@@ -154,7 +155,7 @@ class Page {
 
   #compareChanged() {
     const isTwo = this.#views.length === 2;
-    byId('compare').setAttribute('aria-pressed', isTwo);
+    byId('compare').setAttribute('aria-pressed', String(isTwo));
     byId('which').hidden = !isTwo;
     this.remember();
   }

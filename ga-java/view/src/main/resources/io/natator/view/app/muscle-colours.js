@@ -16,7 +16,7 @@ export class MuscleColours {
   change;
 
   /**
-   * @param {object} scene SCEN
+   * @param {Scene} scene SCEN
    * @param {Float32Array} position of all particles
    * @param {Float32Array} places of the vertices with them
    * @param {number} spacing of particles in the body, length

@@ -38,9 +38,12 @@ export class PlainPicture {
   #lineProjector = new Projector();
   #trace;
   #field;
+  /** @type {Scene|null} */
   #scene = null;
   #values = new Float32Array(0);
+  /** @type {Int16Array} */
   #kinds = new Int16Array(0);
+  /** @type {Uint8Array} */
   #joints = new Uint8Array(0);
   #muscles = [];
   #lines = null;
@@ -78,7 +81,11 @@ export class PlainPicture {
     return false;
   }
 
-  /** Draws a picture that rests, with a finer surface. */
+  /**
+   * Draws a picture that rests, with a finer surface.
+   *
+   * @param {Frame} frame
+   */
   refine(frame, camera, from) {
     this.#surfaceShare = 1;
     this.#fitSurface();
@@ -134,7 +141,11 @@ export class PlainPicture {
     this.#surface.setSize(this.#surfaceCanvas.width, this.#surfaceCanvas.height);
   }
 
-  /** Draws a frame; water nearer than `from` is left out. */
+  /**
+   * Draws a frame; water nearer than `from` is left out.
+   *
+   * @param {Frame} frame
+   */
   draw(frame, camera, from) {
     this.#lineProjector.set(camera, this.#canvas.width, this.#canvas.height);
     this.#drawTank();

@@ -9,12 +9,17 @@ const LIGHTS = 16;
 
 /** Nothing for bodies without a mesh. */
 export class PlainSkin {
+  /** @type {Scene|null} */
   #scene = null;
   #motion = null;
   #colours = [];
   #projected = new Float32Array(0);
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#scene = scene;
     this.#motion = scene.skin ? new SkinMotion(scene) : null;

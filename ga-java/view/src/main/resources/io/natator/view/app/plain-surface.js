@@ -120,7 +120,7 @@ export class SurfaceLayer {
   /**
    * Lights the surface into `image`.
    *
-   * @param {Projector} projector of this layer's size
+   * @param {import('./projector.js').Projector} projector of this layer's size
    * @param {Uint8Array} colours RGBA for each whole value
    * @param {number[]} sky three numbers from 0 to 255, seen at grazing angles
    */

@@ -18,10 +18,8 @@ export function sceneNumber(buffer) {
  * Decodes one frame. Arrays are views into the buffer.
  *
  * @param {ArrayBuffer} buffer body of a FRAM
- * @param {object} scene body of its SCEN
- * @returns {object} frame, dropped, running, touching, time (s), wallTime (s), distance, velocity [x, y, z], momentum,
- *     angularMomentum, densityMean, densityMax (shares of the rest density), activation (A numbers, a u), position and
- *     velocities (3N numbers), density (N numbers); fields that the stream leaves out are null
+ * @param {Scene} scene body of its SCEN
+ * @returns {Frame}
  * @throws {Error} if the length does not fit the scene
  */
 export function decodeFrame(buffer, scene) {

@@ -42,8 +42,8 @@ export class RunBrowser {
     this.#elites = new EliteMap(watch, look);
     this.#front = new ParetoPlot(watch, look, () => this.#front.mark(this.#swims));
     fillSelect(byId('run-choice'), runs.map(({id, name}) => [id, name]));
-    byId('run-choice').addEventListener('change', async event => {
-      await this.load(event.target.value);
+    byId('run-choice').addEventListener('change', async () => {
+      await this.load(byId('run-choice').value);
       this.#onSettled();
     });
     byId('run-watch').addEventListener('click', () => this.#watch(false));

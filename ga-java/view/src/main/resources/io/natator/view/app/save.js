@@ -1,11 +1,19 @@
 /** What was set, as files. */
 
-/** A gait as the text of a file for `--gait`. */
+/**
+ * A gait as the text of a file for `--gait`.
+ *
+ * @param {Scene} scene
+ */
 export function gaitText(scene) {
   return text(scene.gait);
 }
 
-/** A scene as the text of a file for `--scene`: what it builds on, and what differs. */
+/**
+ * A scene as the text of a file for `--scene`: what it builds on, and what differs.
+ *
+ * @param {Scene} scene
+ */
 export function sceneText(scene) {
   const own = scene.overrides ?? {};
   return text({base: scene.scene, ...own, ...(own.scheme === undefined ? {scheme: scene.scheme} : {})});

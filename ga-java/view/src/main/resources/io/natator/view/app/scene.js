@@ -20,7 +20,7 @@ const MARGIN = 0.6;
  * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first. A periodic axis
  * has no walls: of it as much is shown around the body as the tank is long.
  *
- * @param {object} scene SCEN
+ * @param {Scene} scene SCEN
  * @param {Float32Array} position of all particles in the settled start
  * @returns {{min: number[], max: number[], walls: boolean, open: boolean[]}} walls is false where planes are missing and the
  *     box is just around the particles; whether an axis is periodic
@@ -49,17 +49,29 @@ export function tankBounds(scene, position) {
 
 const AXES = ['x', 'y', 'z'];
 
-/** The axes that have no ends, each with where its tank begins and ends; streams of before know none. */
+/**
+ * The axes that have no ends, each with where its tank begins and ends; streams of before know none.
+ *
+ * @param {Scene} scene
+ */
 function periodic(scene) {
   return scene.periodic ?? {};
 }
 
-/** Whether its tank moves along with the body. */
+/**
+ * Whether its tank moves along with the body.
+ *
+ * @param {Scene} scene
+ */
 export function hasOpenAxes(scene) {
   return Object.keys(periodic(scene)).length > 0;
 }
 
-/** The same bounds about where the body now is along periodic axes; without a body where the tank is. */
+/**
+ * The same bounds about where the body now is along periodic axes; without a body where the tank is.
+ *
+ * @param {Scene} scene
+ */
 export function boundsAround(bounds, scene, position) {
   const min = [...bounds.min];
   const max = [...bounds.max];
@@ -116,23 +128,39 @@ export function tankLines({min, max, walls, open}) {
   return {floor: corners.map(([x, z]) => [x, y0, z]), marks, edges};
 }
 
-/** Distance of neighbouring particles in a body, length. */
+/**
+ * Distance of neighbouring particles in a body, length.
+ *
+ * @param {Scene} scene
+ */
 export function bodySpacing(scene) {
   return scene.slices.length > 1 ? scene.bodyLength / (scene.slices.length - 1) : scene.solidRestDistance / 2;
 }
 
-/** All particles that are no water: of the body, of companions, of obstacles. */
+/**
+ * All particles that are no water: of the body, of companions, of obstacles.
+ *
+ * @param {Scene} scene
+ */
 export function solids(scene) {
   const [first, count] = scene.fluid;
   return Array.from({length: scene.particles}, (_, i) => i).filter(i => i < first || i >= first + count);
 }
 
-/** Muscles of a scene, of several between the same particles only one. */
+/**
+ * Muscles of a scene, of several between the same particles only one.
+ *
+ * @param {Scene} scene
+ */
 export function distinctMuscles(scene) {
   return [...new Map(scene.muscles.map(muscle => [`${muscle.a} ${muscle.b}`, muscle])).values()];
 }
 
-/** How much a muscle is stretched (above 0) or contracted (below), -1 to 1. */
+/**
+ * How much a muscle is stretched (above 0) or contracted (below), -1 to 1.
+ *
+ * @param {Frame} frame
+ */
 export function muscleChange(muscle, frame) {
   return Math.max(-1, Math.min(1, muscle.lateral * frame.activation[muscle.actuator]));
 }

@@ -7,7 +7,7 @@ import {listen} from './keys.js';
 /**
  * Listens to all of them.
  *
- * @param {object} page with `setCamera`, `toggleCompare`, `savePicture` and `toggleFilm`
+ * @param {import('./main.js').Page} page with `setCamera`, `toggleCompare`, `savePicture` and `toggleFilm`
  * @param {object} parts of it: transport, controls, look, runs, theme, presentation; openAbout
  */
 export function listenToShortcuts(page, {transport, controls, look, runs, theme, presentation, openAbout}) {

@@ -39,7 +39,10 @@ export class ClusterMotion {
         }
       }
     });
-    for (let i = 0; i < ITERATIONS && this.#follow(); i++) {}
+    let left = ITERATIONS;
+    while (left > 0 && this.#follow()) {
+      left--;
+    }
   }
 
   /** Turns once towards the fit; false when there. */
@@ -107,7 +110,7 @@ export class SkinMotion {
   /** For each vertex, the cluster that it goes with. */
   cluster;
 
-  /** @param {object} scene a SCEN with a skin */
+  /** @param {Scene} scene a SCEN with a skin */
   constructor(scene) {
     this.#skin = scene.skin;
     const rest = new Map(scene.body.map((particle, i) => [particle, scene.skin.rest[i]]));

@@ -45,7 +45,11 @@ export class SolverControls {
     }
   }
 
-  /** Shows the settings of a scene (SCEN). */
+  /**
+   * Shows the settings of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   show(scene) {
     const solver = {...DEFAULTS, ...scene.definition.solver};
     this.#gravity = solver.gravity;

@@ -44,7 +44,9 @@ export class Stage {
   #drawing = null;
   #trace = new SpineTrace();
   #field = new FieldValues();
+  /** @type {Scene|null} */
   #scene = null;
+  /** @type {Frame|null} */
   #frame = null;
   #bounds = null;
   #look = {...DEFAULT_LOOK};
@@ -73,7 +75,11 @@ export class Stage {
     document.addEventListener('visibilitychange', () => this.#quality.rest(), {signal: this.#listening.signal});
   }
 
-  /** Called with the ends of the water's colour scale. */
+  /**
+   * Called with the ends of the water's colour scale.
+   *
+   * @type {(range: number[]) => void}
+   */
   onRange = () => {};
 
   /** Ends of the colour scale that hold instead of this picture's own; null for its own. */
@@ -97,7 +103,11 @@ export class Stage {
     return this.#picture?.name ?? '';
   }
 
-  /** Takes over a scene (SCEN); the next frame is one of it. */
+  /**
+   * Takes over a scene (SCEN); the next frame is one of it.
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#bounds = this.#scene === null || scene.restarted ? null : this.#bounds;
     this.#scene = scene;
@@ -106,7 +116,11 @@ export class Stage {
     this.#picture?.setScene(scene);
   }
 
-  /** Shows this frame from the next drawing on. */
+  /**
+   * Shows this frame from the next drawing on.
+   *
+   * @param {Frame} frame
+   */
   setFrame(frame) {
     this.#frame = frame;
     if (this.#bounds === null) {

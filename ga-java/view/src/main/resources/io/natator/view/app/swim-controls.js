@@ -2,6 +2,7 @@
 
 import {byId, fillSelect} from './element.js';
 import {GaitControls, isAtRest, parseGait, randomGait, waveGait} from './gait.js';
+import {errorOf} from './live.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
 import {SolverControls, withoutSettings} from './solver.js';
 
@@ -14,7 +15,7 @@ export class SwimControls {
   #vacuumBusy = false;
 
   /**
-   * @param {object} page with the chosen `view` and `showControls`
+   * @param {import('./main.js').Page} page with the chosen `view` and `showControls`
    * @param {object} setup what the server can do: schemes, scenes, gaits
    */
   constructor(page, setup) {
@@ -45,9 +46,8 @@ export class SwimControls {
     this.#gait.show(scene);
     this.#solver.show(scene);
     byId('gait-save').disabled = scene.gait === null;
-    for (const id of ['gait-random', 'gait-load']) {
-      byId(id).disabled = scene.actuators === 0;
-    }
+    byId('gait-random').disabled = scene.actuators === 0;
+    byId('gait-load').disabled = scene.actuators === 0;
   }
 
   toggleVacuum() {
@@ -56,21 +56,22 @@ export class SwimControls {
 
   #listen() {
     const click = (id, action) => byId(id).addEventListener('click', action);
-    const change = (id, action) => byId(id).addEventListener('change', event => action(event.target));
-    change('scene', select => this.#changeScene(select.value));
-    change('scheme', select => this.#changeScheme(select.value));
-    change('vacuum', input => this.#changeVacuum(input.checked));
+    const change = (id, action) => byId(id).addEventListener('change', action);
+    change('scene', () => this.#changeScene(byId('scene').value));
+    change('scheme', () => this.#changeScheme(byId('scheme').value));
+    change('vacuum', () => this.#changeVacuum(byId('vacuum').checked));
     click('scene-save', () => download(fileName(this.#view.scene, 'scene'), sceneText(this.#view.scene)));
     click('gait-save', () => download(fileName(this.#view.scene, 'gait'), gaitText(this.#view.scene)));
     click('gait-load', () => byId('gait-file').click());
     click('gait-random', async () => {
-      byId('gait-error').textContent = await this.#view.setGait(randomGait(this.#view.scene.actuators)) ?? '';
+      byId('gait-error').textContent = errorOf(await this.#view.setGait(randomGait(this.#view.scene.actuators))) ?? '';
     });
     click('solver-default', async () => {
       const {scene, overrides, gait} = this.#view.scene;
       byId('solver-error').textContent = await this.#view.setScene(scene, withoutSettings(overrides), gait) ?? '';
     });
-    change('gait-file', input => {
+    change('gait-file', () => {
+      const input = byId('gait-file');
       if (input.files.length > 0) {
         this.#loadGait(input.files[0]);
         input.value = '';
@@ -97,13 +98,13 @@ export class SwimControls {
   }
 
   async #changeScheme(scheme) {
-    byId('scene-error').textContent = await this.#view.setOverrides('scheme', {scheme}) ?? '';
+    byId('scene-error').textContent = errorOf(await this.#view.setOverrides('scheme', {scheme})) ?? '';
     this.#page.showControls();
   }
 
   async #loadGait(file) {
     try {
-      byId('gait-error').textContent = await this.#view.setGait(parseGait(await file.text())) ?? '';
+      byId('gait-error').textContent = errorOf(await this.#view.setGait(parseGait(await file.text()))) ?? '';
     } catch (error) {
       byId('gait-error').textContent = `${file.name}: ${error.message}`;
     }

@@ -4,7 +4,7 @@ import {isSameGait} from './gait.js';
 
 /** Whether two patches, of which either may be absent, say the same, in whatever order. */
 export function isSamePatch(one, other) {
-  const sorted = (key, value) => value !== null && typeof value === 'object' && !Array.isArray(value)
+  const sorted = (_, value) => value !== null && typeof value === 'object' && !Array.isArray(value)
       ? Object.fromEntries(Object.entries(value).sort(([a], [b]) => a < b ? -1 : 1)) : value;
   return JSON.stringify(one ?? {}, sorted) === JSON.stringify(other ?? {}, sorted);
 }

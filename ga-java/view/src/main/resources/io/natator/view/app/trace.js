@@ -12,6 +12,7 @@ const HEAD_INTERVAL = 1 / 30;
 
 /** Rings of places that a drawing can read as they are. */
 export class SpineTrace {
+  /** @type {Scene|null} */
   #scene = null;
   #slices = 0;
   #next = 0;
@@ -35,7 +36,11 @@ export class SpineTrace {
     return this.#slices;
   }
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     const isOther = scene.restarted || this.#slices !== scene.slices.length;
     this.#scene = scene;
@@ -56,7 +61,11 @@ export class SpineTrace {
     this.version++;
   }
 
-  /** Adds the spine of a frame when it is time for it; a jump back in time begins anew. */
+  /**
+   * Adds the spine of a frame when it is time for it; a jump back in time begins anew.
+   *
+   * @param {Frame} frame
+   */
   update(frame) {
     if (this.#slices < 2) {
       return;

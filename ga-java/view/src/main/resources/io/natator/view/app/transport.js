@@ -8,14 +8,14 @@ export class Transport {
   #page;
   #lockstep;
 
-  /** @param {object} page with `views`, the chosen `view` and `remember` */
+  /** @param {import('./main.js').Page} page with `views`, the chosen `view` and `remember` */
   constructor(page) {
     this.#page = page;
     this.renew();
     byId('run').addEventListener('click', () => this.toggleRun());
     byId('step').addEventListener('click', () => this.step());
     byId('reset').addEventListener('click', () => this.reset());
-    byId('rate').addEventListener('change', event => this.setRate(Number(event.target.value)));
+    byId('rate').addEventListener('change', () => this.setRate(Number(byId('rate').value)));
   }
 
   /** What leads two views is another from here on; the one before has no more say, though its last step may still be under way. */

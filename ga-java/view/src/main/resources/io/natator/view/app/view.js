@@ -2,7 +2,7 @@
 
 import {Connection} from './connection.js';
 import {History} from './history.js';
-import {Live} from './live.js';
+import {Live, errorOf} from './live.js';
 import {Meter} from './meter.js';
 import {isSameGait, waveGait} from './gait.js';
 import {decodeFrame, sceneNumber, stopText} from './protocol.js';
@@ -32,9 +32,17 @@ export class View {
   #isFresh = false;
   #isNew = false;
 
-  /** SCEN of what runs, or null. */
+  /**
+   * SCEN of what runs, or null.
+   *
+   * @type {Scene|null}
+   */
   scene = null;
-  /** The last drawn frame, or null. */
+  /**
+   * The last drawn frame, or null.
+   *
+   * @type {Frame|null}
+   */
   frame = null;
   /** The last ANALYSIS of this motion, or null. */
   analysis = null;
@@ -169,7 +177,11 @@ export class View {
     return this.#live.submit('rate', {do: 'rate', value});
   }
 
-  /** Another gait; `origin` is {run, label} of where it is from, if that is known. */
+  /**
+   * Another gait; `origin` is {run, label} of where it is from, if that is known.
+   *
+   * @param {Gait} gait
+   */
   setGait(gait, origin = null) {
     this.#setting.origin = origin === null ? null : {...origin, gait};
     return this.#live.submit('gait', {do: 'gait', gait});
@@ -180,7 +192,12 @@ export class View {
     return this.#live.submit(`overrides ${key}`, {do: 'overrides', overrides});
   }
 
-  /** Another scene from its start; gait null for none, with its `origin` if that is known. */
+  /**
+   * Another scene from its start; gait null for none, with its `origin` if that is known.
+   *
+   * @param {string} scene its name or file
+   * @param {Gait|null} gait
+   */
   setScene(scene, overrides, gait, origin = null) {
     this.#setting.origin = origin === null ? this.#setting.origin : {...origin, gait};
     return this.#connection.send({
@@ -289,7 +306,7 @@ export class View {
     if (gait !== null && error?.startsWith('gait.')) {
       error = await this.setScene(scene, overrides, null);  // it has other muscles now
       if (error === null && this.scene.actuators > 0) {
-        error = await this.setGait(waveGait(this.scene.actuators));
+        error = errorOf(await this.setGait(waveGait(this.scene.actuators)));
       }
     }
     this.#handlers.notice(error === null ? `${name} was read again.` : error, error !== null);

@@ -1,6 +1,7 @@
 /** Puts the gaits of a run into the views: in place of what swims there, or beside it. */
 
 import {isSameGait} from './gait.js';
+import {errorOf} from './live.js';
 import {isSamePatch} from './swimmer.js';
 
 /** Whether two settings (scene, overrides, gait), of which the second may be absent, are the same swim. */
@@ -14,7 +15,7 @@ export class Watching {
   #page;
   #browsed = null;
 
-  /** @param {object} page with `views`, the chosen `view`, `toggleCompare` and `reset` */
+  /** @param {import('./main.js').Page} page with `views`, the chosen `view`, `toggleCompare` and `reset` */
   constructor(page) {
     this.#page = page;
   }
@@ -65,6 +66,6 @@ export class Watching {
     if (error === null && isHere) {
       await this.#page.reset();
     }
-    return typeof error === 'string' ? error : null;
+    return errorOf(error);
   }
 }

@@ -50,7 +50,11 @@ export class WaterShapes {
   /** How many shapes there are. */
   count = 0;
 
-  /** Takes over what is known of a scene (SCEN). */
+  /**
+   * Takes over what is known of a scene (SCEN).
+   *
+   * @param {Scene} scene
+   */
   setScene(scene) {
     this.#spacing = scene.fluidRestDistance;
     const gravity = Math.hypot(...scene.definition?.solver?.gravity ?? [0, 0, 0]);
