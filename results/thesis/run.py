@@ -31,9 +31,9 @@ class Failure(Exception):
     """What went wrong, in one line."""
 
 
-def call(command, accepted=(0,)):
+def call(command, accepted=(0,), **environment):
     """Standard output of a program; Failure with its last line where it fails."""
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8")
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8", env={**os.environ, **environment})
     if done.returncode not in accepted:
         said = (done.stderr.strip() or done.stdout.strip() or "it said nothing").splitlines()[-1]
         raise Failure(f"{' '.join(map(str, command[:4]))} … ended with exit code {done.returncode}: {said}")
@@ -231,8 +231,9 @@ class Work:
         if one and not file.exists():
             write(self.study.folder / "gait.json", one.gait)
             file.parent.mkdir(exist_ok=True)
-            call([*self.natator, "picture", plan.scene(one.creature, one.water), "--gait", self.study.folder / "gait.json", "--scheme",
-                  plan.SCHEME[one.water], "--at", self.study.duration / 2, "--from", "three-quarter", "--output", file, "--simulator-path", self.simulator])
+            call([sys.executable, "-m", "natator", "picture", plan.scene(one.creature, one.water), "--gait", self.study.folder / "gait.json", "--scheme",
+                  plan.SCHEME[one.water], "--at", self.study.duration / 2, "--from", "three-quarter", "--output", file],
+                 NATATOR_SIM=str(self.simulator), PYTHONPATH=str(pathlib.Path(__file__).resolve().parents[2] / "sim-native" / "python"))
             (self.study.folder / "gait.json").unlink()
 
     def in_threads(self, work, asked, what, done=lambda _: None):
