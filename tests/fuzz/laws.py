@@ -244,7 +244,7 @@ def main():
                     faults += bool(fault)
                     again = {key: value for key, value in scene.items()}
                     print(f"{scheme} {number}: {fault or law}\n  {shlex.quote(json.dumps(again))}\n  {json.dumps(gait)}", flush=True)
-        told = ", ".join(f"{count} {name}" for name, count in outcomes.max_common())
+        told = ", ".join(f"{count} {name}" for name, count in outcomes.most_common())
         print(f"{scheme}: {told}; unstable by law: {dict(+laws)}", flush=True)
         if outcomes["refused"] > 0.5 * max(1, sum(outcomes.values())):
             print(f"{scheme}: most scenes are refused, nothing is tried")
