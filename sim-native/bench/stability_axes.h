@@ -15,7 +15,7 @@ struct StabilityCase {
     Scene scene;
     Gait gait;
     std::function<void(Model&)> rearrange;  ///< moves particles before the start; may be empty
-    /// Incidence of the run after which laws are looked at: above 0 where the start breaks one on purpose.
+    /// Share of the run after which laws are looked at: above 0 where the start breaks one on purpose.
     double judged_from = 0;
 };
 

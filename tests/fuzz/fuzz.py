@@ -58,7 +58,7 @@ def fuzz(options, program):
     runners, counts, faults, begin = {}, dict.fromkeys(kinds, 0), 0, time.monotonic()
     slowest = (0, "")
     number = 0
-    while number < options.cases and time.monotonic() - begin < options.seconds and faults < options.max_faults:
+    while number < options.cases and time.monotonic() - begin < options.seconds and faults < options.most_faults:
         number += 1
         chance = random.Random(f"{options.seed}/{number}")
         kind = chance.choices(kinds, weights)[0]

@@ -107,7 +107,7 @@ def moved(times, particles, frequency, under_water):
 
 
 def share_below(fluid, body):
-    """Incidence of the body's particles below the water's level, the median of the uppermost particles of all columns; None without water."""
+    """Share of the body's particles below the water's level, the median of the uppermost particles of all columns; None without water."""
     if not len(fluid):
         return None
     width = 2 * np.cbrt(np.prod(np.maximum(np.ptp(fluid, axis=0), 1e-6)) / len(fluid))

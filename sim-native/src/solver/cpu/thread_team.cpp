@@ -49,7 +49,7 @@ ThreadTeam::~ThreadTeam() {
 
 void ThreadTeam::take_parts(int number) {
     for (int k = 0; k < size(); ++k) {
-        Incidence& share = shares_[(number + k) % size()];
+        Share& share = shares_[(number + k) % size()];
         for (int part = share.next++; part < share.end; part = share.next++) {
             try {
                 (*work_)(part);

@@ -58,11 +58,11 @@ private:
     std::atomic<bool> over_{false};           ///< no more work will come
     std::atomic<unsigned> call_{0};           ///< counts the calls of run
     /// Parts of one thread that nobody has taken: it begins with those, so that it finds in its cache what it left there.
-    struct alignas(64) Incidence {
+    struct alignas(64) Share {
         std::atomic<int> next{0};
         int end = 0;
     };
-    std::vector<Incidence> shares_;               ///< by thread
+    std::vector<Share> shares_;               ///< by thread
     std::atomic<int> inside_;                 ///< helpers in the present call; -1: none may enter
 };
 
