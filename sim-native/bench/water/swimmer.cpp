@@ -143,22 +143,24 @@ double Swimmer::slope(double s, double ds, double beats) const {
     return (bending(s + ds / 2, beats) - bending(s - ds / 2, beats)) / ds;
 }
 
+Eigen::Vector2d Swimmer::half_axes(double s, double length, double wider) const {
+    return {half_width.at(s) * length + wider, slab ? 0 : half_height.at(s) * length + wider};
+}
+
 bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest, double wider) const {
     const double s = -x.x() / length;
     if (s < 0 || s > 1) return false;
-    const double width = std::max(half_width.at(s) * length + wider, thinnest);
-    if (slab) return std::abs(x.z()) <= width;
-    const double height = std::max(half_height.at(s) * length + wider, thinnest);
-    if (square) return std::abs(x.z()) <= width && std::abs(x.y()) <= height;
-    return std::hypot(x.z() / width, x.y() / height) <= 1;
+    const Eigen::Vector2d half = half_axes(s, length, wider).cwiseMax(thinnest);
+    if (slab) return std::abs(x.z()) <= half.x();
+    if (square) return std::abs(x.z()) <= half.x() && std::abs(x.y()) <= half.y();
+    return std::hypot(x.z() / half.x(), x.y() / half.y()) <= 1;
 }
 
 Eigen::Vector3d Swimmer::normal(const Eigen::Vector3d& x, double length, double wider) const {
     const auto out = [&](double along, double y, double z) {  // 1 on the surface
-        const double s = std::clamp(-along / length, 0.0, 1.0), width = half_width.at(s) * length + wider;
-        if (slab) return std::abs(z) / width;
-        const double height = half_height.at(s) * length + wider;
-        return square ? std::max(std::abs(z) / width, std::abs(y) / height) : std::hypot(z / width, y / height);
+        const Eigen::Vector2d half = half_axes(std::clamp(-along / length, 0.0, 1.0), length, wider);
+        if (slab) return std::abs(z) / half.x();
+        return square ? std::max(std::abs(z) / half.x(), std::abs(y) / half.y()) : std::hypot(z / half.x(), y / half.y());
     };
     const double d = 1e-4 * length;
     const Eigen::Vector3d gradient(out(x.x() + d, x.y(), x.z()) - out(x.x() - d, x.y(), x.z()), out(x.x(), x.y() + d, x.z()) - out(x.x(), x.y() - d, x.z()),

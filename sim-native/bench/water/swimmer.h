@@ -63,6 +63,8 @@ struct Swimmer {
     std::vector<Eigen::Vector3d> bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const;
 
 private:
+    /// Half width and height of a section.
+    Eigen::Vector2d half_axes(double s, double length, double wider) const;
     double grown(double beats) const;
     double bending(double s, double beats) const;
     double slope(double s, double ds, double beats) const;
