@@ -9,9 +9,6 @@ namespace {
 
 /// Where the body's middle is in the box, and how far it goes until the box is moved along, of its length.
 constexpr double middle = 2.0 / 3, far = 0.05;
-/// Cells by which it is larger than its outline. Water sticks to the outer cells' centres, which lie up to a cell inside of it: with 0, 0.2 and 0.4 a
-/// slowly spinning sphere 12 cells across has 0.88, 0.98 and 1.01 of its torque.
-constexpr double larger = 0.2;
 constexpr double tail_speed = 1.2;  ///< lengths/beat
 /// cells^2/step: a cell that is told its velocity has it to half of what a step's force gives, which puts walls half of this off, in cells.
 constexpr double max_viscosity = 0.1;
@@ -36,15 +33,15 @@ LatticeSwim::LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int res
     std::vector<Eigen::Vector3d> places;
     for (int x = 0; x <= resolution; ++x) {
         const double s = static_cast<double>(x) / resolution;
-        const bool even = std::lround(2 * (swimmer.half_width.at(s) * resolution + larger)) % 2 == 0;  // rows across, not less than one
+        const bool even = std::lround(2 * (swimmer.half_width.at(s) * resolution + lattice::surface_offset)) % 2 == 0;  // rows across, not less than one
         for (int y = -at.y(); y <= at.y(); ++y)
             for (int z = -at.z(); z <= at.z(); ++z) {
                 const Eigen::Vector3d place(-scene.length * s, cell * y, cell * (even ? z + 0.5 : z));
-                if (swimmer.holds(place, scene.length, 0, larger * cell)) places.push_back(nose + place);
+                if (swimmer.holds(place, scene.length, 0, lattice::surface_offset * cell)) places.push_back(nose + place);
             }
     }
-    for (const Eigen::Vector3d& place : places) normals_.push_back(swimmer.normal(place - nose, scene.length, larger * cell));
-    immersed_.emplace(places, std::vector<int>(places.size(), 0), cell, 1.2);
+    for (const Eigen::Vector3d& place : places) normals_.push_back(swimmer.normal(place - nose, scene.length, lattice::surface_offset * cell));
+    immersed_.emplace(places, std::vector<int>(places.size(), 0), cell, 1.2, 0);
     body_.emplace(swimmer, scene, nose, std::move(places), step_, kept_on_lattice);
     run_.particles = box_.cells.prod();
 }

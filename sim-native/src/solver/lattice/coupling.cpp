@@ -4,13 +4,12 @@
 #include <cmath>
 
 namespace natator::lattice {
-
 template <class Real>
 Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu)
     : model_(model),
       threads_(threads),
       gpu_(gpu),
-      immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing),
+      immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing, 1.75, surface_offset),
       displaced_(model.water_box->density * std::pow(model.body.spacing, 3)) {}
 
 template <class Real>

@@ -42,7 +42,9 @@ private:
     View view();
     void hold(const std::vector<Cube>& cubes);
     void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void hand_over(const Held& held, const float (&surplus)[3], std::vector<Push>& pushes);
     void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void remember();
     void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
     const Populations& after_collision(long cell, const physics::LatticeRates& rates);
     static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
@@ -110,7 +112,7 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
             for (int y = range.low[1]; y < range.low[1] + range.count[1]; ++y)
                 for (int x = range.low[0]; x < range.low[0] + range.count[0]; ++x) {
                     const PlaceInCube in = place_in(cube, x, y, z);
-                    if (!(in.out <= cube_edge)) continue;
+                    if (!(in.out <= cube.edge)) continue;
                     const int inside[3] = {wrapped(x, nx_), wrapped(y, ny_), wrapped(z, nz_)};
                     const long at = place(inside[0], inside[1], inside[2]);
                     if (chosen_[at] < 0) {
@@ -135,7 +137,7 @@ void CpuWater::add(const Held& held, double x, double y, double z, std::vector<P
     }
 }
 
-/// The cells in bodies are to have these velocities.
+/// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to the water beside them.
 void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
     for (const Held& held : held_) {
         const long at = held.cell;
@@ -144,16 +146,33 @@ void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
         const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) add(held, -density * by[0], -density * by[1], -density * by[2], pushes);
+        if (const float surplus[3] = {-density * by[0], -density * by[1], -density * by[2]}; begun_ && owner_[at] < 0) hand_over(held, surplus, pushes);
     }
+}
+
+/// Gives a covered cell's surplus to the water beside it, or to the body where there is none.
+void CpuWater::hand_over(const Held& held, const float (&surplus)[3], std::vector<Push>& pushes) {
+    const int cells[3] = {nx_, ny_, nz_}, here[3] = {held.x, held.y, held.z};
+    long takers[physics::lattice_populations];
+    float sum = 0;
+    for (int i = 0; i < physics::lattice_populations; ++i) {
+        int to[3];
+        takers[i] = neighbour(i, here, cells, periodic_, to) ? place(to[0], to[1], to[2]) : -1;
+        if (takers[i] >= 0 && chosen_[takers[i]] >= 0) takers[i] = -1;
+        if (takers[i] >= 0) sum += neighbour_weight(i);
+    }
+    if (sum == 0) add(held, surplus[0], surplus[1], surplus[2], pushes);
+    for (int i = 0; i < physics::lattice_populations; ++i)
+        for (int a = 0; a < 3 && takers[i] >= 0; ++a) now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
 }
 
 /// Cells that a body has left keep what they have more than it, which it was given.
 void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
     const int cells[3] = {nx_, ny_, nz_};
     for (const Owned& one : owned_) {
+        if (chosen_[one.cell] >= 0) continue;
         const int p = std::exchange(owner_[one.cell], -1);
-        if (chosen_[one.cell] >= 0 || p >= static_cast<int>(cubes.size())) continue;
+        if (p >= static_cast<int>(cubes.size())) continue;
         const int at[3] = {one.x, one.y, one.z};
         int here[3];
         bool near = true;  // a body that has been put elsewhere is not pushed by what it left
@@ -168,6 +187,9 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         add(left, density * left.velocity.x - now_[1][one.cell], density * left.velocity.y - now_[2][one.cell],
             density * left.velocity.z - now_[3][one.cell], pushes);
     }
+}
+
+void CpuWater::remember() {
     owned_.clear();
     for (const Held& held : held_) {
         owner_[held.cell] = held.cube;
@@ -178,8 +200,9 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
 void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     pushes.assign(cubes.size(), {});
     hold(cubes);
-    tell(cubes, pushes);
     release(cubes, pushes);
+    tell(cubes, pushes);
+    remember();
     begun_ = true;
 
     const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
@@ -216,20 +239,16 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
     const int cells[3] = {nx_, ny_, nz_};
     for (const Held& held : held_) {
         double j[3] = {};
+        const int here[3] = {held.x, held.y, held.z};
         const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};
         bool any = false;
         for (int i = 0; i < physics::lattice_populations; ++i) {
             const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            int from[3] = {held.x - c[0], held.y - c[1], held.z - c[2]};
-            bool beyond = false;
-            for (int a = 0; a < 3; ++a) {
-                if (periodic_[a]) from[a] = wrapped(from[a], cells[a]);
-                beyond = beyond || from[a] < 0 || from[a] >= cells[a];
-            }
-            if (beyond) continue;
+            const int opposite = physics::lattice_populations - 1 - i;
+            int from[3];
+            if (!neighbour(opposite, here, cells, periodic_, from)) continue;
             const long source = place(from[0], from[1], from[2]);
             if (chosen_[source] >= 0) continue;
-            const int opposite = physics::lattice_populations - 1 - i;
             const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
             const float out = after_collision(held.cell, rates)[opposite] - physics::moving_population(opposite, u);
             for (int a = 0; a < 3; ++a) j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));

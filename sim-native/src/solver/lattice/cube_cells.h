@@ -38,6 +38,23 @@ NATATOR_HD int beside(float x, int at, int cells, bool periodic) {
     return d > half ? at - cells : d < -half ? at + cells : at;
 }
 
+/// The cell that population i streams to from this one (physics/lattice.h), inside periodic ends. False if that is this one or beyond a wall.
+NATATOR_HD bool neighbour(int i, const int (&here)[3], const int (&cells)[3], const bool (&periodic)[3], int (&to)[3]) {
+    const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    bool inside = c[0] != 0 || c[1] != 0 || c[2] != 0;
+    for (int a = 0; a < 3; ++a) {
+        to[a] = here[a] + c[a];
+        if (periodic[a]) to[a] = wrapped(to[a], cells[a]);
+        inside = inside && to[a] >= 0 && to[a] < cells[a];
+    }
+    return inside;
+}
+/// By what neighbours share: 4 a face, 2 an edge, 1 a corner, as the weights of a D3Q27 lattice are to each other.
+NATATOR_HD float neighbour_weight(int i) {
+    const int shared = (i % 3 == 1) + (i / 3 % 3 == 1) + (i / 9 == 1);
+    return shared == 2 ? 4.0f : shared == 1 ? 2.0f : 1.0f;
+}
+
 /// Not fused on a GPU, which so finds the same cells in the same cubes as the CPU.
 NATATOR_HD float scalar_product(const float* a, const float (&b)[3]) {
 #if defined(__CUDA_ARCH__)
@@ -62,9 +79,6 @@ NATATOR_HD PlaceInCube place_in(const Cube& cube, int x, int y, int z) {
     }
     return place;
 }
-
-/// Cubes that meet overlap by this, so that rounding leaves no gaps between them.
-constexpr float cube_edge = 1.02f;
 
 struct Velocity3 {
     float x, y, z;

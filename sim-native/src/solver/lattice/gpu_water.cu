@@ -45,10 +45,18 @@ struct Lattice {
     }
 };
 
+/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives its surplus to its neighbours, so much by
+/// weight; it takes from such.
+struct Handover {
+    enum { none, gives, takes } role;
+    float surplus[3];
+};
+
 /// The cells around all bodies, now and before, with their keys; along periodic axes all.
 struct Keys {
     CellRange around;
     Key* data;
+    Handover* handovers;
 
     /// None of a cell outside.
     NATATOR_HD Key* of(int x, int y, int z) const {
@@ -56,6 +64,7 @@ struct Keys {
         if (a < 0 || b < 0 || c < 0 || a >= around.count[0] || b >= around.count[1] || c >= around.count[2]) return nullptr;
         return data + (static_cast<unsigned>(c) * around.count[1] + b) * around.count[0] + a;
     }
+    NATATOR_HD Handover& handover(const Key& key) const { return handovers[&key - data]; }
 };
 __device__ int cube_of(Key key) {
     return static_cast<int>(key);
@@ -97,7 +106,42 @@ __global__ void hold(Lattice lattice, Keys keys, const float* from_host, Cube* c
     __syncwarp();
     each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, Key& key) {
         const PlaceInCube in = place_in(cube, x, y, z);
-        if (in.out <= cube_edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
+        if (in.out <= cube.edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
+    });
+}
+
+/// The moments of cell `at`.
+__device__ void load_moments(const float* populations, long count, unsigned at, float (&m)[lattice_moments]) {
+    float f[lattice_populations];
+    for (int i = 0; i < lattice_populations; ++i) f[i] = populations[i * count + at];
+    moments_of(f, m);
+}
+
+/// What cells that bodies come to cover have more than those is to go to the water beside them.
+__global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count, const Owners* owners) {
+    const int p = cube_of_warp(count);
+    if (p < 0) return;
+    const Cube& cube = cubes[p];
+    each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, const Key& key) {
+        if (key == nobody || cube_of(key) != p) return;
+        const unsigned at = lattice.at_inside(x, y, z);
+        if (owners[at].now >= 0) return;
+        const int here[3] = {lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z)};
+        float sum = 0;
+        for (int i = 0; i < lattice_populations; ++i) {
+            int to[3];
+            if (!neighbour(i, here, lattice.cells, lattice.periodic, to)) continue;
+            const Key* const taker = keys.of(to[0], to[1], to[2]);
+            if (!taker || *taker != nobody) continue;
+            keys.handover(*taker).role = Handover::takes;
+            sum += neighbour_weight(i);
+        }
+        if (sum == 0) return;
+        float m[lattice_moments];
+        load_moments(populations, lattice.count, at, m);
+        const Velocity3 told = velocity_in(cube, place_in(cube, x, y, z).xi);
+        const float density = 1 + m[0] + divergence_of(cube);
+        keys.handover(key) = {Handover::gives, {(m[1] - density * told.x) / sum, (m[2] - density * told.y) / sum, (m[3] - density * told.z) / sum}};
     });
 }
 
@@ -154,13 +198,6 @@ struct Put {
     }
 };
 
-/// The moments of cell `at`.
-__device__ void load_moments(const float* populations, long count, unsigned at, float (&m)[lattice_moments]) {
-    float f[lattice_populations];
-    for (int i = 0; i < lattice_populations; ++i) f[i] = populations[i * count + at];
-    moments_of(f, m);
-}
-
 /// Collides and streams: a thread a cell.
 __global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeRates rates, const float* __restrict__ from,
                                                        float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes,
@@ -183,6 +220,15 @@ __global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeR
             for (int a = 0; a < 3; ++a) place[a] = beside(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
             told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
             m[0] += divergence_of(cube);
+        } else if (Handover& own = keys.handover(*key); own.role == Handover::takes) {
+            own.role = Handover::none;
+            for (int i = 0; i < lattice_populations; ++i) {
+                int from[3];
+                if (!neighbour(i, place, lattice.cells, lattice.periodic, from)) continue;
+                const Key* const other = keys.of(from[0], from[1], from[2]);
+                if (!other || keys.handover(*other).role != Handover::gives) continue;
+                for (int a = 0; a < 3; ++a) m[1 + a] += neighbour_weight(i) * keys.handover(*other).surplus[a];
+            }
         }
     }
     const float inverse = 1.0f / (m[0] + 1.0f);
@@ -207,25 +253,24 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
         const Velocity3 told = velocity_in(cube, in.xi);
         const float u[3] = {told.x, told.y, told.z};
         float j[3] = {};
+        bool handed = false;
         if (holds) {
             key = nobody;
+            Handover& own_handover = keys.handover(key);
+            handed = own_handover.role == Handover::gives;
+            own_handover.role = Handover::none;
+            const int here[3] = {lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z)};
             for (int i = 0; i < lattice_populations; ++i) {
-                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-                int from[3] = {lattice.inside(0, x) - c[0], lattice.inside(1, y) - c[1], lattice.inside(2, z) - c[2]};
-                bool beyond = false;
-                for (int a = 0; a < 3; ++a) {
-                    from[a] = lattice.inside(a, from[a]);
-                    beyond = beyond || from[a] < 0 || from[a] >= lattice.cells[a];
-                }
-                if (beyond) continue;
+                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, opposite = lattice_populations - 1 - i;
+                int from[3];
+                if (!neighbour(opposite, here, lattice.cells, lattice.periodic, from)) continue;
                 const unsigned source = lattice.at(from[0], from[1], from[2]);
                 if (owners[source].now >= 0) continue;
-                const int opposite = lattice_populations - 1 - i;
                 const float in_ = after[i * cells + at] - moving_population(i, u), out = after[opposite * cells + source] - moving_population(opposite, u);
                 for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out, static_cast<float>(c[a]), u[a]);
             }
         }
-        if (comes || leaves) {
+        if ((comes && !handed) || leaves) {
             float m[lattice_moments];
             load_moments(before, lattice.count, at, m);
             const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0), sign = comes ? 1 : -1;
@@ -295,6 +340,7 @@ private:
     cuda::DeviceBuffer<float> populations_[2];
     cuda::DeviceBuffer<Owners> owners_[2];  ///< the second is for shifts
     cuda::DeviceBuffer<Key> keys_;                 ///< nobody's between steps
+    cuda::DeviceBuffer<Handover> handovers_;       ///< by key; none between steps
     cuda::DeviceBuffer<Cube> cubes_;
     cuda::HostBuffer<Cube> cubes_on_host_;
     cuda::HostBuffer<Push> pushes_;
@@ -345,10 +391,13 @@ Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
     if (keys_.size() < size) {
         wait();
         keys_ = {};
+        handovers_ = {};
         keys_ = cuda::DeviceBuffer<Key>(std::min<std::size_t>(size + size / 2, lattice_.count));
+        handovers_ = cuda::DeviceBuffer<Handover>(keys_.size());
         cuda::check(cudaMemsetAsync(keys_.data(), 0xff, keys_.size() * sizeof(Key), stream_.get()), "clear");
+        cuda::check(cudaMemsetAsync(handovers_.data(), 0, handovers_.size() * sizeof(Handover), stream_.get()), "clear");
     }
-    return {both, keys_.data()};
+    return {both, keys_.data(), handovers_.data()};
 }
 
 void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
@@ -366,6 +415,7 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
         std::ranges::copy(cubes, cubes_on_host_.data());
         hold<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, reinterpret_cast<const float*>(cubes_on_host_.data()),
                                                            cubes_.data(), count);
+        if (begun_) cover<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), cubes_.data(), count, owners_[0].data());
     }
     const LatticeRates rates = lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
     advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, now(), next(), keys, cubes_.data(),

@@ -10,6 +10,7 @@ namespace natator::lattice {
 namespace {
 
 constexpr double min_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
+constexpr double overlap = 1.02;  ///< by this cubes that meet overlap, so that rounding leaves no gaps between them
 constexpr double spanned = 0.05;  ///< of the greatest eigenvalue, below which neighbours don't span an axis
 
 /// A gradient where neighbours span less than three axes, completed to a motion that is rigid across.
@@ -37,8 +38,9 @@ void store(const Eigen::Matrix3d& from, float* to) {
 
 }  // namespace
 
-Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach_in_spacings)
-    : spacing_(spacing), near_(rest.size()) {
+Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach_in_spacings,
+                   double larger)
+    : spacing_(spacing), larger_(larger), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
@@ -73,6 +75,7 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
                                   const Box& box, double step) const {
     std::vector<Cube> cubes(near_.size());
     const double per_step = step / box.cell;
+    const auto edge = static_cast<float>(overlap + 2 * larger_ * box.cell / spacing_);
     for (std::size_t p = 0; p < near_.size(); ++p) {
         Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
         for (const Neighbour& one : near_[p]) {
@@ -90,8 +93,9 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
         for (int a = 0; a < 3; ++a) {
             cube.x[a] = static_cast<float>(middle[a]);
             cube.v[a] = static_cast<float>(velocities[p][a] * per_step);
-            cube.reach[a] = crushed ? -1 : static_cast<float>(shape.row(a).cwiseAbs().sum());
+            cube.reach[a] = crushed ? -1 : static_cast<float>(shape.row(a).cwiseAbs().sum() * edge);
         }
+        cube.edge = edge;
     }
     return cubes;
 }

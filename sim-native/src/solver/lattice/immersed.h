@@ -9,6 +9,10 @@
 
 namespace natator::lattice {
 
+/// Cells by which bodies are larger than their outlines on each side. Water sticks to the centres of their outer cells, which lie up to a cell inside. A
+/// slowly spinning sphere 12 cells across has 0.88, 0.98 and 1.01 of its torque with 0, 0.2 and 0.4; results/swimmers has soft bodies by it.
+constexpr double surface_offset = 0.2;
+
 /// A particle as the water sees it: a cube of body that moves, turns and is stretched with its neighbours. Lengths in cells from the
 /// centre of the first one, times in steps. xi: from its middle at rest, half spacings, so that the cube is -1 <= xi <= 1.
 struct Cube {
@@ -16,6 +20,7 @@ struct Cube {
     float to_rest[9];  ///< rows: xi of a distance from x, half spacings/cell
     float rate[9];     ///< rows: velocity by xi, cells/step a half spacing
     float reach[3];    ///< half of the box around it, cells
+    float edge;        ///< it has the cells whose |xi| is at most this
 };
 
 /// What the water gave a cube in a step, cells/step times cells' masses, and its moments: rows J, columns xi.
@@ -28,8 +33,9 @@ struct Push {
 class Immersed {
 public:
     /// `rest`: places at rest, length; of particles of the same `body` those nearer than `reach` spacings are neighbours. 1.75: those of faces
-    /// and edges, with which soft bodies are stable; 1.2: those of faces alone, for bodies of given shape.
-    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach = 1.75);
+    /// and edges, with which soft bodies are stable; 1.2: those of faces alone, for bodies of given shape. `larger`: cells by which the body is
+    /// larger on each side than its cubes, since water sticks to the centres of its outer cells.
+    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach, double larger);
 
     int particles() const { return static_cast<int>(near_.size()); }
     /// At these places, length, with these velocities, length/s, in a step of so long, s.
@@ -43,7 +49,7 @@ private:
         int particle;
         Eigen::Vector3d weight;  ///< of its distance or velocity in the gradient by xi
     };
-    double spacing_;
+    double spacing_, larger_;
     std::vector<std::vector<Neighbour>> near_;
     std::vector<Eigen::Matrix3d> missing_;  ///< projector on what a particle's neighbours do not span
 };
