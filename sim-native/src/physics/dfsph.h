@@ -40,7 +40,6 @@ NATATOR_HD T unit_part(T v) {
 // The numbers of the method.
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
-inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
 inline constexpr double max_excess = 0.05;    ///< of rest density that the velocities take off in a substep
 inline constexpr double expansion = 0.25;      ///< rate at which they may, times sqrt(s / g)
 inline constexpr double shallow_layers = 40;   ///< deeper water expands more slowly, by the square of its depth in rest distances,

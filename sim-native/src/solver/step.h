@@ -1,6 +1,7 @@
 #pragma once
 
 #include "natator/plan.h"
+#include "physics/dfsph.h"
 #include "stage.h"
 
 // One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on the host
@@ -84,7 +85,8 @@ NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
     if (plan.water) {
-        stages.solve_density_constraint();
+        stages.compute_density_impulses();
+        stages.apply_density_impulses();
         after(Stage::density_constraint);
     }
     if constexpr (Stages::grouping == Grouping::together) {
@@ -109,6 +111,11 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
     after(Stage::fluid_neighbours);
     stages.compute_water_gradients();
     after(Stage::density);
+    if (stages.begin_overlap_separation()) {
+        for (int pass = 0; pass < physics::separation_passes; ++pass) stages.separate_overlaps(pass);
+        stages.end_overlap_separation();
+    }
+    after(Stage::overlaps);
     stages.solve_divergence();
     after(Stage::divergence);
     if (plan.viscosity) {
@@ -119,6 +126,22 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
         stages.add_fluid_forces();
         after(Stage::fluid_forces);
     }
+}
+
+/// Scheme `conserving`, once all passes are done: what the walls and the neighbours still do to the water, and where it goes.
+NATATOR_ANY_SIDE
+template <class Stages, class AfterStage>
+NATATOR_STEP void end_water(Stages& stages, const AfterStage& after) {
+    if constexpr (Stages::grouping == Grouping::together) {
+        stages.end_water_passes();
+    } else {
+        stages.return_zeroth_order_correction();
+        stages.apply_wall_pressure();
+    }
+    after(Stage::walls);
+    stages.add_pressure_forces();
+    stages.move_water();
+    after(Stage::water_motion);
 }
 
 /// What acts on the velocities beyond the constraints, the same in all schemes; all of it is off in the thesis. Only
@@ -173,6 +196,8 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
             iterate_summed(stages, plan, after);
         after(Stage::iteration);
     }
+    if constexpr (Stages::scheme != Scheme::flex)
+        if (plan.water) end_water(stages, after);
     stages.update_velocities();
     after(Stage::velocities);
     if constexpr (Stages::effects) apply_effects(stages, plan, after);

@@ -62,7 +62,7 @@ Vec3<Real> Water<Real>::shift(int particle) const {
 /// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
-bool Water<Real>::separate_overlaps(ThreadTeam& team) {
+bool Water<Real>::begin_overlap_separation(ThreadTeam& team) {
     parting_.clear();
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     std::atomic<bool> any = false;
@@ -84,11 +84,18 @@ bool Water<Real>::separate_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
-    for (int pass = 0; pass < physics::separation_passes; ++pass) {
-        compute_impulses(team);
-        apply_impulses(team);
-        give_images_velocities(team);
-    }
+    return true;
+}
+
+template <class Real>
+void Water<Real>::separate_overlaps(ThreadTeam& team) {
+    compute_impulses(team);
+    apply_impulses(team);
+    give_images_velocities(team);
+}
+
+template <class Real>
+void Water<Real>::end_overlap_separation(ThreadTeam& team) {
     parting_.resize(particles_);
     for_each_slot(team, [this](int slot) {
         parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::max_separation) * spacing_);
@@ -97,7 +104,6 @@ bool Water<Real>::separate_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
-    return true;
 }
 
 template <class Real>
@@ -195,12 +201,6 @@ void Water<Real>::apply_corrected_impulses(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::push_apart(ThreadTeam& team) {
-    compute_impulses(team);
-    apply_corrected_impulses(team);
-}
-
-template <class Real>
 void Water<Real>::return_zeroth_order_correction(ThreadTeam& team) {
     on_all_threads(team, kernels_->lay_out_zeroth_order_correction);
     give_images(packed_zeroth_order_, team);
@@ -217,15 +217,13 @@ void Water<Real>::compute_gradients(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
-    const bool parted = separate_overlaps(team);
     std::fill(zeroth_order_correction_.begin(), zeroth_order_correction_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    if (parted) {
+    if (!parting_.empty()) {
         std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
         compute_impulses(team);
     }  // else compute_gradients has computed them
     apply_corrected_impulses(team);
-    for (int pass = 1; pass < physics::divergence_passes; ++pass) push_apart(team);
 }
 
 template <class Real>

@@ -8,8 +8,6 @@
 
 namespace natator::cuda {
 
-static_assert(physics::divergence_passes == 1, "its impulses are those of water_gradients");
-
 /// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so far.
 template <Pairs pairs, class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
