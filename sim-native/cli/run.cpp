@@ -176,7 +176,7 @@ int run_scene(RunOptions& options) {
     evaluation.execution = options.execution.execution();
     const Evaluation result =
         run_on_gpu(options, scene)
-            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend)
+            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend, evaluation.execution)
             : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();

@@ -108,8 +108,8 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 }
 
 template <class Real>
-std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling) const {
-    const std::string key = settled_state_key(model, settling, sizeof(Real));
+std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
+    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
     std::ostringstream content;
@@ -126,8 +126,8 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 }
 
 template <class Real>
-void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled) const {
-    const std::string key = settled_state_key(model, settling, sizeof(Real));
+void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
+    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&hash), sizeof hash);
@@ -140,9 +140,9 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
     prune(folder_, max_files);
 }
 
-template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&) const;
-template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&) const;
-template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&) const;
-template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&) const;
+template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&, const std::string&) const;
+template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&, const std::string&) const;
+template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&, const std::string&) const;
+template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&, const std::string&) const;
 
 }  // namespace natator

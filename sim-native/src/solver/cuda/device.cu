@@ -18,6 +18,14 @@ int device_count() {
     return 0;
 }
 
+std::string current_device_name() {
+    int device = 0;
+    check(cudaGetDevice(&device), "current device");
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, device), "device properties");
+    return properties.name + std::string(" ") + std::to_string(properties.multiProcessorCount);
+}
+
 void choose_device(int device) {
     const int devices = device_count();
     if (device < 0 || device >= devices)
