@@ -34,13 +34,14 @@ public:
           model_(model),
           gait_(gait),
           options_(options),
-          solver_(model, options.execution),
+          solver_(model, execution()),
           needs_body_(needs_body),
           snapshot_due_(static_cast<bool>(options.snapshot.take)) {}
 
     /// Takes the State to its settled start.
     void settle(const Model& start, const SettledStateCache* starts) {
         state_ = settled_start(start, scene_.settling, solver_, starts, unsettled_);
+        settled_ = true;
     }
     std::vector<FrameEnd> start() { return {look(unsettled_)}; }
     std::vector<FrameEnd> frame(int number, const std::vector<bool>&) {
@@ -65,6 +66,15 @@ public:
     std::vector<Real> densities() { return solver_.densities(); }
 
 private:
+    /// Residuals are those of frames: what settles may come from a cache.
+    Execution execution() {
+        Execution own = options_.execution;
+        if (own.residuals)
+            own.residuals = [this](const Residuals& substep) {
+                if (settled_) options_.execution.residuals(substep);
+            };
+        return own;
+    }
     FrameEnd look(std::optional<Instability> instability) {
         FrameEnd end{.instability = std::move(instability)};
         end.frame.mean_x = mean_x(model_.body, state_);
@@ -84,6 +94,7 @@ private:
     Solver<Real> solver_;
     State<Real> state_;
     std::optional<Instability> unsettled_;
+    bool settled_ = false;
     bool needs_body_;
     bool snapshot_due_;
 };

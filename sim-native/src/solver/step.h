@@ -21,6 +21,7 @@ namespace natator {
 struct Iterations {
     int all;
     int of_solids = 1;
+    int most = 0;  ///< of those Stages that go on until they have converged
 };
 
 /// How a backend goes through the constraints of an iteration.
@@ -189,7 +190,9 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
     stages.find_neighbours(after);
     stages.begin_iterations();
     after(Stage::neighbours);
-    for (int i = 0; i < iterations.all; ++i) {
+    for (int i = 0; i < iterations.all || i < iterations.most; ++i) {
+        if constexpr (requires { stages.has_converged(); })
+            if (i >= iterations.all && stages.has_converged()) break;
         if constexpr (Stages::scheme != Scheme::flex)
             iterate_in_turn(stages, plan, iterations.of_solids, after);
         else

@@ -37,6 +37,8 @@ public:
     }
     void begin_iterations();
     void compute_density_impulses();
+    /// Whether the last iteration found the density within its tolerance.
+    bool has_converged() const { return !water_ || density_error_ <= model_.parameters.densityTolerance; }
     void apply_density_impulses();
     void return_zeroth_order_correction();
     void apply_wall_pressure() { water_->apply_wall_pressure(*this->team_); }
@@ -54,6 +56,10 @@ public:
     std::vector<Real> densities() const;
     std::vector<Real> pressures() const;
     std::vector<int> neighbour_counts() const;
+
+    /// Of the divergence, behind the stage that solves it; and of all else, behind an iteration.
+    void measure_divergence(Residuals& residuals) { residuals.divergence = water_->unsolved(*this->team_); }
+    void measure_constraints(Residuals& residuals);
 
     /// See Solver::forces; empty without water.
     void keep_forces() {
@@ -99,6 +105,7 @@ private:
     std::optional<Water<Real>> water_;
     std::vector<physics::PlaneSurface<Real>> planes_;
     std::vector<physics::Seam<Real>> seams_;
+    double density_error_ = 0;         ///< before the last iteration, see Residuals::density; with a tolerance alone
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it

@@ -9,6 +9,7 @@
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
+#include "solver/cpu/residual_sum.h"
 #include "solver/cpu/workspace.h"
 
 namespace natator::cpu {
@@ -144,16 +145,17 @@ WaterView<Real> Water<Real>::view() {
     const auto pointers = [](Vector3Array<Real>& array) { return array.pointers(); };
     const auto position = pointers(position_), velocity = pointers(velocity_), crowding = pointers(crowding_),
                gradient = pointers(gradient_), zeroth = pointers(zeroth_);
+    const physics::WendlandKernel<Real> kernel = physics::wendland_kernel(radius_, kernel_scale_);
     WaterView<Real> all{.first_block = 0,
                         .end_block = image_begin_ / lanes,
                         .row_begin = row_begin_.data(),
                         .neighbour = neighbour_.data(),
                         .far_slot = far_slot_,
-                        .inverse_radius = 1 / radius_,
-                        .kernel_scale = kernel_scale_,
-                        .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
+                        .inverse_radius = kernel.inverse_radius,
+                        .kernel_scale = kernel.scale,
+                        .slope_scale = kernel.slope_scale,
                         .at_spacing = at_spacing_,
-                        .softening = Real(0.01) * spacing_ * spacing_,
+                        .softening = physics::viscous_softening(spacing_),
                         .position = {position[0], position[1], position[2]},
                         .volume = volume_.data(),
                         .inverse_mass = inverse_mass_.data(),
@@ -184,6 +186,25 @@ WaterView<Real> Water<Real>::view() {
 template <class Real>
 void Water<Real>::compute_impulses(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_impulse);
+}
+
+template <class Real>
+Residual Water<Real>::lacking() const {
+    ResidualSum sum;
+    for (int slot = 0; slot < particles_; ++slot) {
+        if (!model_.is_fluid(particle_of_[slot])) continue;
+        const Real rate = impulse_[slot] > 0 ? impulse_[slot] / (Real(physics::jacobi_relaxation) * response_[slot]) : Real(0);
+        sum.add(rate * h_ / volume_[slot]);
+    }
+    return sum.residual();
+}
+
+template <class Real>
+Residual Water<Real>::unsolved(ThreadTeam& team) {
+    const AlignedVector<Real> sum = impulse_sum_;
+    compute_impulses(team);
+    impulse_sum_ = sum;
+    return lacking();
 }
 
 template <class Real>
@@ -229,7 +250,7 @@ void Water<Real>::solve_divergence(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::add_viscosity(ThreadTeam& team) {
     if (!(dynamic_viscosity_ > 0)) return;
-    const Real strength = 10 * h_ * dynamic_viscosity_;
+    const Real strength = physics::viscous_strength(h_, dynamic_viscosity_);
     const Real most = physics::viscous_limit(spacing_, strength);
     add_viscous_forces(strength, most);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });

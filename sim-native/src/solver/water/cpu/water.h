@@ -5,6 +5,7 @@
 
 #include "images.h"
 #include "natator/model.h"
+#include "natator/residuals.h"
 #include "natator/state.h"
 #include "physics/background_pressure.h"
 #include "solver/cpu/aligned.h"
@@ -43,6 +44,10 @@ public:
     /// One Jacobi pass: the impulses that push apart where the velocities compress more than target_ allows, which after
     /// add_gravity() is where they lead to more than rest density.
     void compute_impulses(ThreadTeam& team);
+    /// What these are for: how far the velocities are from target_, as a change of the fluid's density in the substep, in rest densities.
+    Residual lacking() const;
+    /// The same of the velocities as they are, with no impulses to follow.
+    Residual unsolved(ThreadTeam& team);
     /// And what they do to the velocities, with what physics::zeroth_order_correction takes off.
     void apply_corrected_impulses(ThreadTeam& team);
     /// Once all passes are done: gives back what these have taken off.

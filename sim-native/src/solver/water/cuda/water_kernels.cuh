@@ -153,10 +153,9 @@ private:
     physics::ViscousSums<Real> sums_;
 };
 
-/// 10 h mu.
 template <class Real>
 __device__ Real viscous_strength(const ModelView<Real>& model, const Slots<Real>& slots) {
-    return 10 * slots.h * model.water.dynamic_viscosity;
+    return physics::viscous_strength(slots.h, model.water.dynamic_viscosity);
 }
 
 /// Viscosity; the velocities that neighbours see stay as they were.
