@@ -20,7 +20,8 @@ namespace {
 
 Iterations iterations_of(const Model& model) {
     const SolverParameters& p = model.parameters;
-    return {p.numIterations, p.solidIterations, p.densityTolerance > 0 ? p.maxIterations : 0};
+    const bool to_tolerance = p.densityTolerance > 0 && model.scheme == Scheme::conserving;
+    return {p.numIterations, p.solidIterations, to_tolerance ? p.maxIterations : 0};
 }
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
