@@ -42,7 +42,7 @@ NATATOR_HD T unit_part(T v) {
     return smaller(positive_part(v), one<T>());
 }
 
-// The numbers of the method.
+// The numbers of the method. What each changes: results/water/README.md#what-each-constant-changes.
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr double max_excess = 0.05;    ///< of rest density that the velocities take off in a substep
