@@ -12,6 +12,7 @@
 #include "base/fnv1a.h"
 #include "base/whole_file.h"
 #include "byte_writer.h"
+#include "natator/limits.h"
 #include "settled_state_key.h"
 
 namespace natator {
@@ -78,6 +79,11 @@ bool read_state(const std::string& bytes, State<Real>& state) {
                            [&](std::size_t i, const Real* v) { state.spring_rest_length[i] = v[0]; });
 }
 
+/// Nothing to settle, or too large.
+bool is_not_worth_it(const Model& model, const Settling& settling) {
+    return settling.updates == 0 || model.particles() > limits::cached_particles;
+}
+
 /// Leaves at most `most` starts, the last written ones.
 void prune(const fs::path& folder, std::size_t most) {
     std::error_code error;
@@ -109,6 +115,7 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 
 template <class Real>
 std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
+    if (is_not_worth_it(model, settling)) return std::nullopt;
     const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
@@ -127,6 +134,7 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 
 template <class Real>
 void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
+    if (is_not_worth_it(model, settling)) return;
     const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);

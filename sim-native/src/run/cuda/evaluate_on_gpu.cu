@@ -8,8 +8,8 @@
 #include "natator/batch.h"
 #include "natator/laws.h"
 #include "natator/model_builder.h"
+#include "natator/settled_state_cache.h"
 #include "run/perturb.h"
-#include "run/settled_start.h"
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/refusal.h"
@@ -28,7 +28,7 @@ public:
     Batch(const Scene& scene, const Model& model, const BatchOptions& options)
         : scene_(scene),
           model_(model),
-          kept_(options.starts, scene.settling, current_device_name() + " block "),
+          cache_(options.starts),
           times_(options.times),
           runner_(model),
           laws_(model) {}
@@ -69,11 +69,12 @@ private:
         starts.states.upload(states);
         const Settling& settling = scene_.settling;
         if (settling.updates == 0) return starts;
-        const bool shared = states.size() == 1;  // without a perturbation
-        if (const auto found = shared ? kept_.template find<Real>(model_) : std::optional<State<Real>>{}) {
-            starts.states.upload({*found});
-            return starts;
-        }
+        const bool is_kept = cache_ && states.size() == 1;  // without a perturbation
+        if (is_kept)
+            if (const auto found = cache_->find<Real>(model_, settling, device_)) {
+                starts.states.upload({*found});
+                return starts;
+            }
         BatchView<Real> batch = runner_.view_of(starts.states, settling.updates);
         batch.time_step = settling.time_step;
         batch.substeps = settling.substeps;
@@ -83,10 +84,10 @@ private:
         runner_.run(batch, starts.progress);
         if (times_) times_->settling += runner_.seconds();
         starts.progress = runner_.progress();
-        if (shared && starts.progress.front().stopped < 0) {
+        if (is_kept && starts.progress.front().stopped < 0) {
             Copy settled(starts.states);
             settled.fetch();
-            kept_.keep(model_, settled.state(0, states.front()));
+            cache_->keep(model_, settling, settled.state(0, states.front()), device_);
         }
         return starts;
     }
@@ -188,7 +189,8 @@ private:
 
     const Scene& scene_;
     const Model& model_;
-    KeptStarts kept_;
+    const SettledStateCache* cache_;
+    std::string device_ = current_device_name() + " block ";
     BatchTimes* times_;
     BatchRunner<Real> runner_;
     LawWatch laws_;  ///< of the start, with muscles at rest

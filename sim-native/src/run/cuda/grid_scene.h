@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -14,9 +15,9 @@
 #include "busy_time.h"
 #include "model_group.h"
 #include "evaluation.h"
+#include "natator/settled_state_cache.h"
 #include "shared_once.h"
 #include "run/perturb.h"
-#include "run/settled_start.h"
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/grid/grid_runner.h"
@@ -64,7 +65,7 @@ public:
         : scene_(scene),
           company_(company),
           starts_(starts),
-          kept_(cache, scene.settling, current_device_name() + " grid "),
+          cache_(cache),
           times_(times),
           runner_(company.model, states, {.lists = lists}) {}
 
@@ -156,7 +157,9 @@ private:
     void give(const std::vector<Start>& claimed) {
         std::vector<Start> unsettled;
         for (const Start& start : claimed) {
-            if (auto known = is_kept(start) ? kept_.template find<Real>(model_of(start)) : std::optional<State<Real>>{})
+            std::optional<State<Real>> known;
+            if (is_kept(start)) known = cache_->find<Real>(model_of(start), scene_.settling, device_);
+            if (known)
                 starts_.give(start, {std::move(*known)});
             else
                 unsettled.push_back(start);
@@ -171,13 +174,13 @@ private:
         const std::vector<std::optional<Instability>> found = settle(different);
         for (std::size_t k = 0; k < different; ++k) {
             const State<Real> settled = runner_.download(static_cast<int>(k), initial_state<Real>(company_.model));
-            if (!found[k] && is_kept(unsettled[k])) kept_.keep(model_of(unsettled[k]), settled);
+            if (!found[k] && is_kept(unsettled[k])) cache_->keep(model_of(unsettled[k]), scene_.settling, settled, device_);
             starts_.give(unsettled[k], {settled, runner_.room(), found[k]});
         }
     }
 
     /// As on the CPU: of perturbations there are as many as seeds.
-    static bool is_kept(const Start& start) { return std::get<1>(start) == 0; }
+    bool is_kept(const Start& start) const { return cache_ && std::get<1>(start) == 0; }
 
     /// What begins so.
     Model model_of(const Start& start) const {
@@ -245,7 +248,8 @@ private:
     const Scene& scene_;
     const ModelGroup& company_;
     SettledStarts<Real>& starts_;
-    KeptStarts kept_;
+    const SettledStateCache* cache_;
+    std::string device_ = current_device_name() + " grid ";
     BatchTimes* times_;
     std::vector<Span> busy_;
     Runner runner_;
