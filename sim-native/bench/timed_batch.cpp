@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <filesystem>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include "base/fnv1a.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
+#include "natator/settled_state_cache.h"
 #include "speed.h"
 
 namespace natator::bench {
@@ -19,6 +22,20 @@ std::string hash_of(const std::vector<Evaluation>& evaluations) {
     for (const Evaluation& evaluation : evaluations) hash.add(std::bit_cast<double>(evaluation.hash));
     return hash_text(hash.value());
 }
+
+/// Settled starts of one measurement, so that its first repeat alone settles.
+class OwnStarts {
+public:
+    OwnStarts() : cache_(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(std::random_device{}()))) {}
+    ~OwnStarts() {
+        std::error_code error;
+        std::filesystem::remove_all(cache_.folder(), error);
+    }
+    const SettledStateCache* cache() const { return &cache_; }
+
+private:
+    SettledStateCache cache_;
+};
 
 }  // namespace
 
@@ -37,6 +54,8 @@ std::vector<BatchMember> batch_members(const Scene& scene, int count) {
 TimedBatch time_batch(const Scene& scene, const std::vector<BatchMember>& members, BatchOptions options, int repeats) {
     using Clock = std::chrono::steady_clock;
     constexpr double never = std::numeric_limits<double>::infinity();
+    const OwnStarts starts;
+    options.starts = starts.cache();
     TimedBatch timed{.whole = never, .device = {.settling = 0, .kernel = never}, .hash = {}, .instability = {}};
     for (int k = 0; k < repeats; ++k) {
         BatchTimes times;

@@ -51,20 +51,21 @@ Evaluation evaluate_job(const Job& job, const Execution& execution) {
     if (!on_gpu(job.backend, job.scene))
         return evaluate(job.scene, job.gait,
                         {.precision = request.precision, .perturbation = request.perturbation, .execution = execution});
-    return evaluate_one_on_gpu(job.scene, {job.gait, request.perturbation}, request.precision, job.backend);
+    return evaluate_one_on_gpu(job.scene, {job.gait, request.perturbation}, request.precision, job.backend, execution);
 }
 
-BatchOptions batch_options(Precision precision, const BackendChoice& backend) {
+BatchOptions batch_options(Precision precision, const BackendChoice& backend, const Execution& execution) {
     return {.precision = precision,
             .device = backend.device,
             .whole_gpu = backend.whole_gpu,
-            .without_lists = backend.without_lists};
+            .without_lists = backend.without_lists,
+            .starts = execution.starts};
 }
 
 Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,
-                               const BackendChoice& backend) {
+                               const BackendChoice& backend, const Execution& execution) {
     check_evaluation_cost(scene, build_model(scene));
-    return evaluate_on_gpu(scene, {member}, batch_options(precision, backend)).front();
+    return evaluate_on_gpu(scene, {member}, batch_options(precision, backend, execution)).front();
 }
 
 }  // namespace natator::cli

@@ -35,11 +35,11 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options);
 /// Evaluates one job by itself. Throws what evaluate and evaluate_on_gpu do.
 Evaluation evaluate_job(const Job& job, const Execution& execution);
 
-/// How evaluate_on_gpu computes for a command.
-BatchOptions batch_options(Precision precision, const BackendChoice& backend);
+/// How evaluate_on_gpu computes for a command; of `execution` its starts.
+BatchOptions batch_options(Precision precision, const BackendChoice& backend, const Execution& execution);
 
 /// evaluate_on_gpu for one member, if it does not cost too much.
 Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,
-                               const BackendChoice& backend);
+                               const BackendChoice& backend, const Execution& execution);
 
 }  // namespace natator::cli

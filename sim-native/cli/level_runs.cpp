@@ -146,7 +146,7 @@ void run_level(LevelRuns& runs, int starts, const Execution& execution, RunRecor
         std::vector<BatchMember> members;
         for (const int k : missing) members.push_back({runs.job.gait, perturbation(k)});
         const std::vector<Evaluation> evaluations = evaluate_on_gpu(
-            runs.job.scene, members, batch_options(runs.job.request.precision, runs.job.backend));
+            runs.job.scene, members, batch_options(runs.job.request.precision, runs.job.backend, execution));
         for (std::size_t i = 0; i < missing.size(); ++i) note(missing[i], evaluations[i]);
         return;
     }

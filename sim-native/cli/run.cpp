@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -31,7 +32,7 @@ struct RunOptions {
     std::optional<double> duration, snapshot_at;
     double perturbation = 0;
     std::string perturbation_seed = std::to_string(Perturbation{}.seed);
-    bool particles = false;
+    bool particles = false, residuals = false;
     BackendChoice backend;
     ExecutionOptions execution;
 };
@@ -39,9 +40,9 @@ struct RunOptions {
 /// Recordings are made on the CPU.
 bool run_on_gpu(const RunOptions& options, const Scene& scene) {
     refuse_gpu_options_for_cpu(options.backend);
-    if (options.trajectory.empty() && options.snapshot.empty()) return on_gpu(options.backend, scene);
+    if (options.trajectory.empty() && options.snapshot.empty() && !options.residuals) return on_gpu(options.backend, scene);
     if (options.backend.name == "cuda")
-        throw InputError("--backend = cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");
+        throw InputError("--backend = cuda: records no --trajectory, --snapshot and --residuals; must be cpu or auto with them");
     return false;
 }
 
@@ -100,6 +101,45 @@ std::string goal_line(const GoalResult& goal) {
     text << "\n";
     return text.str();
 }
+
+/// What all substeps of a run have left.
+struct AllResiduals {
+    struct Kind {
+        double max = 0, sum_of_means = 0;
+        void add(const Residual& residual) {
+            max = std::max(max, residual.max);
+            sum_of_means += residual.mean;
+        }
+    };
+    void add(const Residuals& residuals) {
+        ++substeps;
+        iterations += residuals.iterations;
+        max_iterations = std::max(max_iterations, residuals.iterations);
+        density.add(residuals.density);
+        divergence.add(residuals.divergence);
+        springs.add(residuals.springs);
+        clusters.add(residuals.clusters);
+    }
+    std::string text() const {
+        std::ostringstream text;
+        const auto mean = [this](double sum) { return figure_text(substeps > 0 ? sum / static_cast<double>(substeps) : 0); };
+        text << "residuals  of " << substeps << " substeps with " << mean(static_cast<double>(iterations)) << " iterations, at most "
+             << max_iterations << "\n";
+        const auto add = [&](const char* name, const Kind& kind, const char* unit) {
+            if (kind.max > 0)
+                text << name << mean(kind.sum_of_means) << " on average, at most " << figure_text(kind.max) << " " << unit << "\n";
+        };
+        add("density    ", density, "rest densities");
+        add("divergence ", divergence, "rest densities in a substep");
+        add("springs    ", springs, "of their length");
+        add("shapes     ", clusters, "radii from the goals");
+        return text.str();
+    }
+
+    long substeps = 0, iterations = 0;
+    int max_iterations = 0;
+    Kind density{}, divergence{}, springs{}, clusters{};
+};
 
 /// Figures have three digits: another start of the same swim mostly changes the second.
 std::string summary(const RunOptions& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
@@ -174,13 +214,15 @@ int run_scene(RunOptions& options) {
 
     const auto start = std::chrono::steady_clock::now();
     evaluation.execution = options.execution.execution();
+    AllResiduals residuals;
+    if (options.residuals) evaluation.execution.residuals = [&](const Residuals& substep) { residuals.add(substep); };
     const Evaluation result =
         run_on_gpu(options, scene)
-            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend)
+            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend, evaluation.execution)
             : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
-    print(summary(options, scene, result, wall.count()));
+    print(summary(options, scene, result, wall.count()) + (options.residuals ? residuals.text() : ""));
     if (snapshot_failure) std::rethrow_exception(snapshot_failure);
     if (result.instability) return unstable;
     if (snapshot.at && snapshot.take && !snapshot_taken) {
@@ -218,6 +260,9 @@ void add_run(CLI::App& app, int& status) {
     command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end of the run, wherever that is.")
         ->needs(snapshot)
         ->check(seconds());
+    command->add_flag("--residuals", options->residuals,
+                      "Also measure what the iterations leave of density, divergence, springs and "
+                      "shapes in each substep: on the CPU, at up to twice the time.");
     command->add_option("--perturbation", options->perturbation,
                         "Random shift of all starting positions, at most this along each axis, 0 to 1.");
     command->add_option("--perturbation-seed", options->perturbation_seed, "The same seed gives the same shifts.")

@@ -63,15 +63,15 @@ void answer(const SharedJob& shared, const MemberResult& result) {
 using GroupKey = std::tuple<std::string, std::string, Precision, int>;
 
 /// Evaluates jobs on the GPU, together but for those that cannot be done.
-void evaluate_group(const std::vector<SharedJob>& group) {
+void evaluate_group(const std::vector<SharedJob>& group, const Execution& execution) {
     std::vector<BatchMember> members;
     for (const auto& [job, ids] : group) {
         members.push_back({job.gait, job.request.perturbation});
         if (job.scene.fluid) members.back().arrangement = job.scene.fluid->disorder;
     }
     const Job& first = group.front().job;
-    const auto together = [&first](const std::vector<BatchMember>& some) {
-        return evaluate_on_gpu(first.scene, some, batch_options(first.request.precision, first.backend));
+    const auto together = [&](const std::vector<BatchMember>& some) {
+        return evaluate_on_gpu(first.scene, some, batch_options(first.request.precision, first.backend, execution));
     };
     const std::vector<MemberResult> results = evaluate_members(first.scene, members, together);
     for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], results[k]);
@@ -122,12 +122,13 @@ std::optional<MemberResult> evaluate_unless_on_gpu(const Job& job, const Executi
 
 /// Answers a batch of requests: those for the GPU in groups, the others one after another.
 void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, Tally& tally) {
+    const Execution execution = options.execution.execution();
     std::map<GroupKey, std::vector<SharedJob>> groups;
     for (const SharedJob& shared : read_jobs(lines, options.backend)) {
         const auto& [job, ids] = shared;
         tally.requests += ids.size();
         ++tally.evaluations;
-        if (const auto result = evaluate_unless_on_gpu(job, options.execution.execution())) {
+        if (const auto result = evaluate_unless_on_gpu(job, execution)) {
             answer(shared, *result);
             continue;
         }
@@ -136,7 +137,7 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
     }
     std::vector<const std::vector<SharedJob>*> each;
     for (const auto& [key, jobs] : groups) each.push_back(&jobs);
-    side_by_side(each.size(), [&each](std::size_t k) { evaluate_group(*each[k]); }, groups_at_a_time);
+    side_by_side(each.size(), [&](std::size_t k) { evaluate_group(*each[k], execution); }, groups_at_a_time);
 }
 
 int serve(ServeOptions& options) {

@@ -1,5 +1,6 @@
 // A member's bits depend on nothing but itself: not on its slot, the batch's size, or the run.
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "gpu_test.h"
 #include "natator/model_builder.h"
+#include "natator/settled_state_cache.h"
 
 namespace natator::test {
 namespace {
@@ -40,7 +42,7 @@ TEST_F(GpuThreads, UnlikeScenesDoNotDisturbOneAnother) {
 
 std::vector<std::uint64_t> hashes_of(const Scene& scene, const std::vector<BatchMember>& batch, Precision precision) {
     std::vector<std::uint64_t> result;
-    for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision, .keep_starts = false})) result.push_back(one.hash);
+    for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision})) result.push_back(one.hash);
     return result;
 }
 
@@ -93,7 +95,7 @@ TEST_P(GpuBatch, ArrangementsOfTheWaterShareABatch) {
         Scene own = scene;
         own.fluid->disorder = together[k].arrangement.value_or(7);
         const BatchMember alone{together[k].gait, together[k].perturbation};
-        EXPECT_EQ(evaluate_on_gpu(own, {alone}, {.precision = precision(), .keep_starts = false})[0].hash, all[k]) << k << " alone";
+        EXPECT_EQ(evaluate_on_gpu(own, {alone}, {.precision = precision()})[0].hash, all[k]) << k << " alone";
         if (precision() == Precision::double_precision && scene.scheme == Scheme::conserving && k == 1) {
             const EvaluationOptions options{.precision = precision(), .perturbation = alone.perturbation};
             EXPECT_NEAR(evaluate(own, alone.gait, options).distance,
@@ -127,9 +129,11 @@ TEST_P(GpuBatch, KeptStartsGiveTheSameBits) {
     scene.duration = 2 * scene.time_step;
     std::vector<BatchMember> batch{members(1, 1).front(), members(2, 1).front()};
     batch[1].arrangement = 1;
+    const SettledStateCache starts(testing::TempDir() + "natator-batch-starts");
+    std::filesystem::remove_all(starts.folder());
     const auto run = [&](bool keep, BatchTimes& times) {
         std::vector<std::uint64_t> found;
-        const BatchOptions options{.precision = precision(), .times = &times, .keep_starts = keep};
+        const BatchOptions options{.precision = precision(), .times = &times, .starts = keep ? &starts : nullptr};
         for (const Evaluation& one : evaluate_on_gpu(scene, batch, options)) found.push_back(one.hash);
         return found;
     };
@@ -142,6 +146,7 @@ TEST_P(GpuBatch, KeptStartsGiveTheSameBits) {
     scene.settling.updates += 1;
     EXPECT_NE(run(true, kept), fresh);
     EXPECT_GT(kept.settling, 0);
+    std::filesystem::remove_all(starts.folder());
 }
 
 TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
@@ -151,7 +156,7 @@ TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     std::vector<std::size_t> memory;
     for (int run = 0; run < 2; ++run) {
         BatchTimes times;
-        evaluate_on_gpu(scene, members(0, 3), {.precision = precision(), .times = &times, .keep_starts = false});
+        evaluate_on_gpu(scene, members(0, 3), {.precision = precision(), .times = &times});
         EXPECT_EQ(times.at_a_time, 3);
         memory.push_back(times.memory);
     }

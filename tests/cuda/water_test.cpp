@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "../native/bare_particles.h"
+#include "../native/refusal_of.h"
 #include "gpu_test.h"
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
@@ -22,6 +23,13 @@ Model drop(const Points& positions) {
     disorder_fluid(spacing, model);
     model.parameters.kinematicViscosity = 0.01;
     return model;
+}
+
+TEST_F(GpuWater, HasNoTolerance) {
+    Model model = drop(lattice(3, 3, 3, spacing));
+    model.parameters.densityTolerance = 0.01;
+    EXPECT_EQ(refusal_of([&] { const GpuSolver<float> refused(model); }),
+              "backend cuda: densityTolerance = 0.01; must be 0: a GPU has numIterations");
 }
 
 /// A drop that turns while it falls together; with forces between its particles, too.

@@ -74,6 +74,14 @@ TEST_F(SettledStateCacheTest, TheSecondEvaluationReadsWhatTheFirstWrote) {
     EXPECT_EQ(found->time, 0);
 }
 
+TEST_F(SettledStateCacheTest, WhatSettledItMakesAnotherStart) {
+    const Model model = build_model(scene());
+    cache_.keep(model, scene().settling, initial_state<float>(model), "a GPU");
+    EXPECT_FALSE(cache_.find<float>(model, scene().settling));
+    EXPECT_FALSE(cache_.find<float>(model, scene().settling, "another GPU"));
+    EXPECT_TRUE(cache_.find<float>(model, scene().settling, "a GPU"));
+}
+
 TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     hash(scene(), &cache_);
     std::size_t expected = 1;

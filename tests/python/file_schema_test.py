@@ -24,7 +24,7 @@ GAIT = {"$schema": "gait.schema.json", "frequency": 1, "amplitude": [0.5, 0.5], 
 BODY = {"name": "short", "description": "Short.", "slices": [{"height": 3, "width": 3, "count": 9}], "joints": [2, 4, 6],
         "spacing": 0.075, "particleMass": 1, "springsPerParticle": 4, "rearCentre": [0.4, 0.5, 0.5], "refinement": 1,
         "muscleSlices": [2, 4, 6], "joint": "line", "bend": "both", "clusterStiffness": 0.2, "springStiffness": 1}
-SOLVER = {"substeps": 4, "numIterations": 4, "solidIterations": 1, "gravity": [0, -10, 0], "radius": 0.15,
+SOLVER = {"substeps": 4, "numIterations": 4, "densityTolerance": 0, "maxIterations": 100, "solidIterations": 1, "gravity": [0, -10, 0], "radius": 0.15,
           "solidRestDistance": 0.15, "fluidRestDistance": 0.1, "dynamicFriction": 0.2, "staticFriction": 0,
           "particleFriction": 0.2, "restitution": 0, "adhesion": 0, "sleepThreshold": 0, "maxSpeed": 1e38,
           "maxAcceleration": 100, "shockPropagation": 0, "dissipation": 0, "damping": 1, "cohesion": 0, "surfaceTension": 0,

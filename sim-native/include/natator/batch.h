@@ -51,7 +51,7 @@ struct BatchOptions {
     /// memory, slower. A scene whose lists do not fit into the device's memory is computed like that anyway.
     bool without_lists = false;
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
-    bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
+    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time. The same bits
 };
 
 /// Evaluates gaits in one scene on a GPU. In scheme `lattice` the water is on the GPU and bodies are on the host, a thread a member. Small scenes of scheme `flex` run one for each block of threads, or for

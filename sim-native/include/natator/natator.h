@@ -24,6 +24,7 @@
 #include "natator/parameters.h"
 #include "natator/plan.h"
 #include "natator/pose.h"
+#include "natator/residuals.h"
 #include "natator/scene.h"
 #include "natator/sense.h"
 #include "natator/settled_state_cache.h"

@@ -27,6 +27,11 @@ struct SolverParameters {
     /// In scheme `conserving` times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's
     /// stiffness and the strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.
     int solidIterations = 1;
+    int maxIterations = 100;  ///< in a substep, of scheme `conserving` with a densityTolerance, >= 1
+
+    /// Scheme `conserving`: iterations go on beyond numIterations, as far as to maxIterations, until the mean of what the fluid's
+    /// density would exceed its target by is at most this, in rest densities; 0: there are numIterations (Residuals::density).
+    double densityTolerance = 0;
 
     Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
     double radius = 0.15;                ///< interaction radius R of particles, length, > 0

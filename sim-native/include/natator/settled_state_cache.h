@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "natator/model.h"
 #include "natator/scene.h"
@@ -20,10 +21,11 @@ public:
     /// In $NATATOR_CACHE, else $XDG_CACHE_HOME/natator, else $HOME/.cache/natator; none if that is empty or unset.
     static std::optional<SettledStateCache> of_user();
 
+    /// `by`: what settles it, if that is not the CPU.
     template <class Real>
-    std::optional<State<Real>> find(const Model& model, const Settling& settling) const;
+    std::optional<State<Real>> find(const Model& model, const Settling& settling, const std::string& by = {}) const;
     template <class Real>
-    void keep(const Model& model, const Settling& settling, const State<Real>& settled) const;
+    void keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by = {}) const;
 
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -12,8 +12,9 @@ namespace {
 /// Adds what drives the actuators of one swimmer.
 void add_drive(const Gait& gait, double ramp, double time, std::vector<double>& driven) {
     for (std::size_t i = 0; i < gait.amplitude.size(); ++i) {
-        driven.push_back(ramp * gait.amplitude[i] * activation(gait, static_cast<int>(i), time));
-        if (!gait.offset.empty()) driven.back() += ramp * gait.offset[i];
+        const double offset = gait.offset.empty() ? 0 : ramp * gait.offset[i];
+        driven.push_back(physics::muscle_drive(ramp * gait.amplitude[i], activation(gait, static_cast<int>(i), time),
+                                               gait.offset.empty() ? nullptr : &offset));
     }
 }
 

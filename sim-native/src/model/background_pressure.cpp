@@ -54,7 +54,7 @@ double min_solved_of(const Model& model, double all) {
 /// Largest H h^2 that the pressure passes can support, per unit of the density excess that they may remove, length s^2.
 double max_solved_depth(const Model& model) {
     const SolverParameters& p = model.parameters;
-    const int passes = physics::divergence_passes + p.numIterations;
+    const int passes = 1 + p.numIterations;  // one on the divergence
     return max_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
 }
 

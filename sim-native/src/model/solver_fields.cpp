@@ -19,6 +19,8 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"substeps", &P::substeps, {1, 1000}},
         {"numIterations", &P::numIterations, {1, 1000}},
         {"solidIterations", &P::solidIterations, {1, 1000}},
+        {"densityTolerance", &P::densityTolerance, {0, 1, false, "rest densities"}},
+        {"maxIterations", &P::maxIterations, {1, 1000}},
         {"gravity", &P::gravity, {-1000, 1000, false, "length/s^2"}},
         {"radius", &P::radius, {0, 1000, true, "length"}},
         {"solidRestDistance", &P::solidRestDistance, {0, 1000, true, "length"}},

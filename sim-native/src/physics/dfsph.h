@@ -31,16 +31,20 @@ struct WendlandKernel {
     }
 };
 
+template <class R>
+NATATOR_HD WendlandKernel<R> wendland_kernel(R radius, R scale) {
+    return {1 / radius, scale, 20 * scale / (radius * radius)};
+}
+
 /// A number cut to [0, 1].
 template <class T>
 NATATOR_HD T unit_part(T v) {
     return smaller(positive_part(v), one<T>());
 }
 
-// The numbers of the method.
+// The numbers of the method. What each changes: results/water/README.md#what-each-constant-changes.
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
-inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
 inline constexpr double max_excess = 0.05;    ///< of rest density that the velocities take off in a substep
 inline constexpr double expansion = 0.25;      ///< rate at which they may, times sqrt(s / g)
 inline constexpr double shallow_layers = 40;   ///< deeper water expands more slowly, by the square of its depth in rest distances,
@@ -257,6 +261,18 @@ NATATOR_HD double max_viscosity(double spacing, double h) {
     return max_diffusion * spacing * spacing / h;
 }
 
+/// 10 h mu, of viscous impulses in a substep of length h. `viscosity`: dynamic, mass/(length s).
+template <class T>
+NATATOR_HD T viscous_strength(T h, T viscosity) {
+    return 10 * h * viscosity;
+}
+
+/// What keeps them finite between particles at one place, length^2.
+template <class T>
+NATATOR_HD T viscous_softening(T spacing) {
+    return T(0.01) * spacing * spacing;
+}
+
 /// The most that a particle's volume times its inverse mass may be where viscous impulses are 10 h mu = `strength`.
 template <class T>
 NATATOR_HD T viscous_limit(T spacing, T strength) {
@@ -286,7 +302,7 @@ NATATOR_HD T wall_viscosity_factor(T own_solid, T other_solid) {
 }
 
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
-/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
+/// along the pair and so keeps angular momentum up to the correction of G. `softening` is viscous_softening; `share`
 /// is viscous_share times wall_viscosity_factor.
 template <class T>
 struct ViscousSums {

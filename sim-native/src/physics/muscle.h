@@ -20,6 +20,13 @@ NATATOR_HD double activation(double frequency, double power, double phase, doubl
     return power == 1 ? sine : pow((sine + 1) / 2, power) * 2 - 1;
 }
 
+/// d: amplitude times activation, and an offset if there is one.
+NATATOR_HD double muscle_drive(double amplitude, double activation, const double* offset) {
+    double drive = amplitude * activation;
+    if (offset) drive += *offset;
+    return drive;
+}
+
 /// Scheme `conserving` starts its muscles softly: 0 to 1 with no kink (smoothstep).
 NATATOR_HD double start_ramp(double time) {
     const double part = time / start_ramp_time;
@@ -27,7 +34,7 @@ NATATOR_HD double start_ramp(double time) {
     return s * s * (3 - 2 * s);
 }
 
-/// l = l_rest (1 + epsilon z d), z = side of the muscle (-1 to 1), d = amplitude times activation.
+/// l = l_rest (1 + epsilon z d), z = side of the muscle (-1 to 1), d = muscle_drive.
 NATATOR_HD double muscle_length(double rest_length, double lateral, double drive) {
     return rest_length * (1 + muscle_strain * lateral * drive);
 }

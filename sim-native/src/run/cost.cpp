@@ -224,7 +224,9 @@ Cost cost_of(const Model& model, const Computing& computing) {
     const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.solidIterations) * of_solids +
                                  particles * (work_of_particle + static_cast<double>(model.planes.size())) +
                                  work_of_substep;
-    cost.per_substep += cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +
+    const bool to_tolerance = p.densityTolerance > 0 && model.scheme == Scheme::conserving;
+    const int iterations = to_tolerance ? std::max(p.numIterations, p.maxIterations) : p.numIterations;
+    cost.per_substep += cost.candidates + 2 * cost.neighbours + iterations * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
 
     const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;

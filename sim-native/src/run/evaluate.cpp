@@ -1,29 +1,17 @@
 #include "natator/evaluate.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "companions.h"
-#include "conservation_errors.h"
+#include "evaluation_run.h"
+#include "move_tank.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
-#include "natator/laws.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/pose.h"
 #include "perturb.h"
-#include "physics/laws.h"
 #include "settled_start.h"
-#include "swim_record.h"
 
 namespace natator {
 namespace {
-
-template <class Real>
-void observe(const Body& body, const State<Real>& state, const FrameObserver& on_frame) {
-    if (!on_frame) return;
-    on_frame(state.time, body_places(body, state));
-}
 
 template <class Real>
 Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densities) {
@@ -35,81 +23,94 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
     return snapshot;
 }
 
-/// What a SwimRecord asks about a State.
+/// A State that run_frames advances on the CPU.
 template <class Real>
-SwimRecord::Frame frame_of(const Model& model, const State<Real>& state, bool stops_at_planes, bool needs_body) {
-    SwimRecord::Frame frame;
-    frame.mean_x = mean_x(model.body, state);
-    frame.tail_z = tail_z(model.body, state);
-    frame.touches_plane = stops_at_planes && touches_plane(model, state);
-    if (needs_body) frame.body = body_places_in_tank(model.body, state);
-    return frame;
-}
+class CpuStepper {
+public:
+    /// `needs_body`: see EvaluationRun.
+    CpuStepper(const Scene& scene, const Model& model, const Gait& gait, const EvaluationOptions& options,
+               bool needs_body)
+        : scene_(scene),
+          model_(model),
+          gait_(gait),
+          options_(options),
+          solver_(model, execution()),
+          needs_body_(needs_body),
+          snapshot_due_(static_cast<bool>(options.snapshot.take)) {}
+
+    /// Takes the State to its settled start.
+    void settle(const Model& start, const SettledStateCache* starts) {
+        state_ = settled_start(start, scene_.settling, solver_, starts, unsettled_);
+        settled_ = true;
+    }
+    std::vector<FrameEnd> start() { return {look(unsettled_)}; }
+    std::vector<FrameEnd> frame(int number, const std::vector<bool>&) {
+        if (auto instability = solver_.frame(state_, gait_)) return {look(std::move(instability))};
+        state_.time = (number + 1) * scene_.time_step;  // free of summed rounding
+        return {look(std::nullopt)};
+    }
+    void noted(std::size_t, EvaluationRun& run) {
+        state_.origin = run.origin();
+        if (options_.on_frame) options_.on_frame(state_.time, body_places(model_.body, state_));
+        if (run.frames() == 0) return;
+        const std::optional<double> at = options_.snapshot.at;
+        const bool last = run.is_over() || run.frames() == frames_of(scene_);
+        if (snapshot_due_ && (at ? state_.time > *at - scene_.time_step / 1000 : last)) {
+            snapshot_due_ = false;
+            options_.snapshot.take(model_, snapshot_of(state_, solver_.densities()));
+        }
+        if (run.tank_is_due()) move_tank(solver_, state_, [&] { run.move_tank(state_); });
+    }
+
+    const State<Real>& state() const { return state_; }
+    std::vector<Real> densities() { return solver_.densities(); }
+
+private:
+    /// Residuals are those of frames: what settles may come from a cache.
+    Execution execution() {
+        Execution own = options_.execution;
+        if (own.residuals)
+            own.residuals = [this](const Residuals& substep) {
+                if (settled_) options_.execution.residuals(substep);
+            };
+        return own;
+    }
+    FrameEnd look(std::optional<Instability> instability) {
+        FrameEnd end{.instability = std::move(instability)};
+        end.frame.mean_x = mean_x(model_.body, state_);
+        end.frame.tail_z = tail_z(model_.body, state_);
+        if (needs_body_) end.frame.body = body_places_in_tank(model_.body, state_);
+        if (end.instability) return end;
+        end.laws = measure_laws(model_, state_);
+        end.work = solver_.muscle_work();
+        end.frame.touches_plane = scene_.stopping.plane_contact && touches_plane(model_, state_);
+        return end;
+    }
+
+    const Scene& scene_;
+    const Model& model_;
+    const Gait& gait_;
+    const EvaluationOptions& options_;
+    Solver<Real> solver_;
+    State<Real> state_;
+    std::optional<Instability> unsettled_;
+    bool settled_ = false;
+    bool needs_body_;
+    bool snapshot_due_;
+};
 
 /// Runs frame by frame to the duration or an early stop, from the places of `start`: the model, or the model perturbed.
 template <class Real>
 Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& start, const Gait& gait,
                        const EvaluationOptions& options) {
-    const SnapshotRequest& snapshot = options.snapshot;
-    const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
-
-    SwimRecord record(scene, model);
-    Solver<Real> solver(model, options.execution);
-    const SettledStateCache* starts = options.execution.starts;
-    Evaluation result;
-    if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
-    State<Real> state = settled_start(start, scene.settling, solver, starts, result.instability);
-    LawWatch laws(model);
-    laws.drive_by(gait);
-    if (!result.instability) result.instability = laws.start(measure_laws(model, state));
-    if (!result.instability) observe(model.body, state, options.on_frame);
-
-    const State<Real> begin = model.companions.empty() ? State<Real>{} : state;
-    bool snapshot_due = static_cast<bool>(snapshot.take);
-    const bool stops_at_planes = scene.stopping.plane_contact;
-    record.start(frame_of(model, state, false, record.needs_body()));
-    while (!result.instability && result.stopped == StopReason::completed && result.frames < frames) {
-        result.instability = solver.frame(state, gait);
-        if (result.instability) break;
-        state.time = ++result.frames * scene.time_step;  // free of summed rounding
-        result.instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
-        if (result.instability) break;
-        const auto over = record.add(frame_of(model, state, stops_at_planes, record.needs_body()));
-        if (over) result.stopped = *over;
-        state.origin = record.origin();
-        observe(model.body, state, options.on_frame);
-        const bool last = over || result.frames == frames;
-        if (snapshot_due && (snapshot.at ? state.time > *snapshot.at - scene.time_step / 1000 : last)) {
-            snapshot_due = false;
-            snapshot.take(model, snapshot_of(state, solver.densities()));
-        }
-        if (record.tank_is_due()) {
-            const Vector3<Real> before = state.position.front();
-            record.move_tank(state);
-            solver.shift_water((before - state.position.front()).template cast<double>());
-            laws.begin_anew();
-        }
-    }
-    const std::vector<Real> densities = solver.densities();
-    if (!result.instability) {
-        result.errors = conservation_errors(model, state, densities);
-        result.instability = laws.look_at_compression(result.errors.density_error_mean, state.time);
-    }
-    result.distance = record.path().back() - record.path().front();
-    result.simulated = result.frames * scene.time_step;
-    if (result.instability) {
-        result.stopped = StopReason::unstable;
-    } else {
-        result.swimming = swimming_numbers(
-            model, gait, scene.through_water(result.distance, result.simulated), result.simulated, record.tail());
-        if (result.swimming) result.swimming->cavities = cavities(model, state, densities);
-        if (has_muscle_work(model)) result.work = solver.muscle_work();
-        if (!model.body.particles.empty()) result.course = course_of(model, model.body, state, result.distance);
-        result.companions = companion_results(scene, model, begin, state);
-        record.tell(result);
-    }
-    result.hash = state_hash(state);
-    return result;
+    std::vector<EvaluationRun> runs;
+    runs.emplace_back(scene, model, gait, LawWatch(model));
+    CpuStepper<Real> stepper(scene, model, gait, options, runs.front().needs_body());
+    const bool has_frames = frames_of(scene) > 0;  // the figures of a run without frames are those of settling
+    stepper.settle(start, has_frames ? options.execution.starts : nullptr);
+    const State<Real> begin = model.companions.empty() ? State<Real>{} : stepper.state();
+    run_frames(scene, stepper, runs);
+    return runs.front().finish(begin, stepper.state(), stepper.densities());
 }
 
 }  // namespace
@@ -125,7 +126,9 @@ double Evaluation::fitness() const {
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     const Model model = build_model(scene);
-    check_evaluation_cost(scene, model, {.doubles = options.precision == Precision::double_precision, .several_threads = options.execution.threads > 1});
+    check_evaluation_cost(scene, model,
+                          {.doubles = options.precision == Precision::double_precision,
+                           .several_threads = options.execution.threads > 1});
     Model start = model;  // volumes, and all else that is measured at rest, are those of the model
     perturb(options.perturbation, start);
     EvaluationOptions own = options;

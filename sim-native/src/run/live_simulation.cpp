@@ -1,5 +1,6 @@
 #include "base/strict_json.h"
 #include "conservation_errors.h"
+#include "move_tank.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
@@ -209,11 +210,8 @@ bool LiveSimulation<Real>::frame() {
 template <class Real>
 void LiveSimulation<Real>::follow(MovingFrame& follower) {
     follower.drift(scene().time_step);
-    const Eigen::Vector3d before = state_.origin;
-    const Vector3<Real> first = state_.position.front();
-    follower.follow(mean_place(body_places_in_tank(model().body, state_)), state_);
-    run_->solver.shift_water((first - state_.position.front()).template cast<double>());
-    if (state_.origin != before) run_->laws.begin_anew();
+    const Eigen::Vector3d centre = mean_place(body_places_in_tank(model().body, state_));
+    if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.begin_anew();
 }
 
 template <class Real>

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "natator/limits.h"
 #include "natator/settled_state_cache.h"
 #include "settle.h"
 
@@ -12,13 +11,12 @@ namespace natator {
 /// `instability` if settling was unstable.
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver,
-                          const SettledStateCache* starts, std::optional<Instability>& instability) {
-    if (settling.updates == 0 || model.particles() > limits::cached_particles) starts = nullptr;
-    if (starts)
-        if (auto found = starts->find<Real>(model, settling)) return *found;
+                          const SettledStateCache* cache, std::optional<Instability>& instability) {
+    if (cache)
+        if (auto found = cache->find<Real>(model, settling)) return *found;
     State<Real> state = initial_state<Real>(model);
     instability = settle(settling, solver, state);
-    if (starts && !instability) starts->keep(model, settling, state);
+    if (cache && !instability) cache->keep(model, settling, state);
     return state;
 }
 

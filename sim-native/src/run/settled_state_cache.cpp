@@ -12,6 +12,7 @@
 #include "base/fnv1a.h"
 #include "base/whole_file.h"
 #include "byte_writer.h"
+#include "natator/limits.h"
 #include "settled_state_key.h"
 
 namespace natator {
@@ -78,6 +79,11 @@ bool read_state(const std::string& bytes, State<Real>& state) {
                            [&](std::size_t i, const Real* v) { state.spring_rest_length[i] = v[0]; });
 }
 
+/// Nothing to settle, or too large.
+bool is_not_worth_it(const Model& model, const Settling& settling) {
+    return settling.updates == 0 || model.particles() > limits::cached_particles;
+}
+
 /// Leaves at most `most` starts, the last written ones.
 void prune(const fs::path& folder, std::size_t most) {
     std::error_code error;
@@ -108,8 +114,9 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 }
 
 template <class Real>
-std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling) const {
-    const std::string key = settled_state_key(model, settling, sizeof(Real));
+std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
+    if (is_not_worth_it(model, settling)) return std::nullopt;
+    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
     std::ostringstream content;
@@ -126,8 +133,9 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 }
 
 template <class Real>
-void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled) const {
-    const std::string key = settled_state_key(model, settling, sizeof(Real));
+void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
+    if (is_not_worth_it(model, settling)) return;
+    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&hash), sizeof hash);
@@ -140,9 +148,9 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
     prune(folder_, max_files);
 }
 
-template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&) const;
-template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&) const;
-template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&) const;
-template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&) const;
+template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&, const std::string&) const;
+template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&, const std::string&) const;
+template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&, const std::string&) const;
+template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&, const std::string&) const;
 
 }  // namespace natator

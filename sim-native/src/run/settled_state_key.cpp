@@ -34,10 +34,11 @@ std::string build_id() {
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 280, "a parameter was added or removed: list it here");
-    for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxNeighborsPerParticle}) key.add(value);
+    static_assert(sizeof(SolverParameters) == 288, "a parameter was added or removed: list it here");
+    for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxIterations, p.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
-    for (const double value : {p.radius,
+    for (const double value : {p.densityTolerance,
+                               p.radius,
                                p.solidRestDistance,
                                p.fluidRestDistance,
                                p.dynamicFriction,

@@ -19,7 +19,9 @@ namespace natator {
 namespace {
 
 Iterations iterations_of(const Model& model) {
-    return {model.parameters.numIterations, model.parameters.solidIterations};
+    const SolverParameters& p = model.parameters;
+    const bool to_tolerance = p.densityTolerance > 0 && model.scheme == Scheme::conserving;
+    return {p.numIterations, p.solidIterations, to_tolerance ? p.maxIterations : 0};
 }
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
@@ -60,6 +62,19 @@ private:
     using Clock = std::chrono::steady_clock;
     StageProfile& profile_;
     mutable Clock::time_point last_ = Clock::now();
+};
+
+/// Measures what the stages leave: of the divergence behind its solve, of all else behind each iteration.
+template <class Stages>
+struct ResidualHook {
+    Stages& stages;
+    Residuals& residuals;
+    void operator()(Stage stage) const {
+        if (stage == Stage::divergence) stages.measure_divergence(residuals);
+        if (stage != Stage::iteration) return;
+        stages.measure_constraints(residuals);
+        ++residuals.iterations;
+    }
 };
 
 /// Of what drives the muscles in a frame; between two values that are 2 rounding may lead a little beyond.
@@ -186,7 +201,9 @@ private:
             }
             if (coupling_) coupling_->push(state, static_cast<double>(h));
             stages.begin_substep(state, h);
+            Residuals residuals{.time = state.time};
             const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
+                                : execution_.residuals ? advance(stages, ResidualHook<Stages>{stages, residuals})
                                 : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
                                                      : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
@@ -198,6 +215,7 @@ private:
             }
             if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
             if (observer) observer->substep_ended(state.velocity);
+            if (execution_.residuals && !observer) execution_.residuals(residuals);
         }
         return std::nullopt;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "natator/plan.h"
+#include "physics/dfsph.h"
 #include "stage.h"
 
 // One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on the host
@@ -20,6 +21,7 @@ namespace natator {
 struct Iterations {
     int all;
     int of_solids = 1;
+    int most = 0;  ///< of those Stages that go on until they have converged
 };
 
 /// How a backend goes through the constraints of an iteration.
@@ -84,7 +86,8 @@ NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
     if (plan.water) {
-        stages.solve_density_constraint();
+        stages.compute_density_impulses();
+        stages.apply_density_impulses();
         after(Stage::density_constraint);
     }
     if constexpr (Stages::grouping == Grouping::together) {
@@ -109,6 +112,11 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
     after(Stage::fluid_neighbours);
     stages.compute_water_gradients();
     after(Stage::density);
+    if (stages.begin_overlap_separation()) {
+        for (int pass = 0; pass < physics::separation_passes; ++pass) stages.separate_overlaps(pass);
+        stages.end_overlap_separation();
+    }
+    after(Stage::overlaps);
     stages.solve_divergence();
     after(Stage::divergence);
     if (plan.viscosity) {
@@ -119,6 +127,22 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
         stages.add_fluid_forces();
         after(Stage::fluid_forces);
     }
+}
+
+/// Scheme `conserving`, once all passes are done: what the walls and the neighbours still do to the water, and where it goes.
+NATATOR_ANY_SIDE
+template <class Stages, class AfterStage>
+NATATOR_STEP void end_water(Stages& stages, const AfterStage& after) {
+    if constexpr (Stages::grouping == Grouping::together) {
+        stages.end_water_passes();
+    } else {
+        stages.return_zeroth_order_correction();
+        stages.apply_wall_pressure();
+    }
+    after(Stage::walls);
+    stages.add_pressure_forces();
+    stages.move_water();
+    after(Stage::water_motion);
 }
 
 /// What acts on the velocities beyond the constraints, the same in all schemes; all of it is off in the thesis. Only
@@ -166,13 +190,17 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
     stages.find_neighbours(after);
     stages.begin_iterations();
     after(Stage::neighbours);
-    for (int i = 0; i < iterations.all; ++i) {
+    for (int i = 0; i < iterations.all || i < iterations.most; ++i) {
+        if constexpr (requires { stages.has_converged(); })
+            if (i >= iterations.all && stages.has_converged()) break;
         if constexpr (Stages::scheme != Scheme::flex)
             iterate_in_turn(stages, plan, iterations.of_solids, after);
         else
             iterate_summed(stages, plan, after);
         after(Stage::iteration);
     }
+    if constexpr (Stages::scheme != Scheme::flex)
+        if (plan.water) end_water(stages, after);
     stages.update_velocities();
     after(Stage::velocities);
     if constexpr (Stages::effects) apply_effects(stages, plan, after);

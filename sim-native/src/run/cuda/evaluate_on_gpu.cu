@@ -1,20 +1,21 @@
 #include <algorithm>
-#include <cmath>
 #include <new>
 
 #include "uses_grid_kernels.h"
 #include "evaluate_on_grid.h"
 #include "evaluation.h"
-#include "device_state_cache.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/laws.h"
 #include "natator/model_builder.h"
+#include "natator/settled_state_cache.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/refusal.h"
 #include "solver/cuda/kernel_choice.h"
+#include "solver/flex/cuda/batch_runner.h"
+#include "solver/law_name.h"
 
 namespace natator {
 namespace cuda {
@@ -25,7 +26,12 @@ template <class Real>
 class Batch {
 public:
     Batch(const Scene& scene, const Model& model, const BatchOptions& options)
-        : scene_(scene), model_(model), keeps_starts_(options.keep_starts), times_(options.times), runner_(model), laws_(model) {}
+        : scene_(scene),
+          model_(model),
+          cache_(options.starts),
+          times_(options.times),
+          runner_(model),
+          laws_(model) {}
 
     /// The members' evaluations, each of a State that starts settled.
     std::vector<Evaluation> evaluate(const std::vector<BatchMember>& members) {
@@ -63,13 +69,12 @@ private:
         starts.states.upload(states);
         const Settling& settling = scene_.settling;
         if (settling.updates == 0) return starts;
-        static DeviceStateCache<Real> kept;  // without a perturbation
-        const bool shared = states.size() == 1;
-        const std::optional<std::string> key = shared && keeps_starts_ ? kept.key_of(model_, settling) : std::nullopt;
-        if (const auto found = kept.find(key)) {
-            starts.states.upload({found->state});
-            return starts;
-        }
+        const bool is_kept = cache_ && states.size() == 1;  // without a perturbation
+        if (is_kept)
+            if (const auto found = cache_->find<Real>(model_, settling, device_)) {
+                starts.states.upload({*found});
+                return starts;
+            }
         BatchView<Real> batch = runner_.view_of(starts.states, settling.updates);
         batch.time_step = settling.time_step;
         batch.substeps = settling.substeps;
@@ -79,10 +84,10 @@ private:
         runner_.run(batch, starts.progress);
         if (times_) times_->settling += runner_.seconds();
         starts.progress = runner_.progress();
-        if (shared && starts.progress.front().stopped < 0) {
+        if (is_kept && starts.progress.front().stopped < 0) {
             Copy settled(starts.states);
             settled.fetch();
-            kept.keep(key, {settled.state(0, states.front())});
+            cache_->keep(model_, settling, settled.state(0, states.front()), device_);
         }
         return starts;
     }
@@ -106,7 +111,7 @@ private:
         DeviceBuffer<Real> density(static_cast<std::size_t>(states.count()) * view.fluid);
         density.clear();
 
-        const int frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
+        const int frames = frames_of(scene_);
         const bool swims = !model_.body.particles.empty();
         BatchView<Real> batch = runner_.view_of(states, frames);
         batch.time_step = scene_.time_step;
@@ -142,17 +147,28 @@ private:
         const std::vector<double> path = runner_.path();
         ends->fetch();
         densities.fetch(density);
-        const State<Real> like = initial_state<Real>(model_);
+        const State<Real> like = initial_state<Real>(model_), starts_of_nobody;  // companions are for the whole GPU
         std::vector<Evaluation> evaluations(members.size());
         side_by_side(members.size(), [&](std::size_t number) {
             const auto k = static_cast<int>(number);
-            const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
-            const Real* const first = densities.data() + number * view.fluid;
-            evaluations[k] = evaluation_of(scene_, model_, runner_.model().particle_of(), progress[k], gait,
-                                           &path[number * (frames + 1)], {}, ends->state(k, like),
-                                           std::vector<Real>(first, first + view.fluid));
+            EvaluationRun run(scene_, model_, members[k].gait, laws_);
+            take(run, progress[k], &path[number * (frames + 1)]);
+            evaluations[k] = finish(run, scene_, model_, runner_.model().particle_of(), members[k].gait, settled[k].stopped < 0,
+                                    starts_of_nobody, ends->state(k, like), densities.data() + number * view.fluid, view.fluid);
         });
         return evaluations;
+    }
+
+    /// What the kernel has decided.
+    static void take(EvaluationRun& run, const Progress& progress, const double* path) {
+        const StopReason stopped = progress.stopped < 0 ? StopReason::completed : static_cast<StopReason>(progress.stopped);
+        std::optional<Instability> found;
+        if (stopped == StopReason::unstable) {
+            const bool finite = progress.broken != physics::Law::finite;  // but against another law
+            const char* const stage = !finite ? "velocities" : progress.frames > 0 ? "frame" : "settling";
+            found = Instability{progress.bad_particle, stage, progress.bad_time, name(progress.broken)};
+        }
+        run.take(path, progress.frames, stopped, found);
     }
 
     /// Of the muscles, by member and frame, as the whole GPU has them.
@@ -173,7 +189,8 @@ private:
 
     const Scene& scene_;
     const Model& model_;
-    bool keeps_starts_;
+    const SettledStateCache* cache_;
+    std::string device_ = current_device_name() + " block ";
     BatchTimes* times_;
     BatchRunner<Real> runner_;
     LawWatch laws_;  ///< of the start, with muscles at rest

@@ -27,7 +27,7 @@ public:
         : parts_(parts),
           number_(number),
           times_{.profile = options.times ? options.times->profile : nullptr},
-          large_(scene, company, starts, parts.size(), lists, options.keep_starts, &times_) {}
+          large_(scene, company, starts, parts.size(), lists, options.starts, &times_) {}
 
     void evaluate() {
         for (int part = number_; part < parts_.count; part += parts_.streams)

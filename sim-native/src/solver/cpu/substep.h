@@ -89,6 +89,7 @@ public:
     /// Work of the last substep's changes of rest length, mass length^2/s^2.
     double spring_work(const std::vector<Real>&) const { return 0; }
     /// From here on the water's forces on the particles are summed up; see Solver::forces.
+    void measure_divergence(Residuals&) {}
     void keep_forces() {}
     void clear_forces() {}
     std::vector<Vector3<Real>> forces() const { return {}; }

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "base/text.h"
 #include "device.h"
 #include "model_view.h"
 #include "natator/actuate.h"
@@ -18,6 +19,14 @@ int device_count() {
     return 0;
 }
 
+std::string current_device_name() {
+    int device = 0;
+    check(cudaGetDevice(&device), "current device");
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, device), "device properties");
+    return properties.name + std::string(" ") + std::to_string(properties.multiProcessorCount);
+}
+
 void choose_device(int device) {
     const int devices = device_count();
     if (device < 0 || device >= devices)
@@ -31,6 +40,9 @@ std::optional<std::string> refusal(const Model& model) {
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
     if (!make_plan(model).water) return std::nullopt;
+    if (model.parameters.densityTolerance > 0) {
+        return "densityTolerance = " + number_text(model.parameters.densityTolerance) + "; must be 0: a GPU has numIterations";
+    }
     if (const std::size_t borders = model.planes.size() + 2 * model.periodic.size(); borders > max_borders)
         return std::to_string(borders) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +
                "; must be at most " + std::to_string(max_borders) + " in scheme conserving";

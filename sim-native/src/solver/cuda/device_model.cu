@@ -143,14 +143,13 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.radius = static_cast<Real>(radius);
     water.spacing = static_cast<Real>(spacing);
     water.at_spacing = static_cast<Real>(1 / wendland(spacing, radius));
-    water.softening = Real(0.01) * water.spacing * water.spacing;
+    water.softening = physics::viscous_softening(water.spacing);
     const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
     water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
     water.carried = background_pressure<Real>(model);
-    const auto scale = static_cast<Real>(wendland(0, radius));
-    water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
+    water.kernel = physics::wendland_kernel(water.radius, static_cast<Real>(wendland(0, radius)));
     const double reach = effect_radius(model);
     water.effect_radius = static_cast<Real>(reach);
     water.cohesion_strength = static_cast<Real>(model.parameters.cohesion * reach);

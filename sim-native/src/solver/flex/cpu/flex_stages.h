@@ -34,6 +34,9 @@ public:
         return this->densities_by_particle();
     }
 
+    /// Behind an iteration.
+    void measure_constraints(Residuals& residuals);
+
     /// Its density constraint has no multiplier.
     std::vector<Real> pressures() const { return {}; }
 

@@ -38,8 +38,7 @@ __device__ void actuate(const BatchView<Real>& batch, int state, int number, dou
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
             physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        double drive = gait.amplitude[a] * activation;
-        if (gait.offset) drive += gait.offset[a];
+        const double drive = physics::muscle_drive(gait.amplitude[a], activation, gait.offset ? gait.offset + a : nullptr);
         team.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }

@@ -23,6 +23,9 @@ public:
 
     void find_water_neighbours();
     void compute_water_gradients() { water_->compute_gradients(*this->team_); }
+    bool begin_overlap_separation() { return water_->begin_overlap_separation(*this->team_); }
+    void separate_overlaps(int) { water_->separate_overlaps(*this->team_); }
+    void end_overlap_separation() { water_->end_overlap_separation(*this->team_); }
     void solve_divergence() { water_->solve_divergence(*this->team_); }
     void add_viscosity() { water_->add_viscosity(*this->team_); }
     void add_fluid_forces() { water_->add_forces(*this->team_); }
@@ -33,7 +36,14 @@ public:
         if (plan_.planes) find_plane_contacts();
     }
     void begin_iterations();
-    void solve_density_constraint();
+    void compute_density_impulses();
+    /// Whether the last iteration found the density within its tolerance.
+    bool has_converged() const { return !water_ || density_error_ <= model_.parameters.densityTolerance; }
+    void apply_density_impulses();
+    void return_zeroth_order_correction();
+    void apply_wall_pressure() { water_->apply_wall_pressure(*this->team_); }
+    void add_pressure_forces() { water_->add_pressure_forces(); }
+    void move_water();
     void solve_contacts();
     void solve_springs();
     void solve_clusters();
@@ -46,6 +56,10 @@ public:
     std::vector<Real> densities() const;
     std::vector<Real> pressures() const;
     std::vector<int> neighbour_counts() const;
+
+    /// Of the divergence, behind the stage that solves it; and of all else, behind an iteration.
+    void measure_divergence(Residuals& residuals) { residuals.divergence = water_->unsolved(*this->team_); }
+    void measure_constraints(Residuals& residuals);
 
     /// See Solver::forces; empty without water.
     void keep_forces() {
@@ -62,14 +76,13 @@ private:
     void for_each_particle(const Work& work) {
         this->team_->for_each(ws_.particles, this->shortest_part * lanes, work);
     }
-    template <class Push>
-    void push_solids(const Push& push);
+    void tell_water();
+    void move_solids_with_water();
     /// Water that has left a periodic tank comes in at the other end.
     void wrap_fluid();
     void put_before_planes();
     void find_plane_contacts();
     Real contact_depth(int i, int j) const;
-    void move_fluid();
     void keep_body_momentum();
     /// Moves slot by omega times its correction, which is 0 again afterwards.
     void apply_correction(int slot);
@@ -92,6 +105,7 @@ private:
     std::optional<Water<Real>> water_;
     std::vector<physics::PlaneSurface<Real>> planes_;
     std::vector<physics::Seam<Real>> seams_;
+    double density_error_ = 0;         ///< before the last iteration, see Residuals::density; with a tolerance alone
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it

@@ -2,12 +2,15 @@
 
 namespace natator::cpu {
 
-/// The solids move by what `push`, a stage of the water, does to them.
+/// How the solids move by now.
 template <class Real>
-template <class Push>
-void ConservingStages<Real>::push_solids(const Push& push) {
+void ConservingStages<Real>::tell_water() {
     for (const int i : ws_.solid_ids) water_->set_velocity(i, present_velocity(i));
-    push();
+}
+
+/// By what the water has done to them since tell_water.
+template <class Real>
+void ConservingStages<Real>::move_solids_with_water() {
     for (const int i : ws_.solid_ids) {
         if (!(inverse_mass_[i] > 0)) continue;
         move(ws_.slot_of[i], h_ * (water_->velocity(i) - present_velocity(i)));
@@ -15,19 +18,29 @@ void ConservingStages<Real>::push_solids(const Push& push) {
 }
 
 template <class Real>
-void ConservingStages<Real>::solve_density_constraint() {
-    push_solids([this] {
-        if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
-        water_->push_apart(*this->team_);
-    });
+void ConservingStages<Real>::compute_density_impulses() {
+    tell_water();
+    if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
+    water_->compute_impulses(*this->team_);
+    if (model_.parameters.densityTolerance > 0) density_error_ = water_->lacking().mean;
+}
+
+template <class Real>
+void ConservingStages<Real>::apply_density_impulses() {
+    water_->apply_corrected_impulses(*this->team_);
+    move_solids_with_water();
+}
+
+template <class Real>
+void ConservingStages<Real>::return_zeroth_order_correction() {
+    tell_water();
+    water_->return_zeroth_order_correction(*this->team_);
+    move_solids_with_water();
 }
 
 /// The fluid goes where its velocities take it.
 template <class Real>
-void ConservingStages<Real>::move_fluid() {
-    push_solids([this] { water_->return_zeroth_order_correction(*this->team_); });
-    water_->add_pressure_forces();
-    water_->apply_wall_pressure(*this->team_);
+void ConservingStages<Real>::move_water() {
     this->team_->for_each(static_cast<int>(ws_.fluid_ids.size()), this->shortest_part * lanes, [this](int k) {
         const int i = ws_.fluid_ids[k], slot = ws_.slot_of[i];
         if (!(inverse_mass_[i] > 0)) return;
@@ -41,9 +54,17 @@ void ConservingStages<Real>::move_fluid() {
     });
 }
 
-template void ConservingStages<float>::solve_density_constraint();
-template void ConservingStages<double>::solve_density_constraint();
-template void ConservingStages<float>::move_fluid();
-template void ConservingStages<double>::move_fluid();
+template void ConservingStages<float>::tell_water();
+template void ConservingStages<double>::tell_water();
+template void ConservingStages<float>::move_solids_with_water();
+template void ConservingStages<double>::move_solids_with_water();
+template void ConservingStages<float>::compute_density_impulses();
+template void ConservingStages<double>::compute_density_impulses();
+template void ConservingStages<float>::apply_density_impulses();
+template void ConservingStages<double>::apply_density_impulses();
+template void ConservingStages<float>::return_zeroth_order_correction();
+template void ConservingStages<double>::return_zeroth_order_correction();
+template void ConservingStages<float>::move_water();
+template void ConservingStages<double>::move_water();
 
 }  // namespace natator::cpu

@@ -26,7 +26,6 @@ void ConservingStages<Real>::keep_body_momentum() {
 /// back; damping v / (1 + h damping).
 template <class Real>
 void ConservingStages<Real>::update_velocities() {
-    if (water_) move_fluid();
     const Real kept = plan_.damping ? 1 / (1 + h_ * static_cast<Real>(model_.parameters.damping)) : Real(1);
 
     for_each_particle([this](int i) { new_velocity_[i] = present_velocity(i); });

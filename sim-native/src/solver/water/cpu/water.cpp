@@ -9,6 +9,7 @@
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
+#include "solver/cpu/residual_sum.h"
 #include "solver/cpu/workspace.h"
 
 namespace natator::cpu {
@@ -62,7 +63,7 @@ Vec3<Real> Water<Real>::shift(int particle) const {
 /// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
-bool Water<Real>::separate_overlaps(ThreadTeam& team) {
+bool Water<Real>::begin_overlap_separation(ThreadTeam& team) {
     parting_.clear();
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     std::atomic<bool> any = false;
@@ -84,11 +85,18 @@ bool Water<Real>::separate_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
-    for (int pass = 0; pass < physics::separation_passes; ++pass) {
-        compute_impulses(team);
-        apply_impulses(team);
-        give_images_velocities(team);
-    }
+    return true;
+}
+
+template <class Real>
+void Water<Real>::separate_overlaps(ThreadTeam& team) {
+    compute_impulses(team);
+    apply_impulses(team);
+    give_images_velocities(team);
+}
+
+template <class Real>
+void Water<Real>::end_overlap_separation(ThreadTeam& team) {
     parting_.resize(particles_);
     for_each_slot(team, [this](int slot) {
         parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::max_separation) * spacing_);
@@ -97,7 +105,6 @@ bool Water<Real>::separate_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
-    return true;
 }
 
 template <class Real>
@@ -138,16 +145,17 @@ WaterView<Real> Water<Real>::view() {
     const auto pointers = [](Vector3Array<Real>& array) { return array.pointers(); };
     const auto position = pointers(position_), velocity = pointers(velocity_), crowding = pointers(crowding_),
                gradient = pointers(gradient_), zeroth = pointers(zeroth_);
+    const physics::WendlandKernel<Real> kernel = physics::wendland_kernel(radius_, kernel_scale_);
     WaterView<Real> all{.first_block = 0,
                         .end_block = image_begin_ / lanes,
                         .row_begin = row_begin_.data(),
                         .neighbour = neighbour_.data(),
                         .far_slot = far_slot_,
-                        .inverse_radius = 1 / radius_,
-                        .kernel_scale = kernel_scale_,
-                        .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
+                        .inverse_radius = kernel.inverse_radius,
+                        .kernel_scale = kernel.scale,
+                        .slope_scale = kernel.slope_scale,
                         .at_spacing = at_spacing_,
-                        .softening = Real(0.01) * spacing_ * spacing_,
+                        .softening = physics::viscous_softening(spacing_),
                         .position = {position[0], position[1], position[2]},
                         .volume = volume_.data(),
                         .inverse_mass = inverse_mass_.data(),
@@ -181,6 +189,25 @@ void Water<Real>::compute_impulses(ThreadTeam& team) {
 }
 
 template <class Real>
+Residual Water<Real>::lacking() const {
+    ResidualSum sum;
+    for (int slot = 0; slot < particles_; ++slot) {
+        if (!model_.is_fluid(particle_of_[slot])) continue;
+        const Real rate = impulse_[slot] > 0 ? impulse_[slot] / (Real(physics::jacobi_relaxation) * response_[slot]) : Real(0);
+        sum.add(rate * h_ / volume_[slot]);
+    }
+    return sum.residual();
+}
+
+template <class Real>
+Residual Water<Real>::unsolved(ThreadTeam& team) {
+    const AlignedVector<Real> sum = impulse_sum_;
+    compute_impulses(team);
+    impulse_sum_ = sum;
+    return lacking();
+}
+
+template <class Real>
 void Water<Real>::apply_impulses(ThreadTeam& team) {
     for_each_image(team, [this](int k) { impulse_[image_begin_ + k] = impulse_[image_owner_[k]]; });
     on_all_threads(team, kernels_->apply_impulse);
@@ -192,12 +219,6 @@ void Water<Real>::apply_corrected_impulses(ThreadTeam& team) {
     const Real strength = physics::uncorrected_strength(h_, fluid_density_);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->apply_zeroth_order_correction(part, strength); });
     give_images_velocities(team);
-}
-
-template <class Real>
-void Water<Real>::push_apart(ThreadTeam& team) {
-    compute_impulses(team);
-    apply_corrected_impulses(team);
 }
 
 template <class Real>
@@ -217,21 +238,19 @@ void Water<Real>::compute_gradients(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
-    const bool parted = separate_overlaps(team);
     std::fill(zeroth_order_correction_.begin(), zeroth_order_correction_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    if (parted) {
+    if (!parting_.empty()) {
         std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
         compute_impulses(team);
     }  // else compute_gradients has computed them
     apply_corrected_impulses(team);
-    for (int pass = 1; pass < physics::divergence_passes; ++pass) push_apart(team);
 }
 
 template <class Real>
 void Water<Real>::add_viscosity(ThreadTeam& team) {
     if (!(dynamic_viscosity_ > 0)) return;
-    const Real strength = 10 * h_ * dynamic_viscosity_;
+    const Real strength = physics::viscous_strength(h_, dynamic_viscosity_);
     const Real most = physics::viscous_limit(spacing_, strength);
     add_viscous_forces(strength, most);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });

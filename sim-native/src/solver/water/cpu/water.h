@@ -5,6 +5,7 @@
 
 #include "images.h"
 #include "natator/model.h"
+#include "natator/residuals.h"
 #include "natator/state.h"
 #include "physics/background_pressure.h"
 #include "solver/cpu/aligned.h"
@@ -29,16 +30,27 @@ public:
     void find_neighbours(const State<Real>& state, Real h, ThreadTeam& team);
     /// Density and G_ij.
     void compute_gradients(ThreadTeam& team);
-    /// Puts overlaps into shift(), takes off part of what compresses.
+    /// Whether particles overlap. If so passes on velocities that begin at 0 follow, and end_overlap_separation.
+    bool begin_overlap_separation(ThreadTeam& team);
+    void separate_overlaps(ThreadTeam& team);
+    /// Puts where they have led to into shift().
+    void end_overlap_separation(ThreadTeam& team);
+    /// Takes off part of what compresses.
     void solve_divergence(ThreadTeam& team);
     void add_viscosity(ThreadTeam& team);
     /// Cohesion, surface tension, vorticity confinement and free-surface drag.
     void add_forces(ThreadTeam& team);
     void add_gravity(ThreadTeam& team);
-    /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after add_gravity() is
-    /// where they lead to more than rest density. Takes off what physics::zeroth_order_correction says.
-    void push_apart(ThreadTeam& team);
-    /// Once all passes are done: gives back what push_apart has taken off.
+    /// One Jacobi pass: the impulses that push apart where the velocities compress more than target_ allows, which after
+    /// add_gravity() is where they lead to more than rest density.
+    void compute_impulses(ThreadTeam& team);
+    /// What these are for: how far the velocities are from target_, as a change of the fluid's density in the substep, in rest densities.
+    Residual lacking() const;
+    /// The same of the velocities as they are, with no impulses to follow.
+    Residual unsolved(ThreadTeam& team);
+    /// And what they do to the velocities, with what physics::zeroth_order_correction takes off.
+    void apply_corrected_impulses(ThreadTeam& team);
+    /// Once all passes are done: gives back what these have taken off.
     void return_zeroth_order_correction(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
@@ -86,12 +98,7 @@ private:
     void make_room(std::size_t slots);
     void list_neighbours(ThreadTeam& team);
     void give_images_corrections(ThreadTeam& team);
-    /// Returns whether there are any.
-    bool separate_overlaps(ThreadTeam& team);
-    void compute_impulses(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
-    /// The same, and takes off the zeroth_order_correction.
-    void apply_corrected_impulses(ThreadTeam& team);
     /// Turns vectors that neighbours gather into those of the images.
     void give_images(AlignedVector<Real>& packed, ThreadTeam& team);
     WaterView<Real> view();
@@ -178,7 +185,7 @@ private:
     std::vector<int> cell_of_;  ///< by particle
 
     Vector3Array<Real> position_, velocity_, crowding_;
-    Vector3Array<Real> kept_velocity_;  ///< room for separate_overlaps
+    Vector3Array<Real> kept_velocity_;  ///< room for the separation of overlaps
     Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by separate_overlaps, by slot; empty where nothing overlaps

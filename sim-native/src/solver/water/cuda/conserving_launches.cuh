@@ -91,11 +91,15 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
             launch.template each_state<find_water_neighbours_large<many, Real>, water_row>(rows);
     }
     void compute_water_gradients() const { each_pair<water_gradients<pairs, Real>, 4>(); }
-    void solve_divergence() const {
-        seldom_pass<Pass::first_parting>();
-        for (int k = 1; k < physics::separation_passes; ++k) seldom_pass<Pass::parting>();
-        push_apart<Pass::divergence>();
+    bool begin_overlap_separation() const { return true; }  // the device knows whether there are any
+    void separate_overlaps(int pass) const {
+        if (pass == 0)
+            seldom_pass<Pass::first_parting>();
+        else
+            seldom_pass<Pass::parting>();
     }
+    void end_overlap_separation() const {}
+    void solve_divergence() const { push_apart<Pass::divergence>(); }
     void add_viscosity() const {
         each_pair<water_viscosity<pairs, Real>>();
         if (launch.keeps_forces) each_pair_of_solids<add_viscous_forces<pairs, Real>>();
@@ -113,10 +117,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.template each_state<begin_large<Real>>(blocks);
         Base::begin_iterations();
     }
-    void solve_density_constraint() const {
-        impulses<Pass::density>();
-        push_apart<Pass::density>();
-    }
+    void compute_density_impulses() const { impulses<Pass::density>(); }
+    void apply_density_impulses() const { push_apart<Pass::density>(); }
     void solve_solids_together() const {
         if (model.solids > 2 * few_threads)
             solve_solids<BlockTeam::threads>();
@@ -132,13 +134,15 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         else
             launch.template each_state<solids_in_memory<Real>, threads>(1);
     }
+    void end_water_passes() const {
+        each_particle<lay_out_zeroth_order_correction<Real>>();
+        each_pair<cuda::end_water_passes<pairs, Real>, 6>(model.planes > 0 && norm(model.water.weight_on_walls) > 0);
+    }
+    void add_pressure_forces() const {
+        if (launch.keeps_forces) each_pair_of_solids<cuda::add_pressure_forces<pairs, Real>>();
+    }
+    void move_water() const { launch.template each_slot<cuda::move_water<Real>>(model.fluid); }
     void update_velocities() const {
-        if (model.plan.water) {
-            each_particle<lay_out_zeroth_order_correction<Real>>();
-            each_pair<end_water_passes<pairs, Real>, 6>(model.planes > 0 && norm(model.water.weight_on_walls) > 0);
-            if (launch.keeps_forces) each_pair_of_solids<add_pressure_forces<pairs, Real>>();
-            launch.template each_slot<move_water<Real>>(model.fluid);
-        }
         each_particle<constrained_velocities<Real>>();
         if (model.free_bodies > 0) launch.template each_state<keep_body_momentum<Real>, warp_threads>(1);
         each_particle<velocities_in_turn_large<Real>>();

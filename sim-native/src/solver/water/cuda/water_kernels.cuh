@@ -8,8 +8,6 @@
 
 namespace natator::cuda {
 
-static_assert(physics::divergence_passes == 1, "its impulses are those of water_gradients");
-
 /// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so far.
 template <Pairs pairs, class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
@@ -155,10 +153,9 @@ private:
     physics::ViscousSums<Real> sums_;
 };
 
-/// 10 h mu.
 template <class Real>
 __device__ Real viscous_strength(const ModelView<Real>& model, const Slots<Real>& slots) {
-    return 10 * slots.h * model.water.dynamic_viscosity;
+    return physics::viscous_strength(slots.h, model.water.dynamic_viscosity);
 }
 
 /// Viscosity; the velocities that neighbours see stay as they were.
