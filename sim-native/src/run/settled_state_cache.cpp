@@ -110,6 +110,7 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 template <class Real>
 std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling) const {
     const std::string key = settled_state_key(model, settling, sizeof(Real));
+    if (key.empty()) return std::nullopt;
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
     std::ostringstream content;
@@ -128,6 +129,7 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 template <class Real>
 void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled) const {
     const std::string key = settled_state_key(model, settling, sizeof(Real));
+    if (key.empty()) return;
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&hash), sizeof hash);

@@ -2,16 +2,25 @@
 
 #include <link.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "byte_writer.h"
 #include "natator/instruction_set.h"
 
 namespace natator {
 namespace {
 
-/// The build id that the linker put into the running program (ELF note NT_GNU_BUILD_ID): a digest of all its code.
+/// The build id that the linker put into the program or shared library that holds this function (ELF note
+/// NT_GNU_BUILD_ID): a digest of all its code. Empty without one.
 std::string build_id() {
     std::string id;
     const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
+        const auto here = reinterpret_cast<std::uintptr_t>(&build_id);
+        const auto holds = [&](const ElfW(Phdr)& part) {
+            return part.p_type == PT_LOAD && here - (info->dlpi_addr + part.p_vaddr) < part.p_memsz;
+        };
+        if (std::none_of(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum, holds)) return 0;
         for (int i = 0; i < info->dlpi_phnum; ++i) {
             if (info->dlpi_phdr[i].p_type != PT_NOTE) continue;
             // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
@@ -27,7 +36,7 @@ std::string build_id() {
                 at = content + padded(note->n_descsz);
             }
         }
-        return 1;  // the first object is the program itself
+        return 1;
     };
     dl_iterate_phdr(look, &id);
     return id;
@@ -73,6 +82,7 @@ void add_parameters(ByteWriter& key, const SolverParameters& p) {
 
 std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
     static const std::string id = build_id();
+    if (id.empty()) return {};
     ByteWriter key;
     key.add(id);
     key.add(instruction_set());
