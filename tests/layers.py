@@ -12,8 +12,8 @@ PUBLIC = {
     "base": "error limits version",
     "model": "actuate gait goal model model_builder parameters scene state steering water_box wave_gait",
     "scene": "load_scene",
-    "solver": "execution gpu_solver instruction_set plan solver stop_reason",
-    "run": "batch cost course evaluate laws live measure momentum moving_tank natator pose sense settled_state_cache snapshot swimming trajectory",
+    "solver": "execution instruction_set plan solver stop_reason",
+    "run": "batch cost course evaluate laws measure momentum moving_tank natator pose sense settled_state_cache simulation snapshot swimming trajectory",
 }
 MADE = "include/natator/version.h"  # by CMake
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/laws.h"
 #include "result_table.h"
 #include "stability_axes.h"

@@ -11,7 +11,7 @@
 
 #include "bench_scenes.h"
 #include "in_precision.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"

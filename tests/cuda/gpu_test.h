@@ -8,7 +8,7 @@
 #include "bench_scenes.h"
 #include "natator/batch.h"
 #include "natator/gait.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/solver.h"
 #include "natator/state.h"
 #include "scene/scene_json.h"

@@ -4,7 +4,7 @@
 #include "../native/bare_particles.h"
 #include "../native/refusal_of.h"
 #include "gpu_test.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/momentum.h"
 
 namespace natator::test {

@@ -6,7 +6,7 @@
 #include "gpu_test.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "natator/solver.h"
 

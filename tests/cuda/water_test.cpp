@@ -6,7 +6,7 @@
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
 

@@ -7,7 +7,7 @@
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"

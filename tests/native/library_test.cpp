@@ -20,7 +20,6 @@ constexpr bool keeps_no_temporary = std::is_constructible_v<AnySolver, Model&> &
                                     !std::is_constructible_v<AnySolver, Model> &&
                                     !std::is_constructible_v<AnySolver, const Model>;
 static_assert(keeps_no_temporary<Solver<float>> && keeps_no_temporary<Solver<double>>);
-static_assert(keeps_no_temporary<GpuSolver<float>> && keeps_no_temporary<GpuSolver<double>>);
 
 std::string message_of(const std::string& name, const SceneOptions& options) {
     return test::refusal_of([&] { load_scene(name, options); });
@@ -55,7 +54,7 @@ TEST_F(LibraryTest, ScenesAndCreaturesComeFromTheFolderThatIsNamed) {
     const std::string nowhere = message_of("pool", {.data = data_ / "none"});
     EXPECT_NE(nowhere.find("none found in \"" + (data_ / "none" / "scenes").string() + "\""), std::string::npos)
         << nowhere;
-    LiveSimulation<float> live({.scene = "my/base", .data = data_});
+    Simulation<float> live({.scene = "my/base", .data = data_});
     EXPECT_EQ(live.model().particles(), 8);
 }
 
@@ -92,7 +91,8 @@ TEST_F(LibraryTest, OverridesAreText) {
 TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
     if (!cuda_devices().empty()) GTEST_SKIP() << "there is a GPU";
     const Model model = build_model(load_scene("my/base", {.data = data_}));
-    EXPECT_THROW(GpuSolver<float>{model}, NoDevice);
+    EXPECT_THROW(Solver<float>(model, {.gpu = 0}), NoDevice);
+    EXPECT_THROW(Simulation(load_scene("my/base", {.data = data_}), {.gpu = 0}), NoDevice);
     EXPECT_THROW(evaluate_on_gpu(load_scene("my/base", {.data = data_}), {BatchMember{}}), NoDevice);
 }
 

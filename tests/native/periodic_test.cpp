@@ -8,9 +8,9 @@
 #include "bare_particles.h"
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
-#include "natator/live.h"
 #include "natator/measure.h"
 #include "natator/sense.h"
+#include "natator/simulation.h"
 #include "periodic_models.h"
 #include "protocol/stream.h"
 #include "refusal.h"
@@ -298,16 +298,16 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
 TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
     const json overrides = in_round_tank({{"duration", 0.25}});
     const Evaluation whole = evaluate(load_scene("pool/creature-1", overrides), round_beat);
-    LiveSimulation<float> live({"pool/creature-1", overrides.dump(), round_beat});
-    while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
+    Simulation<float> live({"pool/creature-1", overrides.dump(), round_beat});
+    while (live.frames() < whole.frames) ASSERT_TRUE(live.step());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-9);
 }
 
 /// A frame tells the water around the swimmer, wherever that is: the same places but for whole lengths of the tank.
 TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
-    LiveSimulation<float> live({"pool/creature-1", in_round_tank().dump(), round_beat});
-    for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.frame());
+    Simulation<float> live({"pool/creature-1", in_round_tank().dump(), round_beat});
+    for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.step());
     const Model& model = live.model();
     const std::string message = stream_frame(live, {});
     const std::size_t first = 8 + 72 + 4 * static_cast<std::size_t>(model.actuators);

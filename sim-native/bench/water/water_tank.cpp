@@ -6,7 +6,7 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "natator/solver.h"
 #include "physics/dfsph.h"
 

@@ -92,7 +92,9 @@ struct EvaluationOptions {
 };
 
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
-/// stop. The result is the same, bit by bit, with and without the cache.
+/// stop. The result is the same, bit by bit, with and without the cache. May be called from several threads at once; each calls its own
+/// `on_frame` and `snapshot.take`, and a profile is one thread's. On a GPU (Execution::gpu) the State goes there and back in each frame;
+/// evaluate_on_gpu gives the same bits sooner.
 /// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h), and what
 /// `on_frame` and `snapshot.take` throw.
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options = {});

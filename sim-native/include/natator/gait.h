@@ -12,6 +12,8 @@ struct Gait {
     double power = 1.0;             ///< p of the potentiated activation of thesis 4.2; 1 = plain sine, (2.6)
     /// o_i per actuator: what its muscles are driven by beside the beat, to steer; > 0 to the left. Empty = 0.
     std::vector<double> offset{};
+
+    bool operator==(const Gait&) const = default;
 };
 
 /// The gait that leaves the muscles of so many actuators at rest.

@@ -59,7 +59,7 @@ struct CompanionBody {
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
 };
 
-/// All that stays constant while a scene runs. One Model serves any number of States.
+/// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none changes it.
 /// Per-particle vectors have the length of `position`.
 struct Model {
     Scheme scheme = Scheme::flex;

@@ -17,7 +17,7 @@ struct WaterRenewal {
     double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
 };
 
-/// Keeps a tank about its swimmer. One for each run.
+/// Keeps a tank about its swimmer. One for each run, in one thread at a time.
 class MovingFrame {
 public:
     /// Throws InputError unless the scene has water of scheme `conserving`, a creature, and for each

@@ -34,14 +34,22 @@ public:
     virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
 };
 
-/// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread. Members that take a State throw
-/// InputError if it is not of so many particles, clusters and springs as the Model.
+template <class Real>
+class GpuSolver;
+
+/// Advances States of one Model, on the CPU or with Execution::gpu on a GPU. There the State travels to the device and back with every
+/// update, so many whole evaluations are faster by evaluate_on_gpu, whose bits are the same. Members that take a State throw InputError
+/// if it is not of so many particles, clusters and springs as the Model; on a GPU they throw std::bad_alloc when its memory is
+/// insufficient and std::runtime_error, naming the call, when it fails.
+///
+/// One thread at a time may use a Solver; several Solvers, also of one Model, may run in as many threads.
 template <class Real>
 class Solver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as the Solver; so must `execution.profile`, if
     /// there is one. A temporary Model is refused by the compiler. Throws InputError unless the Model's lists belong together: of
-    /// as many particles, and of particles, springs and actuators that are there.
+    /// as many particles, and of particles, springs and actuators that are there; or if it needs what the GPU's stages do not do. Throws
+    /// NoDevice without that GPU, or in a library built without CUDA.
     explicit Solver(const Model& model, const Execution& execution = {});
     explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();
@@ -58,7 +66,8 @@ public:
     /// model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
-    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator.
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and on a GPU, but
+    /// for scheme `lattice`.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring
@@ -87,9 +96,13 @@ public:
     /// Number of fluid and contact neighbours of each particle in the last substep.
     std::vector<int> neighbour_counts() const;
 
+    /// Whether a GPU computes.
+    bool on_gpu() const;
+
 private:
     class Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<Implementation> implementation_;  ///< of the CPU; null on a GPU
+    std::unique_ptr<GpuSolver<Real>> gpu_;
 };
 
 /// Whether Solver::muscle_work means something: the model has muscles, and a scheme with forces.

@@ -13,7 +13,7 @@ class WholeFile;
 
 /// Writes the body's path as CSV while it is computed: one line per slice (or particle) and frame, frame 0 being the
 /// settled start. Columns: frame, time (s), slice (0 = head) or particle (by slice from the head, y, z), x, y, z
-/// (length). The file takes its place when it is finished; what stood there before stays until then.
+/// (length). The file takes its place when it is finished; what stood there before stays until then. For one thread at a time.
 class TrajectoryCsv {
 public:
     enum class Rows { slices, particles };

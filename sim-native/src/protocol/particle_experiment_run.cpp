@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "particle_experiment.h"
 
 namespace natator {

@@ -1,6 +1,6 @@
 // What a build without CUDA answers.
 #include "natator/error.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 #include "no_cuda.h"
 #include "solver/cuda/grid/fetch_roof.h"
 
@@ -43,6 +43,10 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
 }
 template <class Real>
 double GpuSolver<Real>::muscle_work() const {
+    refuse_without_cuda();
+}
+template <class Real>
+void GpuSolver<Real>::clear_muscle_work() {
     refuse_without_cuda();
 }
 template <class Real>
