@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 
 /// What the tests of the solver's parameters share: particles with all else off, both schemes, both precisions.
@@ -22,6 +23,7 @@ inline Model bare_model(Scheme scheme, Points positions, std::uint32_t phase) {
     Model model;
     model.scheme = scheme;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     p.gravity.setZero();
     p.dynamicFriction = p.particleFriction = 0;
     p.damping = p.viscosity = 0;

@@ -8,6 +8,7 @@
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "natator/model.h"
+#include "natator/scene.h"
 #include "natator/state.h"
 
 /// Models of scheme `conserving` that tests share.
@@ -27,6 +28,7 @@ inline Model lattice_of_water(const Eigen::Vector3i& count, double scale = 1) {
     Model model;
     model.scheme = Scheme::conserving;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     for (double* length : {&p.radius, &p.solidRestDistance, &p.fluidRestDistance, &p.collisionDistance})
         *length *= scale;
     p.substeps = 2;
@@ -118,6 +120,7 @@ inline Model cube_in_water(double density, double scale, int start = 0) {
 inline Model hanging_chain() {
     Model model;
     model.scheme = Scheme::conserving;
+    model.parameters = thesis_tank().solver;
     model.parameters.damping = 0;
     model.parameters.numIterations = 64;  // so many that no energy hides in stretched links
     for (int i = 0; i < 12; ++i) {

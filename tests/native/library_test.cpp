@@ -99,6 +99,7 @@ TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
 /// A body of twelve slices with three joints.
 Scene own_scene() {
     Scene scene;
+    scene.scheme = Scheme::flex;
     Creature& creature = scene.creature.emplace();
     creature.slices.assign(12, Slice{.height = 3, .width = 3});
     creature.joints = {3, 6, 9};
@@ -165,6 +166,7 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
 /// Two particles and a spring, a cluster and a muscle, as a program may make them without a scene.
 Model own_model() {
     Model model;
+    model.scheme = Scheme::flex;
     for (const double x : {0.0, 0.1}) {
         model.position.emplace_back(x, 1, 0);
         model.velocity.emplace_back(0, 0, 0);

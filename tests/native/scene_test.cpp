@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
+#include "natator/model_builder.h"
 #include "refusal_of.h"
+#include "run/settled_state_key.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -99,6 +101,28 @@ TEST(SceneTest, TheSchemaThatAnEditorFindsIsNoPartOfAScene) {
     EXPECT_FALSE(scene_definition("open-water/eel", json::object()).contains("$schema"));
     EXPECT_FALSE(scene_definition("open-water/eel", json::object()).at("creature").contains("$schema"));
     EXPECT_THROW(load_scene("thesis/tank", json::parse(R"({"$schema":"scene.schema.json"})")), InputError);
+}
+
+TEST(SceneTest, TheThesisTankIsTheNamedScene) {
+    const Scene scene = thesis_tank(), named = load_scene("thesis/tank");
+    const Model made = build_model(scene), read = build_model(named);
+    EXPECT_NE(settled_state_key(made, scene.settling, 4), "");
+    EXPECT_EQ(settled_state_key(made, scene.settling, 4), settled_state_key(read, named.settling, 4));  // all parameters, particles, planes
+    EXPECT_EQ(scene.name, named.name);
+    EXPECT_EQ(scene.duration, named.duration);
+    EXPECT_EQ(scene.stopping.no_progress_after, named.stopping.no_progress_after);
+}
+
+TEST(SceneTest, WhatAProgramMakesIsWater) {
+    Scene scene;
+    scene.fluid.emplace();
+    const Model water = build_model(scene);
+    EXPECT_EQ(water.scheme, Scheme::conserving);
+    EXPECT_EQ(water.inverse_mass, std::vector<double>(1000, 1.0));
+    EXPECT_EQ(scene.fluid->spacing, scene.solver.fluidRestDistance);
+    for (const double drag : {scene.solver.damping, scene.solver.dynamicFriction, scene.solver.staticFriction,
+                              scene.solver.particleFriction, scene.solver.freeSurfaceDrag})
+        EXPECT_EQ(drag, 0);
 }
 
 TEST(SceneTest, AnEmptySolverHasTheDefaultsOfAppendixA) {

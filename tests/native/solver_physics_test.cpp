@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 
 namespace natator {
@@ -13,7 +14,9 @@ constexpr double dt = 1.0 / 60;
 /// Particles with every force, constraint and limit off; tests switch on what they are about.
 Model bare_model(std::vector<Eigen::Vector3d> positions) {
     Model model;
+    model.scheme = Scheme::flex;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     p.gravity.setZero();
     p.dynamicFriction = p.particleFriction = 0;
     p.damping = p.viscosity = 0;

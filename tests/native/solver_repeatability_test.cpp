@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 #include "solver/cpu/fluid_kernels.h"
 
@@ -12,6 +13,8 @@ namespace {
 /// A drop of fluid with a solid in it: all kinds of pairs, a plane, no symmetry.
 Model mixed_model(int particles) {
     Model model;
+    model.scheme = Scheme::flex;
+    model.parameters = thesis_tank().solver;
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> place(0.05, 0.65);
     for (int i = 0; i < particles; ++i) {

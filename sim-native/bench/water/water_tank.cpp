@@ -6,9 +6,10 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
-#include "solver/gpu_solver.h"
+#include "natator/scene.h"
 #include "natator/solver.h"
 #include "physics/dfsph.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::bench {
 namespace {
@@ -20,6 +21,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     Model model;
     model.scheme = setting.solver.scheme;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     set_steps(steps_of(setting.solver), p);
     p.fluidRestDistance = spacing;
     p.kernelSupport = setting.support;

@@ -62,7 +62,7 @@ struct CompanionBody {
 /// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none changes it.
 /// Per-particle vectors have the length of `position`.
 struct Model {
-    Scheme scheme = Scheme::flex;
+    Scheme scheme = Scheme::conserving;
     SolverParameters parameters;
     double time_step = 1.0 / 60;  ///< one frame, s
 

@@ -18,7 +18,8 @@ enum class RelaxationMode {
     local = 1,   ///< x += min(1, (1 + omega) / n) * sum, n = number of constraints on the particle
 };
 
-/// Solver parameters under the names of NVIDIA Flex, defaults from Appendix A of the thesis.
+/// Solver parameters under the names of NVIDIA Flex. Those made without an argument are of water without friction and drag;
+/// thesis_tank().solver has those of Appendix A of the thesis.
 /// Units are those of the scene (length, second, mass); the ranges (sim-native/protocol/scenes.md) are checked when a scene is read and
 /// in build_model, in a Model that a program makes those of `kernelSupport` and of radius / fluidRestDistance alone.
 struct SolverParameters {
@@ -26,16 +27,16 @@ struct SolverParameters {
     int numIterations = 4;  ///< constraint iterations per substep, >= 1
     /// In scheme `conserving` times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's
     /// stiffness and the strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.
-    int solidIterations = 1;
+    int solidIterations = 16;
 
     Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
     double radius = 0.15;                ///< interaction radius R of particles, length, > 0
-    double solidRestDistance = 0.15;     ///< distance held between a solid and any other particle, 0 < d <= radius
+    double solidRestDistance = 0.075;    ///< distance held between a solid and any other particle, 0 < d <= radius
     double fluidRestDistance = 0.10;     ///< spacing of the fluid at rest density, 0 < d < radius
 
-    double dynamicFriction = 0.2;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
+    double dynamicFriction = 0.0;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
     double staticFriction = 0.0;    ///< static Coulomb coefficient, planes and particles
-    double particleFriction = 0.2;  ///< dynamic Coulomb coefficient between particles
+    double particleFriction = 0.0;  ///< dynamic Coulomb coefficient between particles
     double restitution = 0.0;       ///< rebound speed over impact speed at planes, [0, 1]
     double adhesion = 0.0;          ///< pull, length/s^2, that a particle touching a plane withstands, >= 0
     double sleepThreshold = 0.0;    ///< a particle slower than this, length/s, stays where it is, >= 0
@@ -50,7 +51,7 @@ struct SolverParameters {
     /// Damping per contact, 1/s, >= 0. Scheme `flex`: of the velocity, from the second contact on, as a single contact
     /// was measured not to damp. Scheme `conserving`: of the relative velocity in each contact, which keeps momentum.
     double dissipation = 0.0;
-    double damping = 1.0;                                 ///< drag on the velocity, 1/s
+    double damping = 0.0;                                 ///< drag on the velocity, 1/s
 
     /// Pull between fluid particles beyond fluidRestDistance, push within it; dimensionless, >= 0. At contact the push
     /// moves a particle by cohesion * radius: in scheme `flex` per iteration before relaxation, as measured; in scheme

@@ -23,13 +23,13 @@ enum class MassGradient {
 
 /// A block of fluid particles on a cubic lattice (thesis 2.3).
 struct FluidBlock {
-    Eigen::Vector3i count{50, 7, 17};            ///< lattice points along x, y, z
-    double spacing = 0.09;                       ///< lattice constant, length
+    Eigen::Vector3i count{10, 10, 10};           ///< lattice points along x, y, z
+    double spacing = 0.1;                        ///< lattice constant, length
     Eigen::Vector3d origin{0.05, 0.05, 0.05};    ///< first lattice point
-    MassGradient gradient = MassGradient::mass_linear;
-    double bottom_mass = 2.0;                    ///< mass of the lowest layer
-    double top_mass = 1.0 / 14.0;                ///< mass of the highest layer
-    double clearance = 0.15;                     ///< lattice points closer than this to a body particle are left out
+    MassGradient gradient = MassGradient::uniform;
+    double bottom_mass = 1;                      ///< mass of the lowest layer
+    double top_mass = 1;                         ///< mass of the highest layer
+    double clearance = 0.085;                    ///< lattice points closer than this to a body particle are left out
     /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body begins in its
     /// cells, up to half a cell from its place along each axis; 0: there.
     int disorder = 20;
@@ -187,11 +187,12 @@ struct MovingTank {
     Eigen::Vector3d current{0, 0, 0};
 };
 
-/// Everything that defines an experiment, as read from scene JSON.
+/// Everything that defines an experiment. What is made without an argument is water of one density, without friction and drag; it
+/// needs some, in `fluid` and between `planes`. Scene JSON has thesis_tank() where it says nothing.
 struct Scene {
     std::string name;
     std::string description;
-    Scheme scheme = Scheme::flex;
+    Scheme scheme = Scheme::conserving;
     double duration = 4.0;         ///< s
     double time_step = 1.0 / 60;   ///< one frame, s
     SolverParameters solver;
@@ -212,5 +213,9 @@ struct Scene {
         return moving_tank ? distance - time * moving_tank->current.x() : distance;
     }
 };
+
+/// The tank of the thesis (2.3) with its water, whose mass falls from 2 at the bottom to 1/14 at the top, without a swimmer: scheme
+/// `flex` with the parameters of Appendix A. The named scene thesis/tank is the same.
+Scene thesis_tank();
 
 }  // namespace natator

@@ -10,6 +10,7 @@
 #include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "natator/scene.h"
 
 namespace natator {
 namespace {
@@ -84,7 +85,7 @@ struct Reader {
 /// Parameters as NVIDIA Flex has them after its creation (its documentation and tests/conformance/README.md): all 0
 /// but these.
 SolverParameters flex_defaults() {
-    SolverParameters p;
+    SolverParameters p = thesis_tank().solver;
     p.numIterations = 1;
     p.gravity.setZero();
     for (double* value :
@@ -106,6 +107,7 @@ std::vector<Plane> read_planes(const json& value, const Reader& read) {
 
 void read_parameters(const json& params, const Reader& read, Model& model) {
     SolverParameters& p = model.parameters;
+    model.scheme = Scheme::flex;
     p = flex_defaults();
     const std::map<std::string, double*> scalars{{"radius", &p.radius},
                                                  {"solidRestDistance", &p.solidRestDistance},

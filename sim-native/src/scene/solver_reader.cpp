@@ -13,7 +13,7 @@ SolverParameters read_solver(const json& value, const Place& place) {
     std::vector<std::string_view> also = cloth_only;
     also.emplace_back("relaxationMode");
 
-    SolverParameters solver;
+    SolverParameters solver = thesis_tank().solver;
     read_object(value, place, solver_fields(), also, solver);
     for (const std::string_view key : cloth_only) {
         if (value.contains(key)) require_zero(value.at(std::string(key)), place.key(key), "0 (acts on cloth only)");
