@@ -134,8 +134,8 @@ Steps steps_of(const Setting& setting) { return {setting.substeps, setting.itera
 
 void set_steps(const Steps& steps, SolverParameters& solver) {
     solver.substeps = steps.substeps;
-    solver.numIterations = steps.iterations;
-    solver.modifiedPressure = steps.modified_pressure;
+    solver.iterations = steps.iterations;
+    solver.conserving.modified_pressure = steps.modified_pressure;
 }
 
 }  // namespace natator::bench

@@ -126,7 +126,7 @@ ordered_json describe_scene(const Scene& scene) {
     info["substeps"] = model.parameters.substeps;
     if (model.parameters.substeps != scene.solver.substeps) info["substepsAsked"] = scene.solver.substeps;
     if (const int raised = particles_made_heavier(scene, model)) info["madeHeavier"] = raised;
-    info["iterations"] = scene.solver.numIterations;
+    info["iterations"] = scene.solver.iterations;
     info["plan"] = describe_plan(model);
     return info;
 }

@@ -83,8 +83,8 @@ TEST_F(GpuPeriodic, ABodyGoesRoundAsOnTheCpu) {
 TEST_F(GpuPeriodic, EffectsAreTheCpus) {
     Model model = stirred_periodic_water({0, 2});
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 5;
-    model.parameters.vorticityConfinement = 0.5;
+    model.parameters.surface_tension = 5;
+    model.parameters.vorticity_confinement = 0.5;
     OnBoth both(model);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 4; ++k) {

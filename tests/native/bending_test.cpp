@@ -70,7 +70,7 @@ TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
 /// Without water nothing but the solids is iterated: 4 iterations of 8 each are 32.
 TEST(Bending, IterationsOfSolidsAreIterations) {
     Model all = creature_2_in_vacuum(4, 32, 1), of_solids = creature_2_in_vacuum(4, 4, 1);
-    of_solids.parameters.solidIterations = 8;
+    of_solids.parameters.conserving.solid_iterations = 8;
     EXPECT_EQ(bending(of_solids), bending(all));
     EXPECT_NE(bending(creature_2_in_vacuum(4, 4, 1)), bending(all));
 }

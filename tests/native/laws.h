@@ -335,7 +335,7 @@ TYPED_TEST_P(Laws, MoreIterationsMoveNothingFaster) {
     const auto fastest = [&](int iterations) {
         Scene scene = load_scene("bench/small-tank");
         scene.scheme = Scheme::conserving;
-        scene.solver.numIterations = iterations;
+        scene.solver.iterations = iterations;
         const Model model = build_model(scene);
         typename TypeParam::template Solver<float> solver(model);
         State<float> state = initial_state<float>(model);

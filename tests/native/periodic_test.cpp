@@ -75,7 +75,7 @@ TEST(Periodic, MomentumIsKeptThroughTheEnds) {
     expect_momentum_along_periodic_axes<float>(model, 1e-6);
     expect_momentum_along_periodic_axes<double>(model, 1e-14);
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 20;
+    model.parameters.surface_tension = 20;
     expect_momentum_along_periodic_axes<double>(model, 1e-14);
 }
 
@@ -129,7 +129,7 @@ TEST(Periodic, AShearWaveDecaysByItsViscosity) {
         Model model = made_periodic(box_of_water({across, 8, 6}), {0, 2});
         model.planes.push_back({{0, -1, 0}, 8 * water_spacing});
         model.parameters.gravity.setZero();
-        model.parameters.kinematicViscosity = nu;
+        model.parameters.conserving.kinematic_viscosity = nu;
         for (int i = 0; i < model.particles(); ++i) model.velocity[i].z() = speed * std::sin(k * model.position[i].x());
         const State<float> state = after_frames<float>(model, frames);
         double sum = 0, squares = 0;

@@ -112,7 +112,7 @@ TEST(SimulationTest, AGaitActsFromTheNextFrameOn) {
 
 TEST(SimulationTest, OverridesThatChangeNothingChangeNoBit) {
     Simulation<float> simulation = swimmer(in_water, hardly_settled);
-    const double viscosity = simulation.scene().solver.viscosity;
+    const double viscosity = simulation.scene().solver.flex.viscosity;
     for (int frames = 0; frames < 6; frames += 2) {
         hash_after(simulation, frames);
         EXPECT_FALSE(merge(simulation, {{"solver", {{"viscosity", viscosity}}}, {"duration", 9}}));

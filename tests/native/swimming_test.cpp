@@ -32,7 +32,7 @@ std::vector<double> beating(double frequency, double amplitude, double drift, do
 Model swimmer(double viscosity) {
     Model model;
     model.scheme = Scheme::conserving;
-    model.parameters.kinematicViscosity = viscosity;
+    model.parameters.conserving.kinematic_viscosity = viscosity;
     model.position = {{0, 0, 0}, {1, 0, 0}};
     model.velocity = {{0, 0, 0}, {0, 0, 0}};
     model.inverse_mass = {1, 1};

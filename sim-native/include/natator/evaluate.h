@@ -39,7 +39,7 @@ struct Perturbation {
 
 /// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and `lattice` `start` seeds the
 /// arrangement of the water, which is stored in the scene; else the returned perturbation shifts every
-/// coordinate by up to 0.001 of fluidRestDistance. Throws InputError if `start` is below 0.
+/// coordinate by up to 0.001 of fluid_rest_distance. Throws InputError if `start` is below 0.
 Perturbation choose_start(int start, Scene& scene);
 
 /// How far the final state is from the laws of mechanics; all dimensionless.

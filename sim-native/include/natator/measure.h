@@ -13,7 +13,7 @@ namespace natator {
 template <class Real>
 double mean_x(const Body& body, const State<Real>& state);
 
-/// Whether any body particle is within collisionDistance of any plane. The solver leaves a particle that it pushes out
+/// Whether any body particle is within collision_distance of any plane. The solver leaves a particle that it pushes out
 /// of a plane at that distance to within rounding, so rounding (1e-6 of the plane's offset + 1) counts as touching.
 template <class Real>
 bool touches_plane(const Model& model, const State<Real>& state);

@@ -18,68 +18,77 @@ enum class RelaxationMode {
     local = 1,   ///< x += min(1, (1 + omega) / n) * sum, n = number of constraints on the particle
 };
 
-/// Solver parameters under the names of NVIDIA Flex. Those made without an argument are of water without friction and drag;
-/// thesis_tank().solver has those of Appendix A of the thesis.
+/// What scheme `flex` alone has, under the names of NVIDIA Flex; from Appendix A of the thesis.
+struct FlexParameters {
+    double viscosity = 8.0;      ///< smoothing of the fluid's velocities, 1/s, >= 0
+    double solidPressure = 0.1;  ///< weight of solid particles in the fluid's density, >= 0
+    RelaxationMode relaxationMode = RelaxationMode::local;
+    int maxNeighborsPerParticle = 96;  ///< fluid neighbours kept per particle, the first found in cell order
+};
+
+/// What scheme `conserving` alone has, and `lattice` of it but for the kernel and the pressure.
+struct ConservingParameters {
+    /// Times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's stiffness and the strength of
+    /// its muscles need many more iterations than the pressure of the water, and cheaper ones.
+    int solid_iterations = 16;
+    double kinematic_viscosity = 0.0;  ///< of the water, length^2/s, >= 0
+    double kernel_support = 2.5;       ///< kernel radius, rest distances of the fluid, [2, 4]
+    /// The weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so that it needs no more
+    /// substeps. For a tank that stays full: its surface must stay above that level.
+    bool modified_pressure = false;
+};
+
+/// Parameters of the solver: those that the schemes share, and those of one. What is made without an argument is water without friction
+/// and drag; thesis_tank().solver has the values of Appendix A of the thesis. Scene JSON has them all in one object, under the names of
+/// NVIDIA Flex: `max_speed` is `maxSpeed` there, `iterations` `numIterations`.
 /// Units are those of the scene (length, second, mass); the ranges (sim-native/protocol/scenes.md) are checked when a scene is read and
-/// in build_model, in a Model that a program makes those of `kernelSupport` and of radius / fluidRestDistance alone.
+/// in build_model, in a Model that a program makes those of `kernel_support` and of radius / fluid_rest_distance alone.
 struct SolverParameters {
-    int substeps = 4;       ///< substeps per frame, >= 1
-    int numIterations = 4;  ///< constraint iterations per substep, >= 1
-    /// In scheme `conserving` times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's
-    /// stiffness and the strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.
-    int solidIterations = 16;
+    int substeps = 4;    ///< substeps per frame, >= 1
+    int iterations = 4;  ///< constraint iterations per substep, >= 1
+    FlexParameters flex;
+    ConservingParameters conserving;
 
     Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
     double radius = 0.15;                ///< interaction radius R of particles, length, > 0
-    double solidRestDistance = 0.075;    ///< distance held between a solid and any other particle, 0 < d <= radius
-    double fluidRestDistance = 0.10;     ///< spacing of the fluid at rest density, 0 < d < radius
+    double solid_rest_distance = 0.075;  ///< distance held between a solid and any other particle, 0 < d <= radius
+    double fluid_rest_distance = 0.10;   ///< spacing of the fluid at rest density, 0 < d < radius
 
-    double dynamicFriction = 0.0;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
-    double staticFriction = 0.0;    ///< static Coulomb coefficient, planes and particles
-    double particleFriction = 0.0;  ///< dynamic Coulomb coefficient between particles
-    double restitution = 0.0;       ///< rebound speed over impact speed at planes, [0, 1]
-    double adhesion = 0.0;          ///< pull, length/s^2, that a particle touching a plane withstands, >= 0
-    double sleepThreshold = 0.0;    ///< a particle slower than this, length/s, stays where it is, >= 0
+    double dynamic_friction = 0.0;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
+    double static_friction = 0.0;    ///< static Coulomb coefficient, planes and particles
+    double particle_friction = 0.0;  ///< dynamic Coulomb coefficient between particles
+    double restitution = 0.0;        ///< rebound speed over impact speed at planes, [0, 1]
+    double adhesion = 0.0;           ///< pull, length/s^2, that a particle touching a plane withstands, >= 0
+    double sleep_threshold = 0.0;    ///< a particle slower than this, length/s, stays where it is, >= 0
 
-    double maxSpeed = std::numeric_limits<float>::max();  ///< limit of |v|, length/s
+    double max_speed = std::numeric_limits<float>::max();  ///< limit of |v|, length/s
     /// Limit of |dv|/h, length/s^2. Scheme `flex`: of every particle's change of velocity in a substep. Scheme
     /// `conserving`: of how fast particles are pushed apart that overlapped at the substep's start.
-    double maxAcceleration = 100.0;
+    double max_acceleration = 100.0;
     /// Contacts take a particle's mass times exp(-k height), height against gravity, so that stacks settle faster;
     /// momentum is not kept then. k, 1/length, >= 0.
-    double shockPropagation = 0.0;
+    double shock_propagation = 0.0;
     /// Damping per contact, 1/s, >= 0. Scheme `flex`: of the velocity, from the second contact on, as a single contact
     /// was measured not to damp. Scheme `conserving`: of the relative velocity in each contact, which keeps momentum.
     double dissipation = 0.0;
-    double damping = 0.0;                                 ///< drag on the velocity, 1/s
+    double damping = 0.0;  ///< drag on the velocity, 1/s
 
-    /// Pull between fluid particles beyond fluidRestDistance, push within it; dimensionless, >= 0. At contact the push
+    /// Pull between fluid particles beyond fluid_rest_distance, push within it; dimensionless, >= 0. At contact the push
     /// moves a particle by cohesion * radius: in scheme `flex` per iteration before relaxation, as measured; in scheme
     /// `conserving` as a force, per (1/240 s)^2.
     double cohesion = 0.0;
-    double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
-    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s, in scheme `flex`
-    double kernelSupport = 2.5;         ///< kernel radius in `conserving`, rest distances of the fluid, [2, 4]
-    /// Scheme `conserving`: the weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so
-    /// that it needs no more substeps. For a tank that stays full: its surface must stay above that level.
-    bool modifiedPressure = false;
-    double kinematicViscosity = 0.0;    ///< viscosity of the water in scheme `conserving`, length^2/s, >= 0
-    double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
-    double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density, in scheme `flex`
-    double freeSurfaceDrag = 0.0;       ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0
-    double buoyancy = 1.0;              ///< factor on gravity for fluid particles
+    double surface_tension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
+    double vorticity_confinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
+    double free_surface_drag = 0.0;      ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0
+    double buoyancy = 1.0;               ///< factor on gravity for fluid particles
 
-    double collisionDistance = 0.05;       ///< distance held from planes, length
-    double particleCollisionMargin = 0.0;  ///< added to radius when pairs are found, length
-    double shapeCollisionMargin = 0.0;     ///< added to collisionDistance when plane contacts are found, length
+    double collision_distance = 0.05;        ///< distance held from planes, length
+    double particle_collision_margin = 0.0;  ///< added to radius when pairs are found, length
+    double shape_collision_margin = 0.0;     ///< added to collision_distance when plane contacts are found, length
 
-    RelaxationMode relaxationMode = RelaxationMode::local;
     /// omega, >= 0. Scheme `flex`: see RelaxationMode; 0 is the plain mean of a particle's corrections in local mode, and
     /// none of them in global mode. Scheme `conserving`: a factor on every correction, 0 switches the constraints off.
-    double relaxationFactor = 1.0;
-
-    /// Fluid neighbours kept per particle, the first found in cell order, in scheme `flex`; `conserving` keeps all.
-    int maxNeighborsPerParticle = 96;
+    double relaxation_factor = 1.0;
 };
 
 /// Half space a*x + b*y + c*z + d >= 0 that particles are kept in; (a, b, c) has length 1.

@@ -154,7 +154,7 @@ struct Settling {
 
 /// When an evaluation ends before its duration (thesis 2.6).
 struct Stopping {
-    bool plane_contact = true;       ///< a body particle comes within collisionDistance of a plane
+    bool plane_contact = true;       ///< a body particle comes within collision_distance of a plane
     double no_progress_after = 2.0;  ///< s without gain in mean x; 0 = never
 };
 

@@ -20,7 +20,7 @@ struct SkinPlace {
 /// What a swimmer is asked for beside its own pose.
 struct Sensing {
     std::vector<SkinPlace> flow{};  ///< 1000 at most
-    /// Distance from a place up to which water counts, length; 0: solidRestDistance + 2 fluidRestDistance.
+    /// Distance from a place up to which water counts, length; 0: solid_rest_distance + 2 fluid_rest_distance.
     double within = 0;
     std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length over ground
 };

@@ -85,7 +85,7 @@ public:
     /// in conserving at those of the start of its last substep.
     std::vector<Real> densities();
     /// Pressure of each fluid particle in the last substep, mass/(length s^2): in scheme conserving the sum of the substep's
-    /// pressure impulses over h plus the carried pressure (modifiedPressure). Right inside the fluid, too low where a wall
+    /// pressure impulses over h plus the carried pressure (modified_pressure). Right inside the fluid, too low where a wall
     /// takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and

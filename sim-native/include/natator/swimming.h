@@ -11,7 +11,7 @@
 namespace natator {
 
 /// How a swimmer moves, in the numbers of fluid mechanics. U = |change of mean x| / simulated time, L = the body's length,
-/// f = the gait's frequency, A = peak-to-peak amplitude of the tail, nu = kinematicViscosity.
+/// f = the gait's frequency, A = peak-to-peak amplitude of the tail, nu = kinematic_viscosity.
 struct SwimmingNumbers {
     double tail_amplitude = 0;              ///< A, length: mean over the last beats, three at most
     std::optional<double> strouhal;         ///< f A / U; none at rest

@@ -189,7 +189,7 @@ Model build_model(const Scene& scene) {
     check_inside_tank(scene, model);
     check_periodic(scene, model);
     if (scene.scheme == Scheme::conserving && scene.fluid) {
-        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model, scene.fluid->disorder);
+        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluid_rest_distance), model, scene.fluid->disorder);
         fit_to_water(model);
     }
     return model;

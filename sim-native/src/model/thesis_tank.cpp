@@ -7,9 +7,9 @@ Scene thesis_tank() {
     scene.name = "thesis/tank";
     scene.scheme = Scheme::flex;
     SolverParameters& p = scene.solver;
-    p.solidIterations = 1;
-    p.solidRestDistance = 0.15;
-    p.dynamicFriction = p.particleFriction = 0.2;
+    p.conserving.solid_iterations = 1;
+    p.solid_rest_distance = 0.15;
+    p.dynamic_friction = p.particle_friction = 0.2;
     p.damping = 1;
     scene.planes = {{{0, 1, 0}, 0}, {{0, 0, 1}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 4.51}, {{0, 0, -1}, 1.54}};
     scene.fluid = FluidBlock{.count = {50, 7, 17},

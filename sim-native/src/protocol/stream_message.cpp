@@ -212,8 +212,8 @@ ordered_json stream_scene(const Simulation<Real>& simulation, const stream::Scen
     body["timeStep"] = model.time_step;
     body["duration"] = scene.duration;
     body["radius"] = solver.radius;
-    body["solidRestDistance"] = solver.solidRestDistance;
-    body["fluidRestDistance"] = solver.fluidRestDistance;
+    body["solidRestDistance"] = solver.solid_rest_distance;
+    body["fluidRestDistance"] = solver.fluid_rest_distance;
     body["planes"] = planes_json(model);
     body["periodic"] = periodic_json(model);
     body["fields"] = fields_json(head.fields);

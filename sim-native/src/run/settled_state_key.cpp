@@ -43,39 +43,39 @@ std::string build_id() {
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 280, "a parameter was added or removed: list it here");
-    for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxNeighborsPerParticle}) key.add(value);
+    static_assert(sizeof(SolverParameters) == 272, "a parameter was added or removed: list it here");
+    for (const int value : {p.substeps, p.iterations, p.conserving.solid_iterations, p.flex.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
     for (const double value : {p.radius,
-                               p.solidRestDistance,
-                               p.fluidRestDistance,
-                               p.dynamicFriction,
-                               p.staticFriction,
-                               p.particleFriction,
+                               p.solid_rest_distance,
+                               p.fluid_rest_distance,
+                               p.dynamic_friction,
+                               p.static_friction,
+                               p.particle_friction,
                                p.restitution,
                                p.adhesion,
-                               p.sleepThreshold,
-                               p.maxSpeed,
-                               p.maxAcceleration,
-                               p.shockPropagation,
+                               p.sleep_threshold,
+                               p.max_speed,
+                               p.max_acceleration,
+                               p.shock_propagation,
                                p.dissipation,
                                p.damping,
                                p.cohesion,
-                               p.surfaceTension,
-                               p.viscosity,
-                               p.kernelSupport,
-                               p.kinematicViscosity,
-                               p.vorticityConfinement,
-                               p.solidPressure,
-                               p.freeSurfaceDrag,
+                               p.surface_tension,
+                               p.flex.viscosity,
+                               p.conserving.kernel_support,
+                               p.conserving.kinematic_viscosity,
+                               p.vorticity_confinement,
+                               p.flex.solidPressure,
+                               p.free_surface_drag,
                                p.buoyancy,
-                               p.collisionDistance,
-                               p.particleCollisionMargin,
-                               p.shapeCollisionMargin,
-                               p.relaxationFactor})
+                               p.collision_distance,
+                               p.particle_collision_margin,
+                               p.shape_collision_margin,
+                               p.relaxation_factor})
         key.add(value);
-    key.add(p.relaxationMode);
-    key.add(p.modifiedPressure);
+    key.add(p.flex.relaxationMode);
+    key.add(p.conserving.modified_pressure);
 }
 
 }  // namespace

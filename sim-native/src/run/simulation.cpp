@@ -27,7 +27,7 @@ constexpr int frames_between_densities = 16;  ///< an evaluation looks at them a
 template <class Real>
 std::vector<Real> densities_at_rest(Model model, State<Real> state) {
     model.parameters.gravity.setZero();
-    model.parameters.numIterations = 0;
+    model.parameters.iterations = 0;
     std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
     Solver<Real> solver(model);
     solver.update(state, model.time_step, 1);

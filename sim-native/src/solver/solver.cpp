@@ -21,7 +21,7 @@ namespace natator {
 namespace {
 
 Iterations iterations_of(const Model& model) {
-    return {model.parameters.numIterations, model.parameters.solidIterations};
+    return {model.parameters.iterations, model.parameters.conserving.solid_iterations};
 }
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.

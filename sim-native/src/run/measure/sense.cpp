@@ -155,7 +155,7 @@ std::vector<SkinFlow> flow_at(const Model& model, const State<Real>& state, cons
     std::vector<Probe> probes;
     for (const SkinPlace& place : sensing.flow) probes.push_back(probe_at(model, state, place));
     const SolverParameters& solver = model.parameters;
-    const double within = sensing.within > 0 ? sensing.within : solver.solidRestDistance + 2 * solver.fluidRestDistance;
+    const double within = sensing.within > 0 ? sensing.within : solver.solid_rest_distance + 2 * solver.fluid_rest_distance;
     feel_water(model, state, within, probes);
     std::vector<SkinFlow> flow;
     for (const Probe& probe : probes) {
