@@ -44,6 +44,7 @@ endif()
 
 if(SUBDIRECTORY)
     run(${CMAKE_COMMAND} -D NATATOR_INSTALL=ON ${WORK}/build)
+    run(${CMAKE_COMMAND} --build ${WORK}/build --target natator)
     run(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/first)
     file(RENAME ${WORK}/first ${WORK}/natator)
     run_against(${WORK}/natator ${WORK}/examples)
