@@ -9,7 +9,6 @@
 #include "in_precision.h"
 #include "natator/error.h"
 #include "natator/measure.h"
-#include "natator/momentum.h"
 #include "run/settle.h"
 
 namespace natator::bench {

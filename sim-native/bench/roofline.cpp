@@ -9,7 +9,7 @@
 #include "bench_scenes.h"
 #include "machine.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "roof_kernels.h"
 #include "run/settle.h"

@@ -11,7 +11,7 @@
 #include "machine.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
 

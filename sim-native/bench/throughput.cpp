@@ -11,11 +11,11 @@
 
 #include "bench_scenes.h"
 #include "in_precision.h"
-#include "solver/gpu_solver.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
+#include "solver/gpu_solver.h"
 #include "timed_batch.h"
 
 namespace natator::bench {

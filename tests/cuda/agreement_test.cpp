@@ -5,10 +5,10 @@
 
 #include "gpu_test.h"
 #include "natator/evaluate.h"
-#include "solver/gpu_solver.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/settle.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {

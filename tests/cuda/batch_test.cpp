@@ -8,7 +8,7 @@
 #include "gpu_test.h"
 #include "natator/error.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/simulation.h"
 
 namespace natator::test {

@@ -1,8 +1,8 @@
 // The effects that the thesis leaves off: on the GPU as on the CPU, by a block and by the whole GPU.
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
+#include "natator/model.h"
 #include "solver/gpu_solver.h"
-#include "natator/model_builder.h"
 
 namespace natator::test {
 namespace {

@@ -4,8 +4,8 @@
 #include "../native/bare_particles.h"
 #include "../native/refusal_of.h"
 #include "gpu_test.h"
+#include "natator/measure.h"
 #include "solver/gpu_solver.h"
-#include "natator/momentum.h"
 
 namespace natator::test {
 namespace {

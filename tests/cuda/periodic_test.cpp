@@ -1,4 +1,5 @@
-// Periodic tanks on the GPU: what they must keep, and that they are the CPU's. native/periodic_test.cpp says more about them.
+// Periodic tanks on the GPU: what they must keep, and that they are the CPU's. native/periodic_test.cpp says more about
+// them.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -6,9 +7,9 @@
 #include "gpu_test.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "solver/gpu_solver.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/solver.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {

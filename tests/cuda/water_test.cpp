@@ -1,4 +1,5 @@
-// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/water_test.cpp says more about it.
+// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/water_test.cpp says more
+// about it.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -6,9 +7,9 @@
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "natator/evaluate.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "solver/gpu_solver.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
 
 namespace natator::test {
 namespace {

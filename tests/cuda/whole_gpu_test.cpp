@@ -6,13 +6,12 @@
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
-#include "solver/gpu_solver.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/model.h"
 #include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
 #include "solver/cuda/grid/fetch_roof.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {

@@ -1,15 +1,14 @@
-// How far a body bends in vacuum under a fish-like gait: the same at any time step and number of iterations, and nearly so
-// at half the spacing.
+// How far a body bends in vacuum under a fish-like gait: the same at any time step and number of iterations, and nearly
+// so at half the spacing.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "natator/actuate.h"
-#include "natator/model_builder.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/swimming.h"
 #include "scene/scene_json.h"
 
 namespace natator {

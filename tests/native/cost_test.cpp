@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "bare_particles.h"
-#include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/limits.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/simulation.h"
 #include "refusal_of.h"
 #include "scene/scene_json.h"

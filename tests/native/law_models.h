@@ -9,7 +9,6 @@
 #include "model/fluid_block.h"
 #include "natator/model.h"
 #include "natator/scene.h"
-#include "natator/state.h"
 
 /// Models of scheme `conserving` that tests share.
 namespace natator::test {

@@ -5,10 +5,10 @@
 
 #include "law_models.h"
 #include "natator/evaluate.h"
-#include "natator/laws.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/simulation.h"
 #include "physics/laws.h"
+#include "run/laws.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
 

@@ -1,5 +1,5 @@
-// Laws that scheme conserving keeps, each against its closed form or its exact symmetry, for any backend: what includes this
-// names its solver and instantiates the suite.
+// Laws that scheme conserving keeps, each against its closed form or its exact symmetry, for any backend: what includes
+// this names its solver and instantiates the suite.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 #include "energy.h"
 #include "law_models.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "natator/measure.h"
-#include "natator/momentum.h"
 
 namespace natator {
 namespace {

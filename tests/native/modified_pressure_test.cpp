@@ -1,4 +1,5 @@
-// Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is known.
+// Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is
+// known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "model/background_pressure.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
-#include "natator/plan.h"
 #include "natator/solver.h"
 #include "refusal_of.h"
 #include "water_figures.h"

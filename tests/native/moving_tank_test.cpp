@@ -6,10 +6,9 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/moving_tank.h"
-#include "natator/pose.h"
+#include "natator/model.h"
 #include "natator/simulation.h"
+#include "run/moving_tank.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -1,7 +1,7 @@
 // Starts that overlap, in scheme conserving: pushed apart without an explosion and without breaking the law of
 // momentum.
 #include "bare_particles.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
 
 namespace natator::test {
 namespace {

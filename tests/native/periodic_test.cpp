@@ -9,7 +9,6 @@
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
 #include "natator/measure.h"
-#include "natator/sense.h"
 #include "natator/simulation.h"
 #include "periodic_models.h"
 #include "protocol/stream.h"

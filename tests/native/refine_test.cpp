@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "model/water_volumes.h"
-#include "natator/model_builder.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/swimming.h"
 #include "run/converge/level.h"
 #include "scene/scene_json.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "refusal_of.h"
 #include "run/settled_state_key.h"
 #include "scene/scene_json.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "natator/error.h"
+#include "natator/measure.h"
 #include "natator/model.h"
-#include "natator/sense.h"
 
 namespace natator {
 namespace {

@@ -4,7 +4,7 @@
 #include "bare_particles.h"
 #include "energy.h"
 #include "natator/evaluate.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "scene/scene_json.h"
 
 namespace natator {

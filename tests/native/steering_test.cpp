@@ -5,13 +5,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "natator/actuate.h"
 #include "natator/evaluate.h"
+#include "natator/gait.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/simulation.h"
-#include "natator/steering.h"
 #include "refusal_of.h"
 
 namespace natator {

@@ -9,8 +9,8 @@
 #include "bare_particles.h"
 #include "model/water_volumes.h"
 #include "natator/evaluate.h"
-#include "natator/swimming.h"
-#include "natator/wave_gait.h"
+#include "natator/gait.h"
+#include "natator/measure.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -10,7 +10,7 @@
 #include "model/cluster.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "scene/scene_json.h"

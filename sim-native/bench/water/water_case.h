@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "natator/parameters.h"
+#include "natator/scene.h"
 #include "path_run.h"
 
 /// Cases of water whose outcome is known, for measuring how far a scheme is from being a fluid.

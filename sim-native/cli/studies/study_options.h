@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../backend.h"
-#include "natator/parameters.h"
+#include "natator/scene.h"
 #include "path_run.h"
 #include "result_table.h"
 

@@ -6,16 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "natator/course.h"
-#include "natator/execution.h"
 #include "natator/gait.h"
-#include "natator/goal.h"
-#include "natator/moving_tank.h"
+#include "natator/measure.h"
+#include "natator/record.h"
 #include "natator/scene.h"
-#include "natator/snapshot.h"
 #include "natator/solver.h"
-#include "natator/stop_reason.h"
-#include "natator/swimming.h"
 
 namespace natator {
 
@@ -55,6 +50,14 @@ struct CompanionResult {
     std::string creature;
     double distance = 0;  ///< change of its mean x, length
     Course course;
+};
+
+/// What moving a tank has taken from its water: what is put in front is at rest.
+struct WaterRenewal {
+    int times = 0;
+    long particles = 0;                                      ///< sum over all times
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();      ///< taken away, mass length/s
+    double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
 };
 
 /// What one evaluation of a gait in a scene gives.

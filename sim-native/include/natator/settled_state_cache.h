@@ -5,7 +5,6 @@
 
 #include "natator/model.h"
 #include "natator/scene.h"
-#include "natator/state.h"
 
 namespace natator {
 

@@ -6,16 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/model.h"
-#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
-#include "natator/state.h"
-#include "natator/steering.h"
 
 namespace natator {
+
+class MovingFrame;
 
 /// What a Simulation runs, where that is a scene by name.
 struct SimulationSetup {
@@ -56,8 +54,8 @@ public:
 
     /// Starts another scene. Throws InputError.
     void load(const SimulationSetup& setup);
-    /// Drives the muscles by another gait from the next frame on, of the start as if it had been there. Throws InputError when it does not fit, the steering in
-    /// force included.
+    /// Drives the muscles by another gait from the next frame on; before the first frame as if the start had had it. Throws
+    /// InputError when it does not fit, the steering in force included.
     void set_gait(const Gait& gait);
     /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
     /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a

@@ -3,15 +3,93 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "natator/actuate.h"
-#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/instruction_set.h"
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator {
+
+class SettledStateCache;
+
+/// Wall time by stage of a step, see solver/step.h. For one thread at a time.
+class StageProfile {
+public:
+    struct Entry {
+        std::string stage;
+        long calls = 0;
+        double seconds = 0;
+    };
+
+    void add(const char* stage, double seconds);
+    /// In the order in which stages first ran.
+    const std::vector<Entry>& entries() const { return entries_; }
+    double seconds() const;
+
+private:
+    std::vector<Entry> entries_;
+};
+
+/// Where and how something is computed. None of these but `gpu` changes the result. What they point to must live as long as what they
+/// are given to, and a profile is that of one thread.
+struct Execution {
+    StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
+    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+    int threads = 1;                     ///< for scenes of many thousand particles, at most limits::threads; small ones use one all the same
+    bool forces = false;                 ///< keeps what Solver::forces gives; scheme conserving only, a per cent of its time
+    /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU. Results agree
+    /// with the CPU's to rounding. All else here, but `forces`, is the CPU's.
+    std::optional<int> gpu{};
+    bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
+};
+
+/// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
+struct Plan {
+    bool fluid = false;           ///< density constraint of scheme `flex`, fluid neighbour lists
+    bool water = false;           ///< pressure solves of scheme `conserving`
+    bool contacts = false;        ///< pairs that are not both fluid; in scheme `conserving` of solids alone
+    bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
+    bool solid_pressure = false;  ///< solids add to the fluid's density
+    bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
+    bool springs = false;
+    bool clusters = false;
+    bool planes = false;
+    bool particle_friction = false;
+    bool plane_friction = false;
+    bool viscosity = false;
+    bool damping = false;
+    bool clamp_acceleration = false;
+    bool clamp_speed = false;
+
+    // Off in the thesis.
+    bool restitution = false;
+    bool adhesion = false;
+    bool sleep = false;
+    bool shock_propagation = false;
+    bool dissipation = false;
+    bool cohesion = false;
+    bool surface_tension = false;
+    bool vorticity = false;
+    bool free_surface_drag = false;
+    bool fluid_forces = false;  ///< any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity in `flex`
+
+    /// Does anything act behind the velocities?
+    constexpr bool effects() const {
+        return dissipation || (fluid && (free_surface_drag || fluid_forces)) || adhesion || restitution || sleep;
+    }
+};
+
+/// The plan for a model: the stages that it needs.
+Plan make_plan(const Model& model);
+
+/// The plan with, on top of what the model needs, all stages that change no bit where there is nothing for them to do,
+/// such as forces of strength 0: for measuring what skipping them saves. Fluid stays out where there is none, and so do
+/// restitution and the acceleration clamp, which act at any coefficient.
+Plan make_unskipped_plan(const Model& model);
+
+/// One line per stage in the order of a substep, as `natator-sim info` prints it.
+std::vector<std::string> describe_plan(const Model& model);
 
 /// Where a run stopped being possible.
 struct Instability {
@@ -110,5 +188,8 @@ inline bool has_muscle_work(const Model& model) { return model.scheme != Scheme:
 
 extern template class Solver<float>;
 extern template class Solver<double>;
+
+/// Why an evaluation ended.
+enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
 }  // namespace natator

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "background_pressure.h"
 #include "base/text.h"
 #include "borders.h"
-#include "background_pressure.h"
 #include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"

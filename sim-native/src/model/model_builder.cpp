@@ -1,4 +1,4 @@
-#include "natator/model_builder.h"
+#include "natator/model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@
 #include "fit_to_water.h"
 #include "fluid_block.h"
 #include "muscles.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "natator/model.h"
 #include "obstacles.h"
 #include "periodic.h"
 #include "refine_body.h"

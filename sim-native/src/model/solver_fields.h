@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/field.h"
-#include "natator/parameters.h"
+#include "natator/scene.h"
 
 /// What parameters of the solver may be, of a file or of a program.
 namespace natator::fields {

@@ -1,6 +1,6 @@
-// Forces of effects.h in the water of scheme `conserving`, which has G_ij of every pair by then (see dfsph.h): gradients come
-// from these, so that they are exact for linear fields, and walls and bodies are no surface. R is the lesser of
-// interaction radius and kernel support, `own` and `other` are inverse masses, difference = x_i - x_j.
+// Forces of effects.h in the water of scheme `conserving`, which has G_ij of every pair by then (see dfsph.h):
+// gradients come from these, so that they are exact for linear fields, and walls and bodies are no surface. R is the
+// lesser of interaction radius and kernel support, `own` and `other` are inverse masses, difference = x_i - x_j.
 #pragma once
 
 #include "effects.h"

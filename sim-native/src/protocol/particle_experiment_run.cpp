@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "solver/gpu_solver.h"
 #include "particle_experiment.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "natator/sense.h"
+#include "natator/measure.h"
 #include "natator/simulation.h"
 
 /// The protocol of `natator-sim stream`: commands in, messages out (sim-native/protocol/stream.md).

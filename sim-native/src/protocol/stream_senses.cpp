@@ -1,5 +1,5 @@
 #include "natator/measure.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "protocol/stream.h"
 
 namespace natator {

@@ -1,4 +1,4 @@
-#include "natator/moving_tank.h"
+#include "moving_tank.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "model/tank_ends.h"
 #include "natator/error.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
 
 namespace natator {
 namespace {

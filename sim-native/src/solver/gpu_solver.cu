@@ -4,13 +4,13 @@
 
 #include "cuda/device.h"
 #include "cuda/grid/grid_runner.h"
-#include "cuda/refusal.h"
 #include "cuda/kernel_choice.h"
+#include "cuda/refusal.h"
 #include "flex/cuda/batch_runner.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
+#include "natator/model.h"
 
 namespace natator {
 namespace cuda {

@@ -1,4 +1,4 @@
-#include "natator/plan.h"
+#include "natator/solver.h"
 
 #include <algorithm>
 #include <limits>

@@ -11,9 +11,9 @@
 #include "lattice/coupling.h"
 #include "law_name.h"
 #include "model/check_model.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
-#include "natator/steering.h"
+#include "natator/gait.h"
+#include "natator/model.h"
 #include "solids/cpu/conserving_stages.h"
 #include "step.h"
 

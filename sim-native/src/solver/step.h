@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "stage.h"
 
 // One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on the host

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "natator/state.h"
+#include "natator/model.h"
 #include "run/settled_state_key.h"
 #include "solver/cuda/device_buffer.h"
 #include "solver/cuda/list_room.h"

@@ -2,19 +2,18 @@
 #include <cmath>
 #include <new>
 
-#include "uses_grid_kernels.h"
+#include "device_state_cache.h"
 #include "evaluate_on_grid.h"
 #include "evaluation.h"
-#include "device_state_cache.h"
-#include "natator/actuate.h"
 #include "natator/batch.h"
-#include "natator/laws.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
+#include "run/laws.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
-#include "solver/cuda/refusal.h"
 #include "solver/cuda/kernel_choice.h"
+#include "solver/cuda/refusal.h"
+#include "uses_grid_kernels.h"
 
 namespace natator {
 namespace cuda {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "natator/evaluate.h"
-#include "natator/laws.h"
 #include "natator/measure.h"
 #include "run/conservation_errors.h"
+#include "run/laws.h"
 #include "solver/cuda/refusal.h"
 #include "solver/flex/cuda/batch_runner.h"
 #include "solver/law_name.h"

@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "busy_time.h"
-#include "model_group.h"
-#include "evaluation.h"
 #include "device_state_cache.h"
-#include "shared_once.h"
-#include "natator/laws.h"
+#include "evaluation.h"
+#include "model_group.h"
 #include "run/companions.h"
+#include "run/laws.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
 #include "run/swim_record.h"
+#include "shared_once.h"
 #include "solver/cuda/grid/grid_runner.h"
 
 namespace natator::cuda {

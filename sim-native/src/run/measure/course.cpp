@@ -1,9 +1,9 @@
-#include "natator/course.h"
+#include "natator/measure.h"
 
 #include <cmath>
 
 #include "model/check_model.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
 
 namespace natator {
 

@@ -1,4 +1,4 @@
-#include "natator/laws.h"
+#include "run/laws.h"
 
 #include <algorithm>
 #include <cmath>

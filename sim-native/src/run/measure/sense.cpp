@@ -1,4 +1,4 @@
-#include "natator/sense.h"
+#include "natator/measure.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "model/borders.h"
 #include "model/check_model.h"
 #include "natator/error.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
 #include "physics/constants.h"
 
 namespace natator {

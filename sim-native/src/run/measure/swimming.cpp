@@ -1,11 +1,11 @@
-#include "natator/swimming.h"
+#include "natator/measure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/text.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 
 namespace natator {
 namespace {

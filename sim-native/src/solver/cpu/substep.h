@@ -7,11 +7,10 @@
 
 #include "fluid_kernels.h"
 #include "motion_kernels.h"
-#include "natator/plan.h"
 #include "natator/solver.h"
+#include "neighbour_lists.h"
 #include "physics/contact.h"
 #include "physics/spring.h"
-#include "neighbour_lists.h"
 #include "plane_kernels.h"
 #include "solver/step.h"
 #include "thread_team.h"

@@ -2,8 +2,8 @@
 
 #include "device.h"
 #include "model_view.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "owned_array.h"
 #include "refusal.h"

@@ -4,15 +4,15 @@
 #include <limits>
 
 #include "ghost_maps.h"
-#include "model/borders.h"
+#include "kernel_choice.h"
 #include "model/background_pressure.h"
+#include "model/borders.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/substep.h"
 #include "solver/solids/cpu/solids.h"
-#include "kernel_choice.h"
 
 namespace natator::cuda {
 namespace {

@@ -1,8 +1,8 @@
 // What a build without CUDA answers.
-#include "natator/error.h"
-#include "solver/gpu_solver.h"
 #include "no_cuda.h"
+#include "natator/error.h"
 #include "solver/cuda/grid/fetch_roof.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
 

@@ -7,7 +7,7 @@
 
 #include "grid_runner.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/event.h"
 #include "solver/cuda/refusal.h"

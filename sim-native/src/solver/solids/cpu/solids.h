@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator::cpu {
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "model/borders.h"
 #include "model/background_pressure.h"
+#include "model/borders.h"
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"

@@ -5,7 +5,6 @@
 
 #include "images.h"
 #include "natator/model.h"
-#include "natator/state.h"
 #include "physics/background_pressure.h"
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/cell_grid.h"
