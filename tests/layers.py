@@ -10,10 +10,10 @@ FLOORS = ["base", "physics", "model", "scene", "solver", "run", "protocol", "ben
 # Of the public headers, which lie in one folder. natator.h is all of them.
 PUBLIC = {
     "base": "error limits version",
-    "model": "actuate gait goal model model_builder parameters scene state steering water_box wave_gait",
+    "model": "gait model scene",
     "scene": "load_scene",
-    "solver": "execution gpu_solver instruction_set plan residuals solver stop_reason",
-    "run": "batch cost course evaluate laws live measure momentum moving_tank natator pose sense settled_state_cache snapshot swimming trajectory",
+    "solver": "instruction_set solver",
+    "run": "batch cost evaluate measure natator record settled_state_cache simulation",
 }
 MADE = "include/natator/version.h"  # by CMake
 

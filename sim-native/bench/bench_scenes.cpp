@@ -6,7 +6,7 @@
 
 #include "model/fluid_block.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 
 namespace natator::bench {

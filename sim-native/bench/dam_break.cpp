@@ -26,13 +26,13 @@ double base_of(const Model& model) {
 /// that flies ahead does not count.
 template <class Real>
 double front_of(const Model& model, const State<Real>& state) {
-    const double slice = model.parameters.fluidRestDistance;
+    const double slice = model.parameters.fluid_rest_distance;
     std::vector<double> foremost(depth, 0);
     for (int i = 0; i < model.particles(); ++i) {
         const int k = std::clamp(static_cast<int>(static_cast<double>(state.position[i].z()) / slice), 0, depth - 1);
         foremost[k] = std::max(foremost[k], static_cast<double>(state.position[i].x()));
     }
-    return median(foremost) + model.parameters.collisionDistance;
+    return median(foremost) + model.parameters.collision_distance;
 }
 
 /// Twice the mean height: that of a column of even density.
@@ -47,9 +47,9 @@ double height_of(const Model& model, const State<Real>& state) {
 template <class Real>
 std::optional<Instability> settle_behind_gate(const Model& model, State<Real>& state) {
     Model calm = model;
-    calm.parameters.viscosity = SolverParameters().viscosity;
+    calm.parameters.flex.viscosity = FlexParameters().viscosity;
     calm.parameters.damping = SolverParameters().damping;
-    calm.parameters.kinematicViscosity = calming_viscosity;
+    calm.parameters.conserving.kinematic_viscosity = calming_viscosity;
     Solver<Real> solver(calm);
     for (int frame = 0; frame < std::lround(settling / model.time_step); ++frame)
         if (auto instability = solver.update(state, model.time_step, model.parameters.substeps)) return instability;
@@ -95,16 +95,16 @@ Model dam_break_model(const DamBreak& column, Scheme scheme) {
     model.time_step = scene.time_step;
     if (column.ideal) {
         SolverParameters& p = model.parameters;
-        p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
+        p.flex.viscosity = p.damping = p.dynamic_friction = p.static_friction = p.particle_friction = 0;
     }
     FluidBlock block = scene.fluid.value();
-    if (scheme == Scheme::conserving) block.spacing = model.parameters.fluidRestDistance;  // its lattice at rest density
+    if (scheme == Scheme::conserving) block.spacing = model.parameters.fluid_rest_distance;  // its lattice at rest density
     block.count = {column.width, column.height_over_base * column.width, depth};
     block.gradient = MassGradient::uniform;
     block.bottom_mass = 1;
     add_fluid(block, model);
     const Eigen::Vector3d far = block.origin + block.spacing * (block.count.cast<double>().array() - 1).matrix() +
-                                Eigen::Vector3d::Constant(model.parameters.collisionDistance);
+                                Eigen::Vector3d::Constant(model.parameters.collision_distance);
     model.planes = {{{0, 1, 0}, 0}, {{0, 0, 1}, 0}, {{1, 0, 0}, 0}, {{0, 0, -1}, far.z()}, {{-1, 0, 0}, far.x()}};
     if (scheme == Scheme::conserving) disorder_fluid(block.spacing, model);
     return model;

@@ -9,7 +9,6 @@
 #include "in_precision.h"
 #include "natator/error.h"
 #include "natator/measure.h"
-#include "natator/momentum.h"
 #include "run/settle.h"
 
 namespace natator::bench {
@@ -134,8 +133,8 @@ Steps steps_of(const Setting& setting) { return {setting.substeps, setting.itera
 
 void set_steps(const Steps& steps, SolverParameters& solver) {
     solver.substeps = steps.substeps;
-    solver.numIterations = steps.iterations;
-    solver.modifiedPressure = steps.modified_pressure;
+    solver.iterations = steps.iterations;
+    solver.conserving.modified_pressure = steps.modified_pressure;
 }
 
 }  // namespace natator::bench

@@ -21,7 +21,7 @@ struct Setting {
     bool modified_pressure = false;
 };
 
-/// How finely time is cut, and what the iterations of scheme conserving look for, see SolverParameters::modifiedPressure.
+/// How finely time is cut, and what the iterations of scheme conserving look for, see SolverParameters::modified_pressure.
 struct Steps {
     int substeps = 4, iterations = 4;
     bool modified_pressure = false;

@@ -9,7 +9,7 @@
 #include "bench_scenes.h"
 #include "machine.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "roof_kernels.h"
 #include "run/settle.h"
@@ -133,8 +133,8 @@ Pairs count_pairs(const Model& model, const State<float>& state, const std::vect
     cpu::CellGrid<float> grid;
     const SolverParameters& p = model.parameters;
     const auto search = static_cast<float>(model.scheme == Scheme::conserving
-                                               ? p.kernelSupport * p.fluidRestDistance
-                                               : p.radius + p.particleCollisionMargin);
+                                               ? p.conserving.kernel_support * p.fluid_rest_distance
+                                               : p.radius + p.particle_collision_margin);
     grid.cover(low, high, search, 1 << 20);
     std::vector<int> in_cell(grid.cells(), 0);
     const auto cell_of = [&](int i) {

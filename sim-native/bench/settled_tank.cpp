@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "in_precision.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
 #include "statistics.h"

@@ -11,7 +11,7 @@
 #include "machine.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
 
@@ -74,7 +74,7 @@ Scene make_speed_scene(const SpeedScene& named, bool quick) {
 
 SpeedWork speed_work(const Scene& scene) {
     const Model model = build_model(scene);
-    const int fluid = fluid_particles(model), iterations = model.parameters.numIterations;
+    const int fluid = fluid_particles(model), iterations = model.parameters.iterations;
     const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
     return {{std::to_string(model.particles()), std::to_string(fluid), number_text(substeps), std::to_string(iterations)},
             (fluid > 0 ? fluid : model.particles()) * substeps * iterations};

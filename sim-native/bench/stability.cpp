@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "in_precision.h"
-#include "natator/model_builder.h"
-#include "natator/moving_tank.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "physics/laws.h"
 #include "run/conservation_errors.h"
+#include "run/moving_tank.h"
 #include "run/settle.h"
 
 namespace natator::bench {

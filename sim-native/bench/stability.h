@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
-#include "natator/laws.h"
 #include "result_table.h"
+#include "run/laws.h"
+#include "solver/gpu_solver.h"
 #include "stability_axes.h"
 
 namespace natator::bench {

@@ -66,8 +66,8 @@ void set_outside(StabilityCase& subject, double distance) {
 /// r_r / r_f at the thesis' r_f and lattice; bodies touch at their rest distance, or at r_r if that is less.
 void set_radius_ratio(StabilityCase& subject, double ratio) {
     SolverParameters& solver = subject.scene.solver;
-    solver.radius = ratio * solver.fluidRestDistance;
-    solver.solidRestDistance = std::min(solver.solidRestDistance, solver.radius);
+    solver.radius = ratio * solver.fluid_rest_distance;
+    solver.solid_rest_distance = std::min(solver.solid_rest_distance, solver.radius);
 }
 
 template <class Named>
@@ -92,7 +92,7 @@ std::vector<StabilityAxis> make_axes() {
     add("substeps", "substeps per frame", {1, 2, 3, 4, 6, 8, 12, 16, 24, 32}, {1, 4},
         [](Case& c, double v) { c.scene.solver.substeps = static_cast<int>(v); });
     add("iterations", "iterations per substep", {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}, {1, 128},
-        [](Case& c, double v) { c.scene.solver.numIterations = static_cast<int>(v); });
+        [](Case& c, double v) { c.scene.solver.iterations = static_cast<int>(v); });
     add("mass-ratio", "mass of a body particle over that of a fluid particle",
         {1e-4, 1e-3, 1e-2, 0.1, 0.3, 1, 3, 10, 100, 1e3, 1e4}, {1e-4, 1e4}, set_mass_ratio);
     add("stiffness", "stiffness of clusters and springs", {0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.99, 1},
@@ -119,9 +119,9 @@ std::vector<StabilityAxis> make_axes() {
     add("radius-ratio", "r_r / r_f; 1 itself is refused", {1.0001, 1.01, 1.05, 1.1, 1.2, 1.3, 1.5, 1.75, 2, 2.5, 3},
         {1.0001, 3}, set_radius_ratio);
     add("viscosity", "1/s", {0, 1, 8, 30, 100, 300, 1e3, 3e3, 1e4}, {1e4},
-        [](Case& c, double v) { c.scene.solver.viscosity = v; });
+        [](Case& c, double v) { c.scene.solver.flex.viscosity = v; });
     add("relaxation", "omega, local relaxation", {0.1, 0.2, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, {0.1, 2},
-        [](Case& c, double v) { c.scene.solver.relaxationFactor = v; });
+        [](Case& c, double v) { c.scene.solver.relaxation_factor = v; });
     return axes;
 }
 

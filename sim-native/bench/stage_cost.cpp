@@ -92,8 +92,10 @@ Case make_case(const Feature& feature, Scheme scheme, const std::string& state, 
 double timed(const Case& one, const Execution& execution, std::string& hash) {
     using Clock = std::chrono::steady_clock;
     const Gait gait = one.scene.creature ? thesis_gait(1) : Gait{};
+    EvaluationOptions options;
+    options.execution = execution;
     const auto start = Clock::now();
-    const Evaluation result = evaluate(one.scene, gait, {.execution = execution});
+    const Evaluation result = evaluate(one.scene, gait, options);
     hash = hash_text(result.hash);
     return std::chrono::duration<double>(Clock::now() - start).count();
 }

@@ -11,17 +11,17 @@
 
 #include "bench_scenes.h"
 #include "in_precision.h"
-#include "natator/gpu_solver.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
+#include "solver/gpu_solver.h"
 #include "timed_batch.h"
 
 namespace natator::bench {
 namespace {
 
-constexpr double spacing = 0.1;  // fluidRestDistance of the thesis
+constexpr double spacing = 0.1;  // fluid_rest_distance of the thesis
 
 Scene scene_of(const std::array<int, 3>& count) {
     constexpr double rear = 0.45, high = 0.6, aside = 0.6;
@@ -66,8 +66,8 @@ public:
                 path(),
                 std::to_string(model_.particles()),
                 std::to_string(model_.parameters.substeps),
-                std::to_string(model_.parameters.numIterations),
-                scene_.scheme == Scheme::conserving ? yes_or_no(model_.parameters.modifiedPressure) : ""};
+                std::to_string(model_.parameters.iterations),
+                scene_.scheme == Scheme::conserving ? yes_or_no(model_.parameters.conserving.modified_pressure) : ""};
     }
 
     /// What stands behind the key, or why nothing does.
@@ -76,7 +76,7 @@ public:
         scene_.duration = frames * scene_.time_step;
         const TimedBatch timed = time_batch(scene_, batch_members(scene_, batch), options(), study_.repeats);
         if (timed.instability) return "becomes unstable at " + number_text(timed.instability->time) + " s";
-        const int substeps = model_.parameters.substeps, iterations = model_.parameters.numIterations;
+        const int substeps = model_.parameters.substeps, iterations = model_.parameters.iterations;
         const double particle_substeps = static_cast<double>(batch) * fluid_ * frames * substeps;
         const double million_per_second = 1e-6 * particle_substeps / timed.device.kernel;
         const double on_device = static_cast<double>(timed.device.at_a_time) * model_.particles();
@@ -166,8 +166,8 @@ int throughput_frames(Scheme scheme, int particles, int batch) {
 
 int pair_passes(const Model& model) {
     const SolverParameters& p = model.parameters;
-    if (model.scheme == Scheme::flex) return 2 * p.numIterations + (p.viscosity != 0 ? 1 : 0);
-    return 2 * p.numIterations + 4 + (p.kinematicViscosity > 0 ? 1 : 0);
+    if (model.scheme == Scheme::flex) return 2 * p.iterations + (p.flex.viscosity != 0 ? 1 : 0);
+    return 2 * p.iterations + 4 + (p.conserving.kinematic_viscosity > 0 ? 1 : 0);
 }
 
 Row throughput_columns() {

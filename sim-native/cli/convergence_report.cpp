@@ -71,7 +71,7 @@ ordered_json convergence_json(const std::vector<LevelRuns>& levels, const std::o
         level["level"] = runs.level.name;
         level["substeps"] = runs.substeps;
         level["particles"] = runs.particles;
-        level["fluidRestDistance"] = runs.job.scene.solver.fluidRestDistance;
+        level["fluidRestDistance"] = runs.job.scene.solver.fluid_rest_distance;
         level["runs"] = runs.distance().runs;
         level["unstable"] = runs.unstable_runs();
         if (runs.distance().runs > 0) {

@@ -10,12 +10,12 @@
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/instruction_set.h"
-#include "natator/model_builder.h"
-#include "natator/plan.h"
+#include "natator/gait.h"
+#include "natator/model.h"
 #include "natator/settled_state_cache.h"
+#include "natator/instruction_set.h"
+#include "natator/solver.h"
 #include "natator/version.h"
-#include "natator/wave_gait.h"
 #include "physics/constants.h"
 #include "run/swim_record.h"
 #include "scene/gait_json.h"
@@ -126,7 +126,7 @@ ordered_json describe_scene(const Scene& scene) {
     info["substeps"] = model.parameters.substeps;
     if (model.parameters.substeps != scene.solver.substeps) info["substepsAsked"] = scene.solver.substeps;
     if (const int raised = particles_made_heavier(scene, model)) info["madeHeavier"] = raised;
-    info["iterations"] = scene.solver.numIterations;
+    info["iterations"] = scene.solver.iterations;
     info["plan"] = describe_plan(model);
     return info;
 }

@@ -3,7 +3,7 @@
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "options.h"
 #include "scene/scene_json.h"
 

@@ -7,11 +7,10 @@
 #include "base/fnv1a.h"
 #include "base/text.h"
 #include "commit.h"
-#include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
+#include "natator/model.h"
 #include "natator/instruction_set.h"
-#include "natator/model_builder.h"
 #include "natator/version.h"
 #include "run/perturb.h"
 #include "scene/gait_json.h"
@@ -99,7 +98,7 @@ std::vector<LevelRuns> read_levels(json request, const std::string& document, co
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, document, backend)};
     Perturbation perturbation = levels.front().job.request.perturbation;
     const Scene scene = levels.front().job.scene;
-    if (perturbation.amplitude == 0) perturbation.amplitude = start_amplitude * scene.solver.fluidRestDistance;
+    if (perturbation.amplitude == 0) perturbation.amplitude = start_amplitude * scene.solver.fluid_rest_distance;
     levels.front().job.request.perturbation = perturbation;
     request.erase("perturbation");
     levels.front().request = request;

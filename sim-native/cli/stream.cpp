@@ -29,8 +29,8 @@ struct StreamOptions {
 
 constexpr std::size_t max_waiting = 64;  // commands, beside as many that were taken together
 
-LiveSetup read_setup(const StreamOptions& options) {
-    LiveSetup setup;
+SimulationSetup read_setup(const StreamOptions& options) {
+    SimulationSetup setup;
     setup.scene = options.scene;
     nlohmann::json overrides = nlohmann::json::object();
     if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");

@@ -23,7 +23,7 @@ json parse_command(const std::string& line) {
 }  // namespace
 
 template <class Real>
-StreamSession<Real>::StreamSession(const LiveSetup& setup, const Execution& execution, const StreamSettings& settings)
+StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings)
     : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
 
 template <class Real>
@@ -171,7 +171,7 @@ void StreamSession<Real>::apply(const stream::Overrides& overrides) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewScene& scene) {
-    LiveSetup setup = scene.setup;
+    SimulationSetup setup = scene.setup;
     setup.until = settings_.until;
     simulation_.load(setup);
     forget_senses();
@@ -204,7 +204,7 @@ void StreamSession<Real>::scene_changed(bool restarted) {
 template <class Real>
 bool StreamSession<Real>::simulate() {
     const auto begin = Pace::Clock::now();
-    const bool stable = simulation_.frame();
+    const bool stable = simulation_.step();
     wall_seconds_ += std::chrono::duration<double>(Pace::Clock::now() - begin).count();
     ++wall_frames_;
     if (!stable) print(stream_message("STOP", stream_stop(*simulation_.instability())));

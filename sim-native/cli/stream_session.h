@@ -4,7 +4,7 @@
 #include <string>
 
 #include "line_queue.h"
-#include "natator/live.h"
+#include "natator/simulation.h"
 #include "pace.h"
 #include "protocol/stream.h"
 
@@ -25,7 +25,7 @@ template <class Real>
 class StreamSession {
 public:
     /// Settles the scene. Throws InputError.
-    StreamSession(const LiveSetup& setup, const Execution& execution, const StreamSettings& settings);
+    StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings);
 
     /// Returns at the end of the commands, or when the time asked for is reached. Throws std::runtime_error when
     /// standard output can't be written.
@@ -60,7 +60,7 @@ private:
     bool at_end() const;
 
     StreamSettings settings_;
-    LiveSimulation<Real> simulation_;
+    Simulation<Real> simulation_;
     Pace pace_;
     bool running_;
     Sensing sensing_;

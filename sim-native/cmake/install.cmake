@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 set(NATATOR_DATA_DIR share/natator)
 set(NATATOR_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/natator)
 
-install(TARGETS natator EXPORT natatorTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS natator EXPORT natatorTargets)
 install(DIRECTORY include/natator ${CMAKE_CURRENT_BINARY_DIR}/include/natator DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     FILES_MATCHING PATTERN "*.h")
 install(EXPORT natatorTargets NAMESPACE natator:: DESTINATION ${NATATOR_PACKAGE_DIR})
@@ -17,6 +17,9 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/natatorConfig.cmake ${CMAKE_CURRENT_BI
     DESTINATION ${NATATOR_PACKAGE_DIR})
 
 if(NATATOR_PROGRAMS)
+    if(BUILD_SHARED_LIBS)
+        set_target_properties(natator-sim natator-bench PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+    endif()
     install(TARGETS natator-sim RUNTIME DESTINATION bin)
     install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
     install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)

@@ -25,17 +25,17 @@ std::vector<double> controller(int actuators, double time, const natator::Senses
 }  // namespace
 
 int main() try {
-    natator::LiveSimulation<float> tadpole({.scene = "pool/tadpole", .data = NATATOR_DATA_FOLDER});
+    natator::Simulation tadpole(natator::load_scene("pool/tadpole", {.data = NATATOR_DATA_FOLDER}));
     const natator::Sensing sensing{.target = Eigen::Vector3d(2.2, 0.5, 0.8)};
     check_sensing(sensing, tadpole.model());
 
     std::puts("time (s)   to go   target to the right");
-    while (tadpole.state().time < 1) {
+    while (tadpole.time() < 1) {
         const natator::Senses senses = sense(tadpole.model(), tadpole.state(), sensing);
         if (tadpole.frames() % 12 == 0)
-            std::printf("%8.1f   %5.3f   %+.2f\n", tadpole.state().time, senses.target_distance, senses.target->z());
-        tadpole.drive(controller(tadpole.model().actuators, tadpole.state().time + tadpole.scene().time_step, senses));
-        if (!tadpole.frame()) throw std::runtime_error("unstable in stage " + tadpole.instability()->stage);
+            std::printf("%8.1f   %5.3f   %+.2f\n", tadpole.time(), senses.target_distance, senses.target->z());
+        tadpole.drive(controller(tadpole.model().actuators, tadpole.time() + tadpole.scene().time_step, senses));
+        if (!tadpole.step()) throw std::runtime_error("unstable in stage " + tadpole.instability()->stage);
     }
     std::printf("swam %.3f units, work %.0f\n", tadpole.distance(), tadpole.muscle_work());
     return 0;

@@ -5,10 +5,10 @@
 
 #include "gpu_test.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/settle.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -123,8 +123,8 @@ INSTANTIATE_TEST_SUITE_P(Creatures, GpuEnsemble, all_cases, case_name);
 TEST(GpuInstability, IsNamedAsTheCpuNamesIt) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
     Scene scene = creature_scene(1, Scheme::flex);
-    scene.solver.relaxationMode = RelaxationMode::global;
-    scene.solver.relaxationFactor = 10;
+    scene.solver.flex.relaxationMode = RelaxationMode::global;
+    scene.solver.relaxation_factor = 10;
     const Gait gait = wave(scene);
     const Evaluation cpu = evaluate(scene, gait);
     const std::vector<Evaluation> gpu = evaluate_on_gpu(scene, {{gait, {}}, {gait, {}}});

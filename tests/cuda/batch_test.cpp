@@ -7,7 +7,10 @@
 #include <thread>
 
 #include "gpu_test.h"
-#include "natator/model_builder.h"
+#include "natator/error.h"
+#include "natator/measure.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
 #include "natator/settled_state_cache.h"
 
 namespace natator::test {
@@ -64,6 +67,21 @@ protected:
     }
     Scene scene = load_scene("thesis/creature-1");
 };
+
+/// A Simulation on the GPU is a member that is looked at after each frame.
+TEST_P(GpuBatch, ASimulationHasTheBitsOfAMember) {
+    const auto after_frames = [&](auto simulation) {
+        while (simulation.time() < scene.duration - scene.time_step / 2) EXPECT_TRUE(simulation.step(wave(scene)));
+        EXPECT_THROW(simulation.drive(std::vector<double>(simulation.model().actuators, 0)), InputError);
+        return state_hash(simulation.state());
+    };
+    const std::uint64_t member = hashes({{wave(scene), {}}}).front();
+    const Execution on_gpu{.gpu = 0};
+    EXPECT_EQ(precision() == Precision::double_precision ? after_frames(Simulation<double>(scene, on_gpu))
+                                                         : after_frames(Simulation<float>(scene, on_gpu)),
+              member);
+    EXPECT_EQ(evaluate(scene, wave(scene), {.precision = precision(), .execution = on_gpu}).hash, member);
+}
 
 TEST_P(GpuBatch, AnyBatchSizeSlotAndRunGivesTheSameBits) {
     constexpr int most = 150;

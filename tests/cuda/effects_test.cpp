@@ -1,8 +1,8 @@
 // The effects that the thesis leaves off: on the GPU as on the CPU, by a block and by the whole GPU.
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
-#include "natator/gpu_solver.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -51,13 +51,13 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
 }
 
 const Effect restitution{"Restitution", &SolverParameters::restitution, 0.5},
-    adhesion{"Adhesion", &SolverParameters::adhesion, 50}, sleep{"Sleep", &SolverParameters::sleepThreshold, 0.2},
-    shock_propagation{"ShockPropagation", &SolverParameters::shockPropagation, 1.5},
+    adhesion{"Adhesion", &SolverParameters::adhesion, 50}, sleep{"Sleep", &SolverParameters::sleep_threshold, 0.2},
+    shock_propagation{"ShockPropagation", &SolverParameters::shock_propagation, 1.5},
     dissipation{"Dissipation", &SolverParameters::dissipation, 3},
     cohesion{"Cohesion", &SolverParameters::cohesion, 0.02},
-    surface_tension{"SurfaceTension", &SolverParameters::surfaceTension, 0.5},
-    vorticity{"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
-    free_surface_drag{"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 1};
+    surface_tension{"SurfaceTension", &SolverParameters::surface_tension, 0.5},
+    vorticity{"Vorticity", &SolverParameters::vorticity_confinement, 0.5},
+    free_surface_drag{"FreeSurfaceDrag", &SolverParameters::free_surface_drag, 1};
 
 INSTANTIATE_TEST_SUITE_P(All, GpuEffects,
                          testing::Combine(testing::Values(adhesion, sleep, cohesion, surface_tension, vorticity,

@@ -8,10 +8,10 @@
 #include "bench_scenes.h"
 #include "natator/batch.h"
 #include "natator/gait.h"
-#include "natator/gpu_solver.h"
+#include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/state.h"
 #include "scene/scene_json.h"
+#include "solver/gpu_solver.h"
 
 /// What the checks of the CUDA backend share. They skip themselves where there is no GPU.
 namespace natator::test {

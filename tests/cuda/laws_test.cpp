@@ -1,7 +1,7 @@
 #include "../native/laws.h"
 
 #include "natator/batch.h"
-#include "natator/gpu_solver.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 

@@ -4,8 +4,8 @@
 #include "../native/bare_particles.h"
 #include "../native/refusal_of.h"
 #include "gpu_test.h"
-#include "natator/gpu_solver.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -48,7 +48,7 @@ TEST_F(GpuParticles, AParticleBehindAWallIsPutOnItWithoutVelocity) {
     GpuSolver<double> solver(model);
     State<double> state = initial_state<double>(model);
     for (int k = 0; k < 10; ++k) ASSERT_FALSE(solver.update(state, substep, 1));
-    EXPECT_NEAR(state.position[0].y(), model.parameters.collisionDistance, 1e-12);
+    EXPECT_NEAR(state.position[0].y(), model.parameters.collision_distance, 1e-12);
     EXPECT_NEAR(state.velocity[0].norm(), 0, 1e-12);
     EXPECT_EQ(state.position[1].y(), 0.05);
 }
@@ -100,7 +100,7 @@ TEST_F(GpuParticles, NeighbourCountsEqualASearchOverAllPairs) {
                 // Solids feel the fluid alone in flex; in the water of conserving all are neighbours of all.
                 expected += scheme == Scheme::flex
                                 ? distance < p.radius && (model.is_fluid(i) || model.is_fluid(j))
-                                : distance < p.kernelSupport * p.fluidRestDistance;
+                                : distance < p.conserving.kernel_support * p.fluid_rest_distance;
             }
             EXPECT_EQ(gpu.neighbour_counts()[i], expected) << i;
         }

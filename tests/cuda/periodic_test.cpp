@@ -1,4 +1,5 @@
-// Periodic tanks on the GPU: what they must keep, and that they are the CPU's. native/periodic_test.cpp says more about them.
+// Periodic tanks on the GPU: what they must keep, and that they are the CPU's. native/periodic_test.cpp says more about
+// them.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -6,9 +7,9 @@
 #include "gpu_test.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/solver.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -83,8 +84,8 @@ TEST_F(GpuPeriodic, ABodyGoesRoundAsOnTheCpu) {
 TEST_F(GpuPeriodic, EffectsAreTheCpus) {
     Model model = stirred_periodic_water({0, 2});
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 5;
-    model.parameters.vorticityConfinement = 0.5;
+    model.parameters.surface_tension = 5;
+    model.parameters.vorticity_confinement = 0.5;
     OnBoth both(model);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 4; ++k) {

@@ -1,4 +1,5 @@
-// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/water_test.cpp says more about it.
+// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/water_test.cpp says more
+// about it.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -7,9 +8,9 @@
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
+#include "natator/model.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -21,13 +22,13 @@ constexpr double spacing = 0.09;
 Model drop(const Points& positions) {
     Model model = bare_model(Scheme::conserving, positions, fluid_phase);
     disorder_fluid(spacing, model);
-    model.parameters.kinematicViscosity = 0.01;
+    model.parameters.conserving.kinematic_viscosity = 0.01;
     return model;
 }
 
 TEST_F(GpuWater, HasNoTolerance) {
     Model model = drop(lattice(3, 3, 3, spacing));
-    model.parameters.densityTolerance = 0.01;
+    model.parameters.conserving.density_tolerance = 0.01;
     EXPECT_EQ(refusal_of([&] { const GpuSolver<float> refused(model); }),
               "backend cuda: densityTolerance = 0.01; must be 0: a GPU has numIterations");
 }
@@ -38,7 +39,7 @@ TEST_F(GpuWater, ADropKeepsItsMomentum) {
     for (int i = 0; i < model.particles(); i += 3) model.inverse_mass[i] = 0.5;
     for (const bool forces : {false, true}) {
         model.parameters.cohesion = forces ? 0.002 : 0;
-        model.parameters.surfaceTension = forces ? 20 : 0;
+        model.parameters.surface_tension = forces ? 20 : 0;
         State<double> state = initial_state<double>(model);
         for (int i = 0; i < model.particles(); ++i)
             state.velocity[i] = Eigen::Vector3d(0, 0, 2).cross(state.position[i]) - 0.5 * state.position[i];
@@ -55,7 +56,7 @@ TEST_F(GpuWater, WallsPullAlongTheirNormalsOnly) {
     Model model = drop(lattice(6, 4, 5, spacing, {0, 2 * spacing, 0}));
     model.planes = {{{0, 1, 0}, 0}};
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 20;
+    model.parameters.surface_tension = 20;
     for (int i = 0; i < model.particles(); i += 3) model.inverse_mass[i] = 0.5;
     State<double> state = initial_state<double>(model);
     GpuSolver<double> gpu(model);
@@ -114,7 +115,7 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
 /// turns past both.
 Model bodies_in_a_corner() {
     Model model = water_in_a_corner(6);
-    model.parameters.kinematicViscosity = 0.02;
+    model.parameters.conserving.kinematic_viscosity = 0.02;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& x : model.position) middle += x / model.particles();
     const Eigen::Vector3d held = model.position[0];
@@ -192,8 +193,8 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     disorder_fluid(spacing, model);
     model.clusters[0] = make_cluster(model.clusters[0].particles, model.position, 1);
     model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
-    model.parameters.modifiedPressure = true;
-    model.parameters.numIterations = 1;  // so few, in so long a step, that most of the weight is carried
+    model.parameters.conserving.modified_pressure = true;
+    model.parameters.iterations = 1;  // so few, in so long a step, that most of the weight is carried
     model.time_step = 4 * substep;
     OnBoth both(model, true);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
@@ -208,7 +209,7 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
         EXPECT_LE((forces[i] - expected[i]).norm(), 1e-8 * largest * spacing * spacing) << i;
         EXPECT_NEAR(pressures[i], its[i], 1e-8 * largest) << i;
     }
-    model.parameters.modifiedPressure = false;
+    model.parameters.conserving.modified_pressure = false;
     State<double> whole = initial_state<double>(model);
     GpuSolver<double> other(model);
     for (int k = 0; k < 5; ++k) ASSERT_FALSE(other.update(whole, 2 * substep, 2));
@@ -219,7 +220,7 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
 /// mass does: where the water is of two masses that is neither's own.
 TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
     Model model = bodies_in_a_corner();
-    model.parameters.kinematicViscosity = 0.3 * spacing * spacing / substep;
+    model.parameters.conserving.kinematic_viscosity = 0.3 * spacing * spacing / substep;
     for (int i = 0; i < model.particles(); i += 2)
         if (model.is_fluid(i)) model.inverse_mass[i] /= 4;
     OnBoth both(model, true);
@@ -262,9 +263,9 @@ struct WaterEffect {
     double value;
 };
 const WaterEffect water_effects[] = {{"Cohesion", &SolverParameters::cohesion, 0.002},
-                                     {"SurfaceTension", &SolverParameters::surfaceTension, 5},
-                                     {"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
-                                     {"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 2}};
+                                     {"SurfaceTension", &SolverParameters::surface_tension, 5},
+                                     {"Vorticity", &SolverParameters::vorticity_confinement, 0.5},
+                                     {"FreeSurfaceDrag", &SolverParameters::free_surface_drag, 2}};
 
 class GpuWaterEffects : public OnGpu<testing::TestWithParam<WaterEffect>> {};
 

@@ -1,19 +1,17 @@
 // A State computed by the whole GPU: against the CPU, and against itself.
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <string>
 
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
-#include "natator/gpu_solver.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/model.h"
 #include "run/cuda/uses_grid_kernels.h"
 #include "run/settle.h"
 #include "solver/cuda/grid/fetch_roof.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -124,11 +122,11 @@ TEST_F(WithoutLists, TheThesisTankHasTheSameBits) {
 
 TEST_F(WithoutLists, WaterWithAllEffectsHasTheSameBits) {
     Model model = build_model(tank(1, Scheme::conserving));
-    model.parameters.kinematicViscosity = 0.002;
+    model.parameters.conserving.kinematic_viscosity = 0.002;
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 5;
-    model.parameters.vorticityConfinement = 0.5;
-    model.parameters.freeSurfaceDrag = 0.5;
+    model.parameters.surface_tension = 5;
+    model.parameters.vorticity_confinement = 0.5;
+    model.parameters.free_surface_drag = 0.5;
     expect_the_same_without_lists<float>(model);
 }
 
@@ -154,7 +152,7 @@ TEST_P(WholeGpu, FullListsHoldTheirMostAndKeepMomentum) {
     Points positions = lattice(12, 12, 12, 0.02);
     positions.resize(1500);  // not symmetric
     Model model = bare_model(GetParam(), positions, fluid_phase);
-    model.parameters.maxAcceleration = 100;
+    model.parameters.max_acceleration = 100;
     GpuSolver<double> gpu(model, {.path = GpuPath::whole_gpu});
     State<double> state = initial_state<double>(model);
     ASSERT_FALSE(gpu.update(state, substep, 1));
@@ -163,7 +161,7 @@ TEST_P(WholeGpu, FullListsHoldTheirMostAndKeepMomentum) {
     std::cout << "most neighbours " << largest << '\n';
     EXPECT_GT(largest, 80);
     if (GetParam() == Scheme::flex) {
-        EXPECT_EQ(largest, model.parameters.maxNeighborsPerParticle);
+        EXPECT_EQ(largest, model.parameters.flex.maxNeighborsPerParticle);
         return;
     }
     for (int k = 0; k < 20; ++k) ASSERT_FALSE(gpu.update(state, substep, 1));
@@ -202,15 +200,16 @@ protected:
     Scene scene() const {
         Scene scene = tank_of({80, 11, 27}, Scheme::flex);
         const nlohmann::json changes = nlohmann::json::parse(GetParam());
-        for (const auto& [key, value] : changes.items()) scene.solver.*numbers.at(key) = value.get<double>();
+        for (const auto& [key, value] : changes.items()) number(scene.solver, key) = value.get<double>();
         scene.duration = 0.15;
         scene.stopping.no_progress_after = 0.1;
         return scene;
     }
-    static inline const std::map<std::string, double SolverParameters::*> numbers{
-        {"cohesion", &SolverParameters::cohesion},   {"solidPressure", &SolverParameters::solidPressure},
-        {"viscosity", &SolverParameters::viscosity}, {"maxAcceleration", &SolverParameters::maxAcceleration},
-        {"damping", &SolverParameters::damping}};
+    static double& number(SolverParameters& p, const std::string& key) {
+        if (key == "solidPressure") return p.flex.solidPressure;
+        if (key == "viscosity") return p.flex.viscosity;
+        return key == "cohesion" ? p.cohesion : key == "damping" ? p.damping : p.max_acceleration;
+    }
 };
 
 TEST_P(EitherWay, GivesTheSameBits) {
@@ -224,7 +223,7 @@ TEST_P(EitherWay, GivesTheSameBits) {
     ASSERT_TRUE(cuda::uses_grid_kernels(scene, model, {.whole_gpu = true}));
     ASSERT_TRUE(cuda::uses_grid_kernels(scene, model, {.precision = Precision::double_precision}));
     Scene with_effect = scene;
-    with_effect.solver.surfaceTension = 0.5;
+    with_effect.solver.surface_tension = 0.5;
     ASSERT_TRUE(cuda::uses_grid_kernels(with_effect, build_model(with_effect), {}));
     const std::vector<Evaluation> blocks = evaluate_on_gpu(scene, members),
                                   whole = evaluate_on_gpu(scene, members, {.whole_gpu = true});
@@ -265,8 +264,8 @@ TEST(GpuRoof, FetchesThePairsOfAllStates) {
 TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
     Scene scene = tank(2, Scheme::flex);
-    scene.solver.relaxationMode = RelaxationMode::global;
-    scene.solver.relaxationFactor = 10;
+    scene.solver.flex.relaxationMode = RelaxationMode::global;
+    scene.solver.relaxation_factor = 10;
     scene.duration = 0.1;
     const Evaluation cpu = evaluate(scene, wave(scene));
     ASSERT_EQ(cpu.stopped, StopReason::unstable);

@@ -1,6 +1,7 @@
 # Installs the build BUILD into a prefix below WORK, moves the prefix, and does there what docs/library.md says:
 # configures and builds the examples of SOURCE against it, and runs them. Any step that fails ends it.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/package.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -35,12 +36,4 @@ if(NOT EXISTS ${CMAKE_MATCH_1}/scene.schema.json)
     message(FATAL_ERROR "no scene.schema.json in ${CMAKE_MATCH_1}")
 endif()
 
-run(${CMAKE_COMMAND} -S ${SOURCE}/sim-native/examples -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCUDAToolkit_ROOT=${CUDA})
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/falling_drop)
-expect("\n +1\\.0 +0\\.[0-9]+ +[0-9.]+\n")
-run(${CMAKE_COMMAND} -E env --unset=NATATOR_DATA ${WORK}/build/swimmer)
-expect("completed after 1\\.00 s: swam")
-run(${CMAKE_COMMAND} -E env --unset=NATATOR_DATA ${WORK}/build/driven)
-expect("swam 0\\.[0-9]+ units, work [0-9]+")
+run_against(${WORK}/prefix ${WORK}/build)

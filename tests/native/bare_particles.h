@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 
 /// What the tests of the solver's parameters share: particles with all else off, both schemes, both precisions.
@@ -22,10 +23,11 @@ inline Model bare_model(Scheme scheme, Points positions, std::uint32_t phase) {
     Model model;
     model.scheme = scheme;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     p.gravity.setZero();
-    p.dynamicFriction = p.particleFriction = 0;
-    p.damping = p.viscosity = 0;
-    p.maxAcceleration = p.maxSpeed;
+    p.dynamic_friction = p.particle_friction = 0;
+    p.damping = p.flex.viscosity = 0;
+    p.max_acceleration = p.max_speed;
     p.substeps = 1;
     model.time_step = substep;
     model.position = std::move(positions);
@@ -38,7 +40,7 @@ inline Model bare_model(Scheme scheme, Points positions, std::uint32_t phase) {
 /// The same in scheme `conserving`, with the limit on acceleration that overlaps are pushed apart at.
 inline Model overlapping(Points positions, std::uint32_t phase) {
     Model model = bare_model(Scheme::conserving, std::move(positions), phase);
-    model.parameters.maxAcceleration = 100;
+    model.parameters.max_acceleration = 100;
     return model;
 }
 

@@ -13,8 +13,8 @@
 #include "ensemble.h"
 #include "front_error.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "physics/constants.h"
 #include "precision.h"
@@ -214,11 +214,11 @@ TEST(SpeedTest, ASettingTakesThePlaceOfTheScenesSteps) {
     EXPECT_EQ(names, (std::vector<std::string>{"creature-1 1x4m", "creature-1 2x3", "vacuum 1x4m", "vacuum 2x3"}));
     const Scene scene = make_speed_scene(scenes[1], true);
     EXPECT_EQ(scene.solver.substeps, 2);
-    EXPECT_EQ(scene.solver.numIterations, 3);
+    EXPECT_EQ(scene.solver.iterations, 3);
     EXPECT_EQ(make_speed_scene({"creature-1"}, true).solver.substeps, 4);
     EXPECT_EQ(speed_scenes_at({"vacuum"}, {}).front().text(), "vacuum");
-    EXPECT_FALSE(scene.solver.modifiedPressure);
-    EXPECT_TRUE(make_speed_scene(scenes[0], true).solver.modifiedPressure);
+    EXPECT_FALSE(scene.solver.conserving.modified_pressure);
+    EXPECT_TRUE(make_speed_scene(scenes[0], true).solver.conserving.modified_pressure);
     for (const char* setting : {"2", "2x4w", "2x4mm", "x4m", "2x4 m2"})
         EXPECT_THROW(speed_scenes_at({"vacuum"}, {"2x4", setting}), InputError) << setting;
 }
@@ -414,7 +414,7 @@ TEST(StabilityTest, PositionsBeyondTheNumbersEndTheRun) {
         State<double> state = initial_state<double>(subject.model);
         state.velocity[0].x() = std::numeric_limits<double>::max();
         state.velocity[1].x() = std::numeric_limits<double>::lowest();
-        subject.model.parameters.maxSpeed = std::numeric_limits<double>::max();
+        subject.model.parameters.max_speed = std::numeric_limits<double>::max();
         const auto instability = solver.update(state, 4, 1);
         ASSERT_TRUE(instability);
         EXPECT_EQ(instability->particle, 0);
@@ -465,8 +465,8 @@ TEST(DamBreakTest, TheColumnFillsItsPlaceBehindTheGate) {
     EXPECT_EQ(model.particles(), 6 * 12 * 10);
     for (const Eigen::Vector3d& x : model.position)
         for (const Plane& plane : model.planes)
-            EXPECT_GE(plane.distance(x), model.parameters.collisionDistance - 1e-12);
-    EXPECT_EQ(model.parameters.viscosity, 0);
+            EXPECT_GE(plane.distance(x), model.parameters.collision_distance - 1e-12);
+    EXPECT_EQ(model.parameters.flex.viscosity, 0);
 }
 
 TEST(ValidationTest, QuickStudyGivesPlausibleRowsAndGoesOn) {

@@ -1,15 +1,14 @@
-// How far a body bends in vacuum under a fish-like gait: the same at any time step and number of iterations, and nearly so
-// at half the spacing.
+// How far a body bends in vacuum under a fish-like gait: the same at any time step and number of iterations, and nearly
+// so at half the spacing.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "natator/actuate.h"
-#include "natator/model_builder.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/swimming.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -70,7 +69,7 @@ TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
 /// Without water nothing but the solids is iterated: 4 iterations of 8 each are 32.
 TEST(Bending, IterationsOfSolidsAreIterations) {
     Model all = creature_2_in_vacuum(4, 32, 1), of_solids = creature_2_in_vacuum(4, 4, 1);
-    of_solids.parameters.solidIterations = 8;
+    of_solids.parameters.conserving.solid_iterations = 8;
     EXPECT_EQ(bending(of_solids), bending(all));
     EXPECT_NE(bending(creature_2_in_vacuum(4, 4, 1)), bending(all));
 }

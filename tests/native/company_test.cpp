@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 
 namespace natator {

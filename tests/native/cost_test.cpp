@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "bare_particles.h"
-#include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/limits.h"
-#include "natator/live.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
 #include "refusal_of.h"
 #include "scene/scene_json.h"
 #include "test_name.h"
@@ -136,10 +135,10 @@ INSTANTIATE_TEST_SUITE_P(All, DearSceneTest, testing::ValuesIn(dear_scenes));
 TEST(CostTest, AnEvaluationThatCostsTooMuchDoesNotBegin) {
     const Scene scene = with("thesis/creature-1-vacuum", R"({"settling":{"updates":1000000,"substeps":1000}})");
     EXPECT_THROW(evaluate(scene, resting_gait(2)), InputError);
-    LiveSetup setup;
+    SimulationSetup setup;
     setup.scene = "thesis/creature-1-vacuum";
     setup.overrides = R"({"settling":{"updates":1000000,"substeps":1000}})";
-    EXPECT_THROW(LiveSimulation<float>{setup}, InputError);
+    EXPECT_THROW(Simulation<float>{setup}, InputError);
 }
 
 /// Whatever else it costs: nothing moves there but a single particle.
@@ -155,22 +154,22 @@ TEST(CostTest, MoreTimeStepsThanTenMillionAreRefusedOfWhateverRuns) {
         EXPECT_NE(refusal(scene).find(": duration = "), std::string::npos) << refusal(scene);
         EXPECT_NE(refusal(scene).find(limit + "0.01"), std::string::npos) << refusal(scene);
     }
-    LiveSetup setup{.scene = "thesis/tank", .overrides = small, .until = 1e6};
-    const std::string refused = test::refusal_of([&] { LiveSimulation<float>{setup}; });
+    SimulationSetup setup{.scene = "thesis/tank", .overrides = small, .until = 1e6};
+    const std::string refused = test::refusal_of([&] { Simulation<float>{setup}; });
     EXPECT_EQ(refused, "scene \"thesis/tank\": until = 1e+06: " + limit + "0.01");
     setup.until = 1000;
-    LiveSimulation<float> live(setup);
+    Simulation<float> live(setup);
     EXPECT_NE(test::refusal_of([&] { live.merge_overrides(R"({"timeStep":1e-5})"); }).find(limit + "1e-05"), std::string::npos);
     setup.until = 1e6;
     EXPECT_THROW(live.load(setup), InputError);
-    EXPECT_TRUE(live.frame());
+    EXPECT_TRUE(live.step());
 }
 
 /// As an evaluation of that duration, where 100 frames would not cost too much.
 TEST(CostTest, AStreamWithAnEndMayCostWhatAnEvaluationMay) {
     EXPECT_NE(refusal(with("thesis/creature-1", R"({"duration":1e5})")).find("pair visits"), std::string::npos);
-    const LiveSetup setup{.scene = "thesis/creature-1", .until = 1e5};
-    EXPECT_NE(test::refusal_of([&] { LiveSimulation<float>{setup}; }).find("pair visits"), std::string::npos);
+    const SimulationSetup setup{.scene = "thesis/creature-1", .until = 1e5};
+    EXPECT_NE(test::refusal_of([&] { Simulation<float>{setup}; }).find("pair visits"), std::string::npos);
 }
 
 TEST(CostTest, TheEnvironmentReplacesTheLimits) {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "natator/course.h"
+#include "natator/measure.h"
 
 namespace natator {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 #include "test_name.h"
 

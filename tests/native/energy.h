@@ -1,7 +1,6 @@
 #pragma once
 
 #include "natator/model.h"
-#include "natator/state.h"
 
 /// Energies of what is not held, mass length^2/s^2.
 namespace natator::test {

@@ -82,7 +82,7 @@ TEST_F(EvaluateMembers, AWrongSceneIsToldToAllAtOnce) {
     for (const MemberResult& result : run({0.1, 0.2, 0.3})) EXPECT_NE(error(result).find("outside the tank"), std::string::npos);
     scene.planes.clear();
     scene.duration = 1e5;
-    scene.solver.substeps = scene.solver.numIterations = 1000;
+    scene.solver.substeps = scene.solver.iterations = 1000;
     for (const MemberResult& result : run({0.1, 0.2, 0.3})) EXPECT_NE(error(result).find("pair visits"), std::string::npos);
     EXPECT_TRUE(device.launches.empty());
 }

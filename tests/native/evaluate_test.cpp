@@ -6,7 +6,7 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/perturb.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"

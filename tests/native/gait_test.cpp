@@ -5,10 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "natator/actuate.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
-#include "natator/wave_gait.h"
+#include "natator/gait.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 
 namespace natator {

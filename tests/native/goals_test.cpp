@@ -7,7 +7,7 @@
 
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "run/goals.h"
 #include "scene/scene_json.h"
 

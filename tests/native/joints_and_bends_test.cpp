@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "scene/scene_json.h"
 

@@ -7,7 +7,7 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "refusal_of.h"
 
 namespace natator {

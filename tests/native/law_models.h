@@ -8,7 +8,7 @@
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "natator/model.h"
-#include "natator/state.h"
+#include "natator/scene.h"
 
 /// Models of scheme `conserving` that tests share.
 namespace natator::test {
@@ -27,10 +27,11 @@ inline Model lattice_of_water(const Eigen::Vector3i& count, double scale = 1) {
     Model model;
     model.scheme = Scheme::conserving;
     SolverParameters& p = model.parameters;
-    for (double* length : {&p.radius, &p.solidRestDistance, &p.fluidRestDistance, &p.collisionDistance})
+    p = thesis_tank().solver;
+    for (double* length : {&p.radius, &p.solid_rest_distance, &p.fluid_rest_distance, &p.collision_distance})
         *length *= scale;
     p.substeps = 2;
-    p.viscosity = p.damping = p.dynamicFriction = p.particleFriction = 0;
+    p.flex.viscosity = p.damping = p.dynamic_friction = p.particle_friction = 0;
     add_fluid({.count = count,
                .spacing = water_spacing * scale,
                .origin = Eigen::Vector3d::Constant(water_spacing * scale / 2),
@@ -118,8 +119,9 @@ inline Model cube_in_water(double density, double scale, int start = 0) {
 inline Model hanging_chain() {
     Model model;
     model.scheme = Scheme::conserving;
+    model.parameters = thesis_tank().solver;
     model.parameters.damping = 0;
-    model.parameters.numIterations = 64;  // so many that no energy hides in stretched links
+    model.parameters.iterations = 64;  // so many that no energy hides in stretched links
     for (int i = 0; i < 12; ++i) {
         model.position.emplace_back(0.1 * i, 2, 0);
         model.velocity.emplace_back(Eigen::Vector3d::Zero());

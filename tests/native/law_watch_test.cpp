@@ -5,10 +5,10 @@
 
 #include "law_models.h"
 #include "natator/evaluate.h"
-#include "natator/laws.h"
-#include "natator/live.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
 #include "physics/laws.h"
+#include "run/laws.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
 
@@ -120,11 +120,11 @@ TEST_P(BrokenLaws, EndARunAsUnstable) {
         EXPECT_EQ(result.instability->law, GetParam().law);
         EXPECT_EQ(result.instability->stage, GetParam().stage);
     }
-    LiveSimulation<float> live({.scene = "bench/small-tank", .overrides = GetParam().overrides, .gait = resting_short_swimmer});
-    for (int frame = 0; frame < 60 && live.frame(); ++frame) continue;
+    Simulation<float> live({.scene = "bench/small-tank", .overrides = GetParam().overrides, .gait = resting_short_swimmer});
+    for (int frame = 0; frame < 60 && live.step(); ++frame) continue;
     ASSERT_TRUE(live.instability());
     EXPECT_EQ(live.instability()->law, GetParam().law);
-    EXPECT_FALSE(live.frame());
+    EXPECT_FALSE(live.step());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -156,10 +156,10 @@ TEST(LawsOfMotion, AreKeptByWhatFallsForEver) {
 
 /// Settings changed on the way are no explosion: gravity goes, and the water still has the speed that it had.
 TEST(LawsOfMotion, GoOnFromWhatASceneHadBecome) {
-    LiveSimulation<float> live({.scene = "bench/small-tank", .overrides = R"({"scheme": "conserving", "creature": null})"});
-    for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(live.frame());
+    Simulation<float> live({.scene = "bench/small-tank", .overrides = R"({"scheme": "conserving", "creature": null})"});
+    for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(live.step());
     EXPECT_FALSE(live.merge_overrides(R"({"solver": {"gravity": [0, 0, 0]}})"));
-    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(live.frame()) << sentence_of(*live.instability());
+    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(live.step()) << sentence_of(*live.instability());
 }
 
 /// A crowded start that has not settled comes apart: it rises, and is no explosion.

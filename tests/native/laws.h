@@ -1,5 +1,5 @@
-// Laws that scheme conserving keeps, each against its closed form or its exact symmetry, for any backend: what includes this
-// names its solver and instantiates the suite.
+// Laws that scheme conserving keeps, each against its closed form or its exact symmetry, for any backend: what includes
+// this names its solver and instantiates the suite.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 #include "energy.h"
 #include "law_models.h"
-#include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
@@ -335,7 +335,7 @@ TYPED_TEST_P(Laws, MoreIterationsMoveNothingFaster) {
     const auto fastest = [&](int iterations) {
         Scene scene = load_scene("bench/small-tank");
         scene.scheme = Scheme::conserving;
-        scene.solver.numIterations = iterations;
+        scene.solver.iterations = iterations;
         const Model model = build_model(scene);
         typename TypeParam::template Solver<float> solver(model);
         State<float> state = initial_state<float>(model);

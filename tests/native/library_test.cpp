@@ -20,7 +20,6 @@ constexpr bool keeps_no_temporary = std::is_constructible_v<AnySolver, Model&> &
                                     !std::is_constructible_v<AnySolver, Model> &&
                                     !std::is_constructible_v<AnySolver, const Model>;
 static_assert(keeps_no_temporary<Solver<float>> && keeps_no_temporary<Solver<double>>);
-static_assert(keeps_no_temporary<GpuSolver<float>> && keeps_no_temporary<GpuSolver<double>>);
 
 std::string message_of(const std::string& name, const SceneOptions& options) {
     return test::refusal_of([&] { load_scene(name, options); });
@@ -55,7 +54,7 @@ TEST_F(LibraryTest, ScenesAndCreaturesComeFromTheFolderThatIsNamed) {
     const std::string nowhere = message_of("pool", {.data = data_ / "none"});
     EXPECT_NE(nowhere.find("none found in \"" + (data_ / "none" / "scenes").string() + "\""), std::string::npos)
         << nowhere;
-    LiveSimulation<float> live({.scene = "my/base", .data = data_});
+    Simulation<float> live({.scene = "my/base", .data = data_});
     EXPECT_EQ(live.model().particles(), 8);
 }
 
@@ -92,13 +91,15 @@ TEST_F(LibraryTest, OverridesAreText) {
 TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
     if (!cuda_devices().empty()) GTEST_SKIP() << "there is a GPU";
     const Model model = build_model(load_scene("my/base", {.data = data_}));
-    EXPECT_THROW(GpuSolver<float>{model}, NoDevice);
+    EXPECT_THROW(Solver<float>(model, {.gpu = 0}), NoDevice);
+    EXPECT_THROW(Simulation(load_scene("my/base", {.data = data_}), {.gpu = 0}), NoDevice);
     EXPECT_THROW(evaluate_on_gpu(load_scene("my/base", {.data = data_}), {BatchMember{}}), NoDevice);
 }
 
 /// A body of twelve slices with three joints.
 Scene own_scene() {
     Scene scene;
+    scene.scheme = Scheme::flex;
     Creature& creature = scene.creature.emplace();
     creature.slices.assign(12, Slice{.height = 3, .width = 3});
     creature.joints = {3, 6, 9};
@@ -141,17 +142,17 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.obstacles.emplace_back().radius = NAN; }, "obstacles[0].radius = NaN: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be a whole number in [1, 1000]"},
         {[](Scene& scene) { scene.solver.gravity.y() = NAN; }, "solver.gravity[1] = NaN: must be a number in [-1000, 1000] (length/s^2)"},
-        {[](Scene& scene) { scene.solver.kinematicViscosity = NAN; }, "solver.kinematicViscosity = NaN: must be a number in [0, 1000]"},
-        {[](Scene& scene) { scene.solver.solidRestDistance = 0.2; }, "solver.solidRestDistance = 0.2: must be at most radius = 0.15"},
+        {[](Scene& scene) { scene.solver.conserving.kinematic_viscosity = NAN; }, "solver.kinematicViscosity = NaN: must be a number in [0, 1000]"},
+        {[](Scene& scene) { scene.solver.solid_rest_distance = 0.2; }, "solver.solidRestDistance = 0.2: must be at most radius = 0.15"},
         {[](Scene& scene) { scene.solver.radius = 1000; }, "solver.fluidRestDistance = 0.1: must be at least radius / 20, radius = 1000"},
-        {[](Scene& scene) { scene.solver.maxSpeed = scene.solver.maxAcceleration = INFINITY; }, ""},
+        {[](Scene& scene) { scene.solver.max_speed = scene.solver.max_acceleration = INFINITY; }, ""},
         {[](Scene& scene) { scene.planes = {{{0, 1, 0}, 0}, {{0, 2, 0}, 1}}; }, "planes[1] = [0.0,2.0,0.0,1.0]: must be [a, b, c, d] with (a,"},
         {[](Scene& scene) { scene.planes = {{{0, 1, 0}, NAN}}; }, "planes[0][3] = NaN: must be a finite number (length)"},
         {[](Scene& scene) { scene.settling.substeps = 0; }, "settling.substeps = 0: must be at least 1"},
-        {[](Scene& scene) { make_water(scene).solver.kinematicViscosity = 1; }, "solver.kinematicViscosity = 1.0: must be at most 0.24 (0.1"},
+        {[](Scene& scene) { make_water(scene).solver.conserving.kinematic_viscosity = 1; }, "solver.kinematicViscosity = 1.0: must be at most 0.24 (0.1"},
         {[](Scene& scene) { make_water(scene).planes = {{{0, 1, 0}, 0}, {{0.6, 0.8, 0}, 9}}; },
          "planes[1] = [0.6,0.8,0.0,9.0]: must be at a right angle to planes[0] or facing it, in scheme conserving"},
-        {[](Scene& scene) { scene.solver.kernelSupport = 1e6; }, "solver.kernelSupport = 1000000.0: must be a number in [2, 4] (rest"},
+        {[](Scene& scene) { scene.solver.conserving.kernel_support = 1e6; }, "solver.kernelSupport = 1000000.0: must be a number in [2, 4] (rest"},
     };
     for (const auto& [change, expected] : changes) {
         Scene scene = own_scene();
@@ -165,6 +166,7 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
 /// Two particles and a spring, a cluster and a muscle, as a program may make them without a scene.
 Model own_model() {
     Model model;
+    model.scheme = Scheme::flex;
     for (const double x : {0.0, 0.1}) {
         model.position.emplace_back(x, 1, 0);
         model.velocity.emplace_back(0, 0, 0);
@@ -195,13 +197,13 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
         {[](Model& model) { model.companions.emplace_back().gait = {.amplitude = {1}, .phase = {0}, .offset = {0, 0}}; },
          "model: companions[0].gait.offset has length 2"},
         {[](Model& model) { model.actuators = 0; }, "model: muscles[0].actuator = 0: must be one of 0"},
-        {[](Model& model) { model.parameters.kernelSupport = 1e6; },
+        {[](Model& model) { model.parameters.conserving.kernel_support = 1e6; },
          "model: parameters.kernelSupport = 1e+06: must be a number in [2, 4] (rest distances of the fluid)"},
-        {[](Model& model) { model.parameters.kernelSupport = 1.999; }, "model: parameters.kernelSupport = 1.999: must be"},
-        {[](Model& model) { model.parameters.kernelSupport = NAN; }, "model: parameters.kernelSupport = NaN: must be"},
-        {[](Model& model) { model.parameters.fluidRestDistance = 1e-6; },
+        {[](Model& model) { model.parameters.conserving.kernel_support = 1.999; }, "model: parameters.kernelSupport = 1.999: must be"},
+        {[](Model& model) { model.parameters.conserving.kernel_support = NAN; }, "model: parameters.kernelSupport = NaN: must be"},
+        {[](Model& model) { model.parameters.fluid_rest_distance = 1e-6; },
          "model: parameters.fluidRestDistance = 1e-06: must be at least radius / 20, radius = 0.15"},
-        {[](Model& model) { model.parameters.kernelSupport = 4; }, ""},
+        {[](Model& model) { model.parameters.conserving.kernel_support = 4; }, ""},
     };
     for (const auto& [change, expected] : changes) {
         Model model = own_model();

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "natator/measure.h"
-#include "natator/momentum.h"
 
 namespace natator {
 namespace {
@@ -43,7 +42,7 @@ TEST(MeasureTest, MeanXIsOverTheBodyOnly) {
 
 TEST(MeasureTest, ABodyTouchesAPlaneAtTheCollisionDistance) {
     Model model;
-    model.parameters.collisionDistance = 0.05;
+    model.parameters.collision_distance = 0.05;
     model.planes = {{{-1, 0, 0}, 4.51}, {{0, 1, 0}, 0}};
     model.position.resize(2);
     model.body.particles = {1};

@@ -1,4 +1,5 @@
-// Bodies from a mesh: its file, what bounds a solid, the particles inside, the skin, the bundled ray, and what is refused.
+// Bodies from a mesh: its file, what bounds a solid, the particles inside, the skin, the bundled ray, and what is
+// refused.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,7 +22,7 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/limits.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "refusal.h"
 #include "scene/scene_json.h"
 #include "test_name.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -1,4 +1,5 @@
-// Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is known.
+// Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is
+// known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "model/background_pressure.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
-#include "natator/plan.h"
 #include "natator/solver.h"
 #include "refusal_of.h"
 #include "water_figures.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace test;
 
 Model modified(Model model) {
-    model.parameters.modifiedPressure = true;
+    model.parameters.conserving.modified_pressure = true;
     return model;
 }
 
@@ -34,7 +34,7 @@ std::vector<bench::WaterFigure> figures_of(const std::string& name, int resoluti
 /// leaves. The level is 0.275 deep: two thirds of what two passes hold up in a frame, 0.4, are left to the solver.
 TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
     Model model = modified(lattice_of_water({4, 10, 4}));
-    model.parameters.substeps = model.parameters.numIterations = 1;
+    model.parameters.substeps = model.parameters.iterations = 1;
     const auto carried = background_pressure<double>(model);
     const double surface = model.particles() * particle_volumes(model).front() / (0.4 * 0.4), level = 0.275;
     EXPECT_NEAR(surface, 1, 0.02);
@@ -111,7 +111,7 @@ TEST(ModifiedPressure, WhatPassesDoNotHoldUpIsCarried) {
     fit_to_water(model);
     EXPECT_EQ(whole.parameters.substeps, 14);
     EXPECT_EQ(model.parameters.substeps, 2);  // as the model has
-    model.parameters.numIterations = 1;
+    model.parameters.iterations = 1;
     EXPECT_NEAR(solved_depth(model), 0.8, 1e-9);
     model.parameters.substeps = 1;
     EXPECT_NEAR(solved_depth(model), 0.4, 1e-9);
@@ -135,7 +135,7 @@ TEST(ModifiedPressure, ShallowWaterIsWhatItIsWithoutIt) {
 TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
     Model model = modified(box_of_water({20, 20, 3}));
     model.parameters.gravity = {-9, -10, 0};
-    model.parameters.substeps = model.parameters.numIterations = 1;
+    model.parameters.substeps = model.parameters.iterations = 1;
     const double weight = std::hypot(9, 10);
     EXPECT_NEAR(min_solved_depth(model), 1.5 * 0.25 + 9 * 1.9 / weight, 0.05);
     fit_to_water(model);
@@ -149,7 +149,7 @@ TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
 /// Water that stands beside an obstacle stands higher.
 TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
     Model model = modified(lattice_of_water({4, 10, 4}));
-    model.parameters.substeps = model.parameters.numIterations = 1;
+    model.parameters.substeps = model.parameters.iterations = 1;
     const auto begin = [&] { return background_pressure<double>(model).begin; };
     const double without = begin();
     const auto add_solid = [&](double x, double height, double inverse_mass) {
@@ -168,7 +168,7 @@ TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
 
 TEST(ModifiedPressure, WaterThatFallsIntoItsTankIsRefused) {
     Model model = modified(lattice_of_water({2, 16, 2}));
-    model.parameters.substeps = model.parameters.numIterations = 1;
+    model.parameters.substeps = model.parameters.iterations = 1;
     EXPECT_TRUE(background_pressure<double>(model).any());
     model.planes[2].offset *= 2;
     EXPECT_NE(refusal_of([&] { background_pressure<double>(model); }).find("needs a tank that is full: water begins 1.55 above the floor"),
@@ -182,7 +182,7 @@ TEST(ModifiedPressure, ThePlanNamesIt) {
         return "";
     };
     Model deep = box_of_water({2, 16, 2});
-    deep.parameters.substeps = deep.parameters.numIterations = 1;
+    deep.parameters.substeps = deep.parameters.iterations = 1;
     EXPECT_EQ(named(deep), "");
     EXPECT_EQ(named(modified(deep)), "modified pressure");
     EXPECT_EQ(named(modified(box_of_water({4, 4, 4}))), "modified pressure (carries nothing: the water is shallow or weightless)");

@@ -5,11 +5,10 @@
 
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/live.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/moving_tank.h"
-#include "natator/pose.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
+#include "run/moving_tank.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -113,8 +112,8 @@ TEST(MovingTank, AStreamIsWhatAnEvaluationIs) {
     const Evaluation whole = evaluate(load_scene("endless/creature-2", overrides), tail_beat);
     ASSERT_TRUE(whole.renewal);
     EXPECT_GT(whole.renewal->times, 0);
-    LiveSimulation<float> live({"endless/creature-2", overrides.dump(), tail_beat});
-    while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
+    Simulation<float> live({"endless/creature-2", overrides.dump(), tail_beat});
+    while (live.frames() < whole.frames) ASSERT_TRUE(live.step());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-6);  // of places that were rounded when they were moved
 }

@@ -5,7 +5,7 @@
 
 #include "bare_particles.h"
 #include "energy.h"
-#include "natator/actuate.h"
+#include "natator/model.h"
 #include "physics/constants.h"
 #include "physics/spring.h"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 
 namespace natator {
 namespace {

@@ -1,7 +1,7 @@
 // Starts that overlap, in scheme conserving: pushed apart without an explosion and without breaking the law of
 // momentum.
 #include "bare_particles.h"
-#include "natator/momentum.h"
+#include "natator/measure.h"
 
 namespace natator::test {
 namespace {
@@ -14,7 +14,7 @@ double fastest(const State<Real>& state) {
 }
 
 /// A block at a fifth of its spacing, with more neighbours than lists hold. The speed is that of a gas that expands
-/// into vacuum by a pressure p / rho of about maxAcceleration times the rest distance: sqrt(2 p / rho), here 4.5.
+/// into vacuum by a pressure p / rho of about max_acceleration times the rest distance: sqrt(2 p / rho), here 4.5.
 TEST(OverlapTest, ACompressedBlockExpandsSlowlyAndKeepsItsMomentum) {
     Points positions = lattice(9, 9, 9, 0.02);
     positions.resize(600);  // not symmetric
@@ -48,7 +48,7 @@ TEST(OverlapTest, AParticleBehindAWallIsPutOnItWithoutVelocity) {
     Model model = overlapping({{0, -3, 0}, {1, 0.05, 0}}, solid_phase);
     model.planes = {{{0, 1, 0}, 0}};
     const State<double> state = run<double>(model, 10);
-    EXPECT_NEAR(state.position[0].y(), model.parameters.collisionDistance, 1e-12);
+    EXPECT_NEAR(state.position[0].y(), model.parameters.collision_distance, 1e-12);
     EXPECT_NEAR(state.velocity[0].norm(), 0, 1e-12);
     EXPECT_EQ(state.position[1].y(), 0.05);
 }

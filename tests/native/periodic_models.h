@@ -49,7 +49,7 @@ double largest_difference(const Model& model, const State<Real>& a, const State<
 /// Water of unequal masses that shears and swells, so that all of its forces act: viscous, in a tank with a floor.
 inline Model stirred_periodic_water(const std::vector<int>& axes) {
     Model model = made_periodic(box_of_water({8, 6, 7}), axes);
-    model.parameters.kinematicViscosity = 0.01;
+    model.parameters.conserving.kinematic_viscosity = 0.01;
     for (int i = 0; i < model.particles(); ++i) {
         const Eigen::Vector3d& x = model.position[i];
         if (i % 3 == 0) model.inverse_mass[i] = 0.5;
@@ -62,7 +62,7 @@ inline Model stirred_periodic_water(const std::vector<int>& axes) {
 inline Model cube_through_periodic_water(double x) {
     Model model = made_periodic(cube_in_water(1.2, 1), {0, 2});
     model.parameters.gravity.setZero();
-    model.parameters.kinematicViscosity = 0.01;
+    model.parameters.conserving.kinematic_viscosity = 0.01;
     const Eigen::Vector3d middle(0.55, 0.55, 0.55);
     for (const int i : model.clusters.front().particles) {
         const Eigen::Vector3d arm = model.position[i] - middle;

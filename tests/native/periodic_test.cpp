@@ -8,9 +8,8 @@
 #include "bare_particles.h"
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
-#include "natator/live.h"
 #include "natator/measure.h"
-#include "natator/sense.h"
+#include "natator/simulation.h"
 #include "periodic_models.h"
 #include "protocol/stream.h"
 #include "refusal.h"
@@ -75,7 +74,7 @@ TEST(Periodic, MomentumIsKeptThroughTheEnds) {
     expect_momentum_along_periodic_axes<float>(model, 1e-6);
     expect_momentum_along_periodic_axes<double>(model, 1e-14);
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 20;
+    model.parameters.surface_tension = 20;
     expect_momentum_along_periodic_axes<double>(model, 1e-14);
 }
 
@@ -129,7 +128,7 @@ TEST(Periodic, AShearWaveDecaysByItsViscosity) {
         Model model = made_periodic(box_of_water({across, 8, 6}), {0, 2});
         model.planes.push_back({{0, -1, 0}, 8 * water_spacing});
         model.parameters.gravity.setZero();
-        model.parameters.kinematicViscosity = nu;
+        model.parameters.conserving.kinematic_viscosity = nu;
         for (int i = 0; i < model.particles(); ++i) model.velocity[i].z() = speed * std::sin(k * model.position[i].x());
         const State<float> state = after_frames<float>(model, frames);
         double sum = 0, squares = 0;
@@ -298,16 +297,16 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
 TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
     const json overrides = in_round_tank({{"duration", 0.25}});
     const Evaluation whole = evaluate(load_scene("pool/creature-1", overrides), round_beat);
-    LiveSimulation<float> live({"pool/creature-1", overrides.dump(), round_beat});
-    while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
+    Simulation<float> live({"pool/creature-1", overrides.dump(), round_beat});
+    while (live.frames() < whole.frames) ASSERT_TRUE(live.step());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-9);
 }
 
 /// A frame tells the water around the swimmer, wherever that is: the same places but for whole lengths of the tank.
 TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
-    LiveSimulation<float> live({"pool/creature-1", in_round_tank().dump(), round_beat});
-    for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.frame());
+    Simulation<float> live({"pool/creature-1", in_round_tank().dump(), round_beat});
+    for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.step());
     const Model& model = live.model();
     const std::string message = stream_frame(live, {});
     const std::size_t first = 8 + 72 + 4 * static_cast<std::size_t>(model.actuators);

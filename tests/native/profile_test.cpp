@@ -15,7 +15,7 @@
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "refusal.h"
 #include "scene/curve.h"
 #include "scene/profile_slices.h"

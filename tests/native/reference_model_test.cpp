@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "natator/actuate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 #include "test_name.h"
 

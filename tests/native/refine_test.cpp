@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "model/water_volumes.h"
-#include "natator/model_builder.h"
+#include "natator/measure.h"
+#include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/swimming.h"
 #include "run/converge/level.h"
 #include "scene/scene_json.h"
 
@@ -128,7 +128,7 @@ TEST_P(Refinement, KeepsTheWater) {
     };
     EXPECT_NEAR(water(both.fine) / water(both.coarse), 1, 0.005);
     EXPECT_GE(both.fine.parameters.substeps, both.coarse.parameters.substeps);
-    EXPECT_EQ(both.fine.parameters.fluidRestDistance, both.coarse.parameters.fluidRestDistance / 2);
+    EXPECT_EQ(both.fine.parameters.fluid_rest_distance, both.coarse.parameters.fluid_rest_distance / 2);
     Eigen::AlignedBox3d coarse, fine;
     for (const FluidBlock* block : {&*both.coarse_scene.fluid, &*both.fine_scene.fluid}) {
         Eigen::AlignedBox3d& box = block == &*both.fine_scene.fluid ? fine : coarse;

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
+#include "natator/model.h"
 #include "refusal_of.h"
+#include "run/settled_state_key.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -66,19 +68,19 @@ TEST(SceneTest, AllNamedScenesAreThere) {
 TEST(SceneTest, ThesisSceneHasTheValuesOfTheThesis) {
     const Scene scene = load_scene("thesis/creature-1");
     EXPECT_EQ(scene.solver.substeps, 4);
-    EXPECT_EQ(scene.solver.numIterations, 4);
+    EXPECT_EQ(scene.solver.iterations, 4);
     EXPECT_EQ(scene.solver.gravity, Eigen::Vector3d(0, -10, 0));
     EXPECT_EQ(scene.solver.radius, 0.15);
-    EXPECT_EQ(scene.solver.solidRestDistance, 0.15);
-    EXPECT_EQ(scene.solver.fluidRestDistance, 0.10);
-    EXPECT_EQ(scene.solver.dynamicFriction, 0.2);
-    EXPECT_EQ(scene.solver.particleFriction, 0.2);
-    EXPECT_EQ(scene.solver.maxAcceleration, 100);
+    EXPECT_EQ(scene.solver.solid_rest_distance, 0.15);
+    EXPECT_EQ(scene.solver.fluid_rest_distance, 0.10);
+    EXPECT_EQ(scene.solver.dynamic_friction, 0.2);
+    EXPECT_EQ(scene.solver.particle_friction, 0.2);
+    EXPECT_EQ(scene.solver.max_acceleration, 100);
     EXPECT_EQ(scene.solver.damping, 1);
-    EXPECT_EQ(scene.solver.viscosity, 8);
-    EXPECT_EQ(scene.solver.solidPressure, 0.1);
-    EXPECT_EQ(scene.solver.collisionDistance, 0.05);
-    EXPECT_EQ(scene.solver.relaxationMode, RelaxationMode::local);
+    EXPECT_EQ(scene.solver.flex.viscosity, 8);
+    EXPECT_EQ(scene.solver.flex.solidPressure, 0.1);
+    EXPECT_EQ(scene.solver.collision_distance, 0.05);
+    EXPECT_EQ(scene.solver.flex.relaxationMode, RelaxationMode::local);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.time_step, 1.0 / 60);
     ASSERT_EQ(scene.planes.size(), 5u);
@@ -101,12 +103,34 @@ TEST(SceneTest, TheSchemaThatAnEditorFindsIsNoPartOfAScene) {
     EXPECT_THROW(load_scene("thesis/tank", json::parse(R"({"$schema":"scene.schema.json"})")), InputError);
 }
 
+TEST(SceneTest, TheThesisTankIsTheNamedScene) {
+    const Scene scene = thesis_tank(), named = load_scene("thesis/tank");
+    const Model made = build_model(scene), read = build_model(named);
+    EXPECT_NE(settled_state_key(made, scene.settling, 4), "");
+    EXPECT_EQ(settled_state_key(made, scene.settling, 4), settled_state_key(read, named.settling, 4));  // all parameters, particles, planes
+    EXPECT_EQ(scene.name, named.name);
+    EXPECT_EQ(scene.duration, named.duration);
+    EXPECT_EQ(scene.stopping.no_progress_after, named.stopping.no_progress_after);
+}
+
+TEST(SceneTest, WhatAProgramMakesIsWater) {
+    Scene scene;
+    scene.fluid.emplace();
+    const Model water = build_model(scene);
+    EXPECT_EQ(water.scheme, Scheme::conserving);
+    EXPECT_EQ(water.inverse_mass, std::vector<double>(1000, 1.0));
+    EXPECT_EQ(scene.fluid->spacing, scene.solver.fluid_rest_distance);
+    for (const double drag : {scene.solver.damping, scene.solver.dynamic_friction, scene.solver.static_friction,
+                              scene.solver.particle_friction, scene.solver.free_surface_drag})
+        EXPECT_EQ(drag, 0);
+}
+
 TEST(SceneTest, AnEmptySolverHasTheDefaultsOfAppendixA) {
     const Scene scene = scene_from_json(json::parse(R"({"solver":{}})"), "x");
     const Scene thesis = load_scene("thesis/tank");
-    EXPECT_EQ(scene.solver.viscosity, thesis.solver.viscosity);
-    EXPECT_EQ(scene.solver.particleFriction, thesis.solver.particleFriction);
-    EXPECT_EQ(scene.solver.maxAcceleration, thesis.solver.maxAcceleration);
+    EXPECT_EQ(scene.solver.flex.viscosity, thesis.solver.flex.viscosity);
+    EXPECT_EQ(scene.solver.particle_friction, thesis.solver.particle_friction);
+    EXPECT_EQ(scene.solver.max_acceleration, thesis.solver.max_acceleration);
     EXPECT_FALSE(scene.fluid);
     EXPECT_TRUE(scene.planes.empty());
 }
@@ -129,10 +153,10 @@ TEST(SceneTest, OverridesChangeOnlyWhatTheyName) {
         "solver": {"particleFriction": 0, "maxAcceleration": 3.4028235e38, "relaxationMode": "global"},
         "fluid": {"mass": {"gradient": "inverse-mass-linear"}},
         "creature": {"rearCentre": [0.45, 0.3, 0.77], "springsPerParticle": 1}})"));
-    EXPECT_EQ(scene.solver.particleFriction, 0);
-    EXPECT_EQ(scene.solver.dynamicFriction, 0.2);
-    EXPECT_EQ(static_cast<float>(scene.solver.maxAcceleration), std::numeric_limits<float>::max());
-    EXPECT_EQ(scene.solver.relaxationMode, RelaxationMode::global);
+    EXPECT_EQ(scene.solver.particle_friction, 0);
+    EXPECT_EQ(scene.solver.dynamic_friction, 0.2);
+    EXPECT_EQ(static_cast<float>(scene.solver.max_acceleration), std::numeric_limits<float>::max());
+    EXPECT_EQ(scene.solver.flex.relaxationMode, RelaxationMode::global);
     EXPECT_EQ(scene.fluid->gradient, MassGradient::inverse_mass_linear);
     EXPECT_EQ(scene.fluid->bottom_mass, 2);
     EXPECT_EQ(scene.creature->rear_centre, Eigen::Vector3d(0.45, 0.3, 0.77));

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "natator/error.h"
+#include "natator/measure.h"
 #include "natator/model.h"
-#include "natator/sense.h"
 
 namespace natator {
 namespace {
@@ -24,8 +24,8 @@ struct Swimmer {
     State<double> state;
 
     Swimmer(const Eigen::Matrix3d& rotation, const Vector3d& way, const Vector3d& velocity, const Vector3d& turn) {
-        model.parameters.solidRestDistance = 0.1;
-        model.parameters.fluidRestDistance = 0.1;
+        model.parameters.solid_rest_distance = 0.1;
+        model.parameters.fluid_rest_distance = 0.1;
         for (int x = 2; x >= 0; --x) {
             model.body.slices.emplace_back();
             for (int y = 0; y < 2; ++y)

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/evaluate.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "scene/scene_json.h"
 
 namespace natator {

@@ -21,7 +21,7 @@ double mean_gap(const State<Real>& state) {
     return sum / static_cast<double>(state.position.size());
 }
 
-/// Between two particles the force vanishes at fluidRestDistance: pulled together from afar, apart from near.
+/// Between two particles the force vanishes at fluid_rest_distance: pulled together from afar, apart from near.
 TEST_P(FluidParameters, CohesionPullsBeyondTheRestDistanceAndPushesWithin) {
     for (const double r : {0.14, 0.12, 0.1, 0.08, 0.05}) {
         Model model = bare_model(GetParam(), {{0, 0, 0}, {r, 0, 0}}, fluid_phase);
@@ -76,7 +76,7 @@ Eigen::Vector3d second_moments(const State<Real>& state) {
 TEST_P(FluidParameters, SurfaceTensionMakesADropRounder) {
     Model model = bare_model(GetParam(), lattice(12, 6, 6, 0.1), fluid_phase);
     model.parameters.damping = 1;
-    model.parameters.viscosity = 8;
+    model.parameters.flex.viscosity = 8;
     const auto oblong = [&model]<class Real>(Real) {
         const auto state = run<Real>(model, 480);
         if (model.scheme != Scheme::flex) {
@@ -86,7 +86,7 @@ TEST_P(FluidParameters, SurfaceTensionMakesADropRounder) {
         return moments[2] / moments[0];
     };
     const double without = oblong(float{});
-    model.parameters.surfaceTension = 20;
+    model.parameters.surface_tension = 20;
     EXPECT_GT(without, 4);
     // Exact: 1. So many particles fill a ball of radius 0.469, which is round to half a particle: (0.519 / 0.419)^2.
     in_both_precisions([&]<class Real>(Real real) { EXPECT_LT(oblong(real), 1.53); });
@@ -117,9 +117,9 @@ TEST_P(FluidParameters, VorticityConfinementKeepsVorticesAlive) {
     constexpr int n = 12;
     const double half = 0.5 * n * 0.1;
     Model model = bare_model(GetParam(), lattice(n, n, 4, 0.1), fluid_phase);
-    model.parameters.viscosity = 8;
-    model.parameters.kinematicViscosity = 0.05;  // in scheme conserving
-    const double wall = half - 0.05 + model.parameters.collisionDistance;
+    model.parameters.flex.viscosity = 8;
+    model.parameters.conserving.kinematic_viscosity = 0.05;  // in scheme conserving
+    const double wall = half - 0.05 + model.parameters.collision_distance;
     for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)})
         for (const double side : {-1.0, 1.0}) model.planes.push_back({side * axis, wall});
     for (const double side : {-1.0, 1.0}) model.planes.push_back({{0, 0, side}, 0.2});
@@ -131,7 +131,7 @@ TEST_P(FluidParameters, VorticityConfinementKeepsVorticesAlive) {
         return 1 - enstrophy(run<Real>(model, 24)) / enstrophy(initial_state<Real>(model));
     };
     const double without = lost(float{});
-    model.parameters.vorticityConfinement = 0.2;
+    model.parameters.vorticity_confinement = 0.2;
     in_both_precisions([&]<class Real>(Real real) {
         const double with = lost(real);
         EXPECT_LT(with, 0.6 * without);
@@ -147,7 +147,7 @@ TEST_P(FluidParameters, FreeSurfaceDragActsOnWhatHasFewNeighbours) {
     Model block = bare_model(GetParam(), lattice(7, 7, 7, 0.085), fluid_phase);
     for (auto& v : block.velocity) v = {0, -1, 0};
     const int middle = (block.particles() - 1) / 2;
-    drop.parameters.freeSurfaceDrag = block.parameters.freeSurfaceDrag = 1 / substep;
+    drop.parameters.free_surface_drag = block.parameters.free_surface_drag = 1 / substep;
     in_both_precisions([&]<class Real>(Real) {
         Solver<Real> solver(drop);
         State<Real> state = initial_state<Real>(drop);

@@ -4,7 +4,7 @@
 #include "bare_particles.h"
 #include "energy.h"
 #include "natator/evaluate.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -70,7 +70,7 @@ TEST_P(Parameters, AdhesionWithstandsAPullUpToItsSize) {
 /// A force that gives less than the threshold within a substep moves nothing; a larger one moves as without it.
 TEST_P(Parameters, SleepingParticlesStayWhereTheyAre) {
     Model model = bare_model(GetParam(), {{0, 1, 0}}, solid_phase);
-    model.parameters.sleepThreshold = 0.01;
+    model.parameters.sleep_threshold = 0.01;
     in_both_precisions([&]<class Real>(Real) {
         model.parameters.gravity = {0, -0.009 / substep, 0};
         const auto held = run<Real>(model, 100);
@@ -88,7 +88,7 @@ TEST_P(Parameters, ShockPropagationKeepsAStackUp) {
         Model model = bare_model(GetParam(), lattice(1, 10, 1, 0.15, {0, 0.725, 0}), solid_phase);
         model.planes = {{{0, 1, 0}, 0}};
         model.parameters.gravity = {0, -10, 0};
-        model.parameters.shockPropagation = k;
+        model.parameters.shock_propagation = k;
         const auto state = run<decltype(real)>(model, 240);
         double top = 0;
         for (const auto& x : state.position) top = std::max(top, static_cast<double>(x.y()));
@@ -137,11 +137,11 @@ TEST_P(Parameters, MaxSpeedHoldsForEveryForce) {
     Model model = bare_model(GetParam(), lattice(4, 4, 4, 0.07, {0, 0.3, 0}), fluid_phase);
     model.planes = {{{0, 1, 0}, 0}};
     model.parameters.gravity = {0, -10, 0};
-    model.parameters.maxSpeed = 0.5;
+    model.parameters.max_speed = 0.5;
     model.parameters.restitution = 1;
     model.parameters.cohesion = 0.01;
-    model.parameters.surfaceTension = 20;
-    model.parameters.vorticityConfinement = 1;
+    model.parameters.surface_tension = 20;
+    model.parameters.vorticity_confinement = 1;
     in_both_precisions([&]<class Real>(Real) {
         Solver<Real> solver(model);
         State<Real> state = initial_state<Real>(model);
@@ -163,14 +163,14 @@ TEST_P(Parameters, NothingIsPlannedAtZero) {
     model.parameters.gravity = {0, -10, 0};
     const std::size_t lines = describe_plan(model).size();
     SolverParameters& p = model.parameters;
-    for (double* parameter : {&p.restitution, &p.adhesion, &p.sleepThreshold, &p.dissipation, &p.cohesion,
-                              &p.surfaceTension, &p.vorticityConfinement, &p.freeSurfaceDrag}) {
+    for (double* parameter : {&p.restitution, &p.adhesion, &p.sleep_threshold, &p.dissipation, &p.cohesion,
+                              &p.surface_tension, &p.vorticity_confinement, &p.free_surface_drag}) {
         *parameter = 0.5;
         EXPECT_EQ(describe_plan(model).size(), lines + 1);
         *parameter = 0;
     }
     EXPECT_FALSE(make_plan(model).shock_propagation);
-    p.shockPropagation = 1;
+    p.shock_propagation = 1;
     EXPECT_TRUE(make_plan(model).shock_propagation);
 }
 
@@ -181,9 +181,9 @@ TEST_P(Parameters, RelaxationFactorZeroIsTheMeanOrNothing) {
         Model model = bare_model(GetParam(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, solid_phase);
         model.inverse_mass = {1, 0, 0};
         model.springs = {{0, 1, 0.5, 1}, {0, 2, 1.7, 1}};
-        model.parameters.numIterations = 1;
-        model.parameters.relaxationMode = mode;
-        model.parameters.relaxationFactor = 0;
+        model.parameters.iterations = 1;
+        model.parameters.flex.relaxationMode = mode;
+        model.parameters.relaxation_factor = 0;
         const bool mean = GetParam() == Scheme::flex && mode == RelaxationMode::local;
         in_both_precisions([&]<class Real>(Real) {
             const auto state = run<Real>(model, 1);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 
 namespace natator {
@@ -13,11 +14,13 @@ constexpr double dt = 1.0 / 60;
 /// Particles with every force, constraint and limit off; tests switch on what they are about.
 Model bare_model(std::vector<Eigen::Vector3d> positions) {
     Model model;
+    model.scheme = Scheme::flex;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     p.gravity.setZero();
-    p.dynamicFriction = p.particleFriction = 0;
-    p.damping = p.viscosity = 0;
-    p.maxAcceleration = p.maxSpeed;
+    p.dynamic_friction = p.particle_friction = 0;
+    p.damping = p.flex.viscosity = 0;
+    p.max_acceleration = p.max_speed;
     model.time_step = dt;
     model.position = std::move(positions);
     model.velocity.assign(model.position.size(), Eigen::Vector3d::Zero());
@@ -83,7 +86,7 @@ TEST(Physics, TwoBodiesOnASpringTurn) {
     EXPECT_NEAR((state.position[0] + state.position[1]).norm(), 0, 1e-10);
 }
 
-/// Two equal solids that overlap part to solidRestDistance, each by half of the depth.
+/// Two equal solids that overlap part to solid_rest_distance, each by half of the depth.
 TEST(Physics, TwoOverlappingSolidsPart) {
     Model model = bare_model({{0, 0, 0}, {0.1, 0, 0}});
     model.phase = {1u, 2u};
@@ -93,13 +96,13 @@ TEST(Physics, TwoOverlappingSolidsPart) {
     EXPECT_NEAR(state.position[1].x(), 0.125, 1e-12);
 }
 
-/// A particle that falls on the floor comes to rest at collisionDistance and stays there.
+/// A particle that falls on the floor comes to rest at collision_distance and stays there.
 TEST(Physics, AParticleRestsOnTheFloor) {
     Model model = bare_model({{0, 0.3, 0}});
     model.parameters.gravity = {0, -10, 0};
     model.planes = {{{0, 1, 0}, 0}};
     const auto state = run<float>(model, 120);
-    EXPECT_NEAR(state.position[0].y(), model.parameters.collisionDistance, 1e-6);
+    EXPECT_NEAR(state.position[0].y(), model.parameters.collision_distance, 1e-6);
     EXPECT_NEAR(state.velocity[0].norm(), 0, 1e-3);
 }
 
@@ -108,8 +111,8 @@ TEST(Physics, FrictionOnTheFloorIsCoulombs) {
     Model model = bare_model({{0, 0.05, 0}});
     model.velocity[0] = {3, 0, 0};
     model.parameters.gravity = {0, -10, 0};
-    model.parameters.dynamicFriction = 0.2;
-    model.parameters.numIterations = 1;
+    model.parameters.dynamic_friction = 0.2;
+    model.parameters.iterations = 1;
     model.planes = {{{0, 1, 0}, 0}};
     const auto state = run<double>(model, 60);
     EXPECT_NEAR(state.velocity[0].x(), 3 - 0.2 * 10 * 1.0, 0.02);

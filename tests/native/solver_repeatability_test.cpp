@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "natator/scene.h"
 #include "natator/solver.h"
 #include "solver/cpu/fluid_kernels.h"
 
@@ -12,6 +13,8 @@ namespace {
 /// A drop of fluid with a solid in it: all kinds of pairs, a plane, no symmetry.
 Model mixed_model(int particles) {
     Model model;
+    model.scheme = Scheme::flex;
+    model.parameters = thesis_tank().solver;
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> place(0.05, 0.65);
     for (int i = 0; i < particles; ++i) {
@@ -71,8 +74,8 @@ TEST(Repeatability, ACopiedStateGoesOnWithTheSameBits) {
 TEST(Repeatability, DensitiesEqualASumOverAllPairs) {
     Model model = mixed_model(500);
     model.parameters.gravity.setZero();
-    model.parameters.relaxationMode = RelaxationMode::global;
-    model.parameters.relaxationFactor = 0;  // nothing moves
+    model.parameters.flex.relaxationMode = RelaxationMode::global;
+    model.parameters.relaxation_factor = 0;  // nothing moves
     model.planes.clear();
     Solver<double> solver(model);
     State<double> state = initial_state<double>(model);
@@ -84,7 +87,7 @@ TEST(Repeatability, DensitiesEqualASumOverAllPairs) {
         for (int j = 0; j < model.particles(); ++j) {
             const double q = (state.position[i] - state.position[j]).norm() / model.parameters.radius;
             if (i == j || q >= 1) continue;
-            sum += (model.is_fluid(j) ? 1.0 : model.parameters.solidPressure) * (1 - q) * (1 - q);
+            sum += (model.is_fluid(j) ? 1.0 : model.parameters.flex.solidPressure) * (1 - q) * (1 - q);
         }
         const double expected = model.is_fluid(i) ? sum / s : 0;
         EXPECT_NEAR(densities[i], expected, 1e-5 * (1 + expected)) << i;

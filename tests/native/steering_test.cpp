@@ -5,13 +5,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "natator/actuate.h"
 #include "natator/evaluate.h"
-#include "natator/live.h"
+#include "natator/gait.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/steering.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
 #include "refusal_of.h"
 
 namespace natator {
@@ -22,18 +21,18 @@ const std::string steered_water = "bench/small-tank", steered_vacuum = "thesis/c
 const std::string short_conserving = R"({"duration":0.1,"scheme":"conserving","settling":{"updates":5}})";
 const std::string in_conserving = R"({"scheme":"conserving","settling":{"updates":5}})";
 
-std::uint64_t run_to(LiveSimulation<float>& simulation, int frames) {
-    while (simulation.frames() < frames) EXPECT_TRUE(simulation.frame());
+std::uint64_t run_to(Simulation<float>& simulation, int frames) {
+    while (simulation.frames() < frames) EXPECT_TRUE(simulation.step());
     return state_hash(simulation.state());
 }
 
-LiveSimulation<float> by_gait_in(const std::string& scene, const std::string& overrides = "") {
-    return LiveSimulation<float>({.scene = scene, .overrides = overrides, .gait = steered_gait});
+Simulation<float> by_gait_in(const std::string& scene, const std::string& overrides = "") {
+    return Simulation<float>({.scene = scene, .overrides = overrides, .gait = steered_gait});
 }
 
 TEST(SteeringTest, NoSteeringChangesNoBit) {
     for (const std::string& overrides : {std::string(), in_conserving}) {
-        LiveSimulation<float> plain = by_gait_in(steered_water, overrides), steered = by_gait_in(steered_water, overrides);
+        Simulation<float> plain = by_gait_in(steered_water, overrides), steered = by_gait_in(steered_water, overrides);
         for (int frames = 1; frames <= 6; ++frames) {
             steered.steer(no_steering(2));
             EXPECT_EQ(run_to(steered, frames), run_to(plain, frames)) << overrides;
@@ -43,10 +42,10 @@ TEST(SteeringTest, NoSteeringChangesNoBit) {
 
 /// In scheme `flex` a frame has the muscles that the gait gives at its start: a program can do what the gait does.
 TEST(SteeringTest, AGaitsOwnValuesGiveItsBits) {
-    LiveSimulation<float> by_gait = by_gait_in(steered_vacuum), by_values(LiveSetup{.scene = steered_vacuum});
+    Simulation<float> by_gait = by_gait_in(steered_vacuum), by_values(SimulationSetup{.scene = steered_vacuum});
     while (by_values.frames() < 30) {
         by_values.drive(drive(by_values.model(), steered_gait, by_values.state().time));
-        ASSERT_TRUE(by_values.frame());
+        ASSERT_TRUE(by_values.step());
     }
     EXPECT_EQ(run_to(by_gait, 30), state_hash(by_values.state()));
     EXPECT_NE(by_gait.distance(), 0);
@@ -54,11 +53,11 @@ TEST(SteeringTest, AGaitsOwnValuesGiveItsBits) {
 
 TEST(SteeringTest, MusclesHaveTheLengthsOfTheValuesAtTheEndOfTheFrame) {
     for (const std::string& overrides : {std::string(), in_conserving}) {
-        LiveSimulation<float> simulation = by_gait_in(steered_water, overrides);
+        Simulation<float> simulation = by_gait_in(steered_water, overrides);
         run_to(simulation, 2);
         simulation.drive({0.5, -1.25});
         EXPECT_NE(simulation.driven(), (std::vector<double>{0.5, -1.25}));  // from the next frame on
-        ASSERT_TRUE(simulation.frame());
+        ASSERT_TRUE(simulation.step());
         EXPECT_EQ(simulation.driven(), (std::vector<double>{0.5, -1.25}));
         for (const Muscle& muscle : simulation.model().muscles) {
             const double value = muscle.actuator == 0 ? 0.5 : -1.25;
@@ -101,7 +100,7 @@ TEST(SteeringTest, ASolverAsksForTheStartOfAFrameOrTheEndsOfItsSubsteps) {
 }
 
 /// Mean z of a slice.
-double mean_z(const LiveSimulation<float>& simulation, std::size_t slice) {
+double mean_z(const Simulation<float>& simulation, std::size_t slice) {
     double sum = 0;
     const std::vector<int>& particles = simulation.model().body.slices[slice];
     for (const int particle : particles) sum += simulation.state().position[particle].z();
@@ -110,7 +109,7 @@ double mean_z(const LiveSimulation<float>& simulation, std::size_t slice) {
 
 TEST(SteeringTest, AnOffsetBendsTheBodyToItsSide) {
     for (const double side : {1.0, -1.0}) {
-        LiveSimulation<float> simulation(LiveSetup{.scene = steered_vacuum});
+        Simulation<float> simulation(SimulationSetup{.scene = steered_vacuum});
         simulation.steer({{1, 1}, {0.4 * side, 0.4 * side}});
         run_to(simulation, 30);
         const std::size_t last = simulation.model().body.slices.size() - 1;
@@ -120,18 +119,18 @@ TEST(SteeringTest, AnOffsetBendsTheBodyToItsSide) {
 }
 
 TEST(SteeringTest, AScaleIsAnotherAmplitude) {
-    LiveSimulation<float> halved = by_gait_in(steered_vacuum), weaker(LiveSetup{
+    Simulation<float> halved = by_gait_in(steered_vacuum), weaker(SimulationSetup{
                               .scene = steered_vacuum, .gait = Gait{1.861, {0.973 / 2, 0.690 / 2}, {0, 0.648}}});
     halved.steer({{0.5, 0.5}, {0, 0}});
     EXPECT_EQ(run_to(halved, 20), run_to(weaker, 20));
 }
 
 TEST(SteeringTest, EachStartBeginsWithoutSteering) {
-    LiveSimulation<float> simulation = by_gait_in(steered_water);
+    Simulation<float> simulation = by_gait_in(steered_water);
     const std::uint64_t expected = run_to(simulation, 4);
     for (int way = 0; way < 3; ++way) {
         simulation.drive({1, -1});
-        ASSERT_TRUE(simulation.frame());
+        ASSERT_TRUE(simulation.step());
         if (way == 0) simulation.reset();
         if (way == 1) simulation.load({.scene = steered_water, .gait = steered_gait});
         if (way == 2) simulation.merge_overrides(R"({"fluid":{"count":[17,6,9]}})");
@@ -142,7 +141,7 @@ TEST(SteeringTest, EachStartBeginsWithoutSteering) {
 
 TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
     const double none = std::numeric_limits<double>::quiet_NaN();
-    LiveSimulation<float> simulation = by_gait_in(steered_vacuum), other = by_gait_in(steered_vacuum);
+    Simulation<float> simulation = by_gait_in(steered_vacuum), other = by_gait_in(steered_vacuum);
     simulation.drive({0.5, 0.5});
     other.drive({0.5, 0.5});
     EXPECT_EQ(test::refusal_of([&] { simulation.drive({1}); }),
@@ -166,7 +165,7 @@ TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
     stronger.amplitude[0] = 1.5;
     EXPECT_NE(test::refusal_of([&] { simulation.set_gait(stronger); }).find("scale[0] = 2 and offset[0] = 0"), std::string::npos);
     EXPECT_EQ(simulation.gait().amplitude[0], steered_gait.amplitude[0]);
-    EXPECT_EQ(test::refusal_of([] { LiveSimulation<float>(LiveSetup{.scene = "thesis/tank"}).drive({1}); }),
+    EXPECT_EQ(test::refusal_of([] { Simulation<float>(SimulationSetup{.scene = "thesis/tank"}).drive({1}); }),
               "drive has length 1: must have length 0, one value per actuator of the creature (there is none)");
 }
 
@@ -176,8 +175,8 @@ TEST(SteeringTest, StartsAreThoseOfEvaluations) {
         scene.stopping = {false, 0};
         const Perturbation shift = choose_start(7, scene);
         const std::uint64_t expected = evaluate(scene, steered_gait, {.perturbation = shift}).hash;
-        LiveSimulation<float> begun({.scene = steered_water, .overrides = overrides, .gait = steered_gait, .start = 7});
-        LiveSimulation<float> reset = by_gait_in(steered_water, overrides);
+        Simulation<float> begun({.scene = steered_water, .overrides = overrides, .gait = steered_gait, .start = 7});
+        Simulation<float> reset = by_gait_in(steered_water, overrides);
         const std::uint64_t own = run_to(reset, 6);
         reset.reset(7);
         EXPECT_EQ(reset.frames(), 0);
@@ -194,7 +193,7 @@ TEST(SteeringTest, MuscleWorkIsThatSinceTheStart) {
     Scene scene = load_scene(steered_water, SceneOptions{short_conserving});
     scene.stopping = {false, 0};
     const double expected = evaluate(scene, steered_gait).work.value();
-    LiveSimulation<float> simulation = by_gait_in(steered_water, short_conserving);
+    Simulation<float> simulation = by_gait_in(steered_water, short_conserving);
     for (int turn = 0; turn < 3; ++turn) {
         EXPECT_EQ(simulation.muscle_work(), 0);
         run_to(simulation, 6);

@@ -9,8 +9,8 @@
 #include "bare_particles.h"
 #include "model/water_volumes.h"
 #include "natator/evaluate.h"
-#include "natator/swimming.h"
-#include "natator/wave_gait.h"
+#include "natator/gait.h"
+#include "natator/measure.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -32,7 +32,7 @@ std::vector<double> beating(double frequency, double amplitude, double drift, do
 Model swimmer(double viscosity) {
     Model model;
     model.scheme = Scheme::conserving;
-    model.parameters.kinematicViscosity = viscosity;
+    model.parameters.conserving.kinematic_viscosity = viscosity;
     model.position = {{0, 0, 0}, {1, 0, 0}};
     model.velocity = {{0, 0, 0}, {0, 0, 0}};
     model.inverse_mass = {1, 1};

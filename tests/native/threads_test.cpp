@@ -1,12 +1,15 @@
-// Threads inside one evaluation: no bit of the result depends on their number.
+// Threads inside one evaluation, and evaluations in several threads: no bit of the result depends on their number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "natator/evaluate.h"
+#include "natator/measure.h"
+#include "natator/simulation.h"
 #include "scene/scene_json.h"
 #include "solver/cpu/thread_team.h"
 
@@ -72,6 +75,44 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
             EXPECT_EQ(shared.errors.density_error_mean, alone.errors.density_error_mean);
         }
     }
+}
+
+/// Calls `work` with 0, 1 ... in as many threads.
+template <class Work>
+std::vector<std::uint64_t> in_threads(int count, const Work& work) {
+    std::vector<std::uint64_t> results(count);
+    std::vector<std::thread> threads;
+    for (int k = 0; k < count; ++k) threads.emplace_back([&, k] { results[k] = work(k); });
+    for (std::thread& thread : threads) thread.join();
+    return results;
+}
+
+/// Of several scenes at once, of which each thread has its own, also where it is the same.
+TEST(Threads, EvaluationsAndSimulationsRunSideBySide) {
+    const Gait gait{.frequency = 1.8, .amplitude = {0.9, 0.7}, .phase = {0, 0.6}};
+    const auto scene_of = [](int k) {
+        Scene scene = load_scene("bench/small-tank", {{"settling", {{"updates", 3}}}, {"duration", 0.05}});
+        scene.scheme = k / 2 % 2 == 0 ? Scheme::flex : Scheme::conserving;
+        return scene;
+    };
+    const auto run = [&](int k) {
+        const Scene scene = scene_of(k);
+        if (k % 2 == 0) return evaluate(scene, gait).hash;
+        Simulation simulation(scene);
+        while (simulation.frames() < 3) simulation.step(gait);
+        return state_hash(simulation.state());
+    };
+    std::vector<std::uint64_t> alone(8);
+    for (int k = 0; k < 8; ++k) alone[k] = run(k);
+    EXPECT_EQ(alone[0], alone[1]);
+    EXPECT_EQ(alone[2], alone[3]);
+    EXPECT_EQ(in_threads(8, run), alone);
+
+    Simulation simulation(scene_of(0));
+    ASSERT_TRUE(simulation.step(gait));
+    const Simulation<float>& seen = simulation;
+    const auto look = [&](int) { return state_hash(seen.state()) + static_cast<std::uint64_t>(1e6 * seen.driven().front()); };
+    EXPECT_EQ(in_threads(4, look), std::vector<std::uint64_t>(4, look(0)));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "model/cluster.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "scene/scene_json.h"
@@ -40,7 +40,7 @@ TEST(Water, ADropKeepsItsMomentum) {
     Model model = box_of_water({8, 8, 8});
     model.planes.clear();
     model.parameters.gravity.setZero();
-    model.parameters.kinematicViscosity = 0.01;
+    model.parameters.conserving.kinematic_viscosity = 0.01;
     State<double> state = initial_state<double>(model);
     for (int i = 0; i < model.particles(); ++i) {
         const Eigen::Vector3d arm = state.position[i] - Eigen::Vector3d::Constant(0.4);
@@ -86,7 +86,7 @@ TEST(Water, DeepWaterExpandsSlowly) {
     } cases[] = {{16, 0.25, 2}, {41, 0.25, 3}, {61, 0.25 * 4 / 9, 9}, {81, 0.1, 14}, {161, 0.1, 27}};
     for (const auto& [layers, expansion, substeps] : cases) {
         Model model = lattice_of_water({2, layers, 2});
-        model.parameters.numIterations = 4;
+        model.parameters.iterations = 4;
         EXPECT_NEAR(fastest_expansion(model.parameters, depth(model)), expansion * 10, 1e-9) << layers << " layers";
         fit_to_water(model);
         EXPECT_EQ(model.parameters.substeps, substeps) << layers << " layers";
@@ -135,7 +135,7 @@ TEST(Water, ANeutralBodyHovers) {
 /// nobody asks there are no forces, and the same bits.
 TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
     Model model = box_of_water({9, 9, 9});
-    model.parameters.kinematicViscosity = 0.02;
+    model.parameters.conserving.kinematic_viscosity = 0.02;
     const Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.45);
     std::vector<int> body;
     for (int i = 0; i < model.particles(); ++i) {
@@ -221,7 +221,7 @@ bench::StabilityResult made_worse(const std::string& axis, double value, double 
     bench::StabilityCase subject = bench::calm_case();
     subject.scene.scheme = Scheme::conserving;
     subject.scene.duration = 0.3;
-    subject.scene.solver.kinematicViscosity = viscosity;
+    subject.scene.solver.conserving.kinematic_viscosity = viscosity;
     bench::stability_axis(axis).set(subject, value);
     return bench::run_stability(subject, Precision::single_precision);
 }
@@ -282,7 +282,7 @@ TEST(Water, WallsPullTheWaterAlongTheirNormalsOnly) {
     model.planes.resize(1);  // the floor
     model.parameters.gravity.setZero();
     model.parameters.cohesion = 0.002;
-    model.parameters.surfaceTension = 20;
+    model.parameters.surface_tension = 20;
     for (std::size_t i = 0; i < model.position.size(); i += 3) model.inverse_mass[i] = 0.5;
     State<double> state = initial_state<double>(model);
     Solver<double> solver(model);

@@ -19,13 +19,13 @@ struct Pressures {
 template <class Real>
 Pressures pressures_in(const WaterTank<Real>& tank) {
     const SolverParameters& p = tank.model().parameters;
-    const double weight = p.gravity.norm() / std::pow(p.fluidRestDistance, 3);  // of a volume: particles of mass 1
+    const double weight = p.gravity.norm() / std::pow(p.fluid_rest_distance, 3);  // of a volume: particles of mass 1
     const double depth = tank.depth();
     const std::vector<Real> pressures = tank.pressures();
     Pressures sums;
     for (std::size_t i = 0; i < pressures.size(); ++i) {
-        const Eigen::Vector3d x = tank.state().position[i].template cast<double>() / p.fluidRestDistance;
-        const double y = x.y() * p.fluidRestDistance;
+        const Eigen::Vector3d x = tank.state().position[i].template cast<double>() / p.fluid_rest_distance;
+        const double y = x.y() * p.fluid_rest_distance;
         if (y > lower * depth || x.minCoeff() < apart || std::max(x.x(), x.z()) > width - apart) continue;
         sums.measured += static_cast<double>(pressures[i]);
         sums.hydrostatic += weight * (depth - y);

@@ -28,7 +28,7 @@ void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
 /// Of a sphere of the volume that the body displaces.
 double diameter(const Model& model) {
     return diameter_of_sphere(static_cast<double>(model.clusters[0].particles.size()) *
-                              std::pow(model.parameters.fluidRestDistance, 3));
+                              std::pow(model.parameters.fluid_rest_distance, 3));
 }
 
 /// The mean over the sphere's particles of vectors that all particles have.

@@ -22,7 +22,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
         };
         particles = static_cast<double>(hold(inside, model).size());
     });
-    const double spacing = tank.model().parameters.fluidRestDistance;
+    const double spacing = tank.model().parameters.fluid_rest_distance;
     const double volume = particles * std::pow(spacing, 3), width = towing.count.z() * spacing;
     const double density = 1 / std::pow(spacing, 3);  // particles of mass 1
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "natator/parameters.h"
+#include "natator/scene.h"
 #include "path_run.h"
 
 /// Cases of water whose outcome is known, for measuring how far a scheme is from being a fluid.
@@ -17,7 +17,7 @@ struct WaterSetting {
     Setting solver;
     int resolution = 20;  ///< particles along the case's length
     std::optional<int> gpu{};  ///< its number; none: on the CPU
-    double support = SolverParameters().kernelSupport;  ///< of the kernel of scheme conserving, in spacings
+    double support = SolverParameters().conserving.kernel_support;  ///< of the kernel of scheme conserving, in spacings
     int start = 1;  ///< of scheme conserving: each begins with its water disordered otherwise
 };
 

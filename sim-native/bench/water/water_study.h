@@ -15,7 +15,7 @@ struct WaterStudy {
     std::vector<std::string> cases;  ///< names of water_cases()
     std::vector<int> resolutions;    ///< particles along the case's length
     std::vector<Setting> settings;
-    std::vector<double> supports{SolverParameters().kernelSupport};  ///< see WaterSetting; scheme flex has none and runs once
+    std::vector<double> supports{SolverParameters().conserving.kernel_support};  ///< see WaterSetting; scheme flex has none and runs once
     std::vector<int> starts{1};                                      ///< likewise
     std::optional<int> gpu{};  ///< its number; none: on the CPU
     bool held = true;  ///< also the cases of bodies that are held

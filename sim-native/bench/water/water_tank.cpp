@@ -6,9 +6,10 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
-#include "natator/gpu_solver.h"
+#include "natator/scene.h"
 #include "natator/solver.h"
 #include "physics/dfsph.h"
+#include "solver/gpu_solver.h"
 
 namespace natator::bench {
 namespace {
@@ -20,12 +21,13 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     Model model;
     model.scheme = setting.solver.scheme;
     SolverParameters& p = model.parameters;
+    p = thesis_tank().solver;
     set_steps(steps_of(setting.solver), p);
-    p.fluidRestDistance = spacing;
-    p.kernelSupport = setting.support;
-    p.radius = p.solidRestDistance = 1.5 * spacing;
-    p.collisionDistance = spacing / 2;
-    p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
+    p.fluid_rest_distance = spacing;
+    p.conserving.kernel_support = setting.support;
+    p.radius = p.solid_rest_distance = 1.5 * spacing;
+    p.collision_distance = spacing / 2;
+    p.flex.viscosity = p.damping = p.dynamic_friction = p.static_friction = p.particle_friction = 0;
     const FluidBlock block{.count = count,
                            .spacing = spacing,
                            .origin = Eigen::Vector3d::Constant(spacing / 2),
@@ -45,7 +47,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
 
 /// That its substeps bear, length^2/s.
 double max_viscosity(const Model& model) {
-    return physics::max_viscosity(model.parameters.fluidRestDistance, model.time_step / model.parameters.substeps);
+    return physics::max_viscosity(model.parameters.fluid_rest_distance, model.time_step / model.parameters.substeps);
 }
 
 }  // namespace
@@ -54,7 +56,7 @@ template <class Real>
 WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting, const Change& immerse)
     : setting_(setting),
       model_(std::make_shared<Model>(model_of(count, setting, immerse))),
-      length_(count.x() * model_->parameters.fluidRestDistance),
+      length_(count.x() * model_->parameters.fluid_rest_distance),
       state_(initial_state<Real>(*model_)) {
     settle();
     step_ = step_of(*model_);
@@ -64,8 +66,8 @@ WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& set
 template <class Real>
 void WaterTank<Real>::settle() {
     Model calm = *model_;
-    calm.parameters.viscosity = SolverParameters().viscosity;
-    calm.parameters.kinematicViscosity = std::min(0.05, max_viscosity(calm));
+    calm.parameters.flex.viscosity = FlexParameters().viscosity;
+    calm.parameters.conserving.kinematic_viscosity = std::min(0.05, max_viscosity(calm));
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)
@@ -227,7 +229,7 @@ void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
 template <class Real>
 bool WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
     if (model_->scheme == Scheme::conserving && viscosity > max_viscosity(*model_)) return false;
-    change([&](Model& model) { model.parameters.kinematicViscosity = viscosity; });
+    change([&](Model& model) { model.parameters.conserving.kinematic_viscosity = viscosity; });
     return true;
 }
 

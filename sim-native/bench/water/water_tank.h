@@ -8,7 +8,6 @@
 
 #include "in_precision.h"
 #include "natator/model.h"
-#include "natator/state.h"
 #include "water/water_case.h"
 
 namespace natator::bench {

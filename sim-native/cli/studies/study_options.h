@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../backend.h"
-#include "natator/parameters.h"
+#include "natator/scene.h"
 #include "path_run.h"
 #include "result_table.h"
 
@@ -44,7 +44,7 @@ std::vector<bench::Setting> settings_of(const StudyOptions& common, const std::v
 /// How studies of water in a tank compute it.
 struct WaterOptions {
     std::vector<std::string> settings{"4x4"};
-    std::vector<double> supports{SolverParameters().kernelSupport};
+    std::vector<double> supports{SolverParameters().conserving.kernel_support};
     std::vector<int> starts{1};
     BackendChoice backend;
 

@@ -59,7 +59,7 @@ struct BatchOptions {
 /// `conserving`, `options.whole_gpu`, more than 65 535 particles, and more than 20 000 in double or with effects.
 /// Result k belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number.
 /// A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last
-/// substep again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the
+/// substep again, to name its stage. May be called from several threads at once. Throws InputError when a gait does not fit the scene or the scene needs what the
 /// GPU's stages do not do, NoDevice without that GPU or if this library was built without CUDA.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         const BatchOptions& options = {});

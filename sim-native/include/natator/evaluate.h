@@ -6,16 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "natator/course.h"
-#include "natator/execution.h"
 #include "natator/gait.h"
-#include "natator/goal.h"
-#include "natator/moving_tank.h"
+#include "natator/measure.h"
+#include "natator/record.h"
 #include "natator/scene.h"
-#include "natator/snapshot.h"
 #include "natator/solver.h"
-#include "natator/stop_reason.h"
-#include "natator/swimming.h"
 
 namespace natator {
 
@@ -39,7 +34,7 @@ struct Perturbation {
 
 /// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and `lattice` `start` seeds the
 /// arrangement of the water, which is stored in the scene; else the returned perturbation shifts every
-/// coordinate by up to 0.001 of fluidRestDistance. Throws InputError if `start` is below 0.
+/// coordinate by up to 0.001 of fluid_rest_distance. Throws InputError if `start` is below 0.
 Perturbation choose_start(int start, Scene& scene);
 
 /// How far the final state is from the laws of mechanics; all dimensionless.
@@ -55,6 +50,14 @@ struct CompanionResult {
     std::string creature;
     double distance = 0;  ///< change of its mean x, length
     Course course;
+};
+
+/// What moving a tank has taken from its water: what is put in front is at rest.
+struct WaterRenewal {
+    int times = 0;
+    long particles = 0;                                      ///< sum over all times
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();      ///< taken away, mass length/s
+    double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
 };
 
 /// What one evaluation of a gait in a scene gives.
@@ -92,7 +95,9 @@ struct EvaluationOptions {
 };
 
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
-/// stop. The result is the same, bit by bit, with and without the cache.
+/// stop. The result is the same, bit by bit, with and without the cache. May be called from several threads at once; each calls its own
+/// `on_frame` and `snapshot.take`, and a profile is one thread's. On a GPU (Execution::gpu) the State goes there and back in each frame;
+/// evaluate_on_gpu gives the same bits sooner.
 /// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h), and what
 /// `on_frame` and `snapshot.take` throw.
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options = {});

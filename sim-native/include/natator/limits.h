@@ -19,10 +19,10 @@ inline constexpr long particles = 16'000'000;
 inline constexpr long springs = 16'000'000;
 /// Entries of all neighbour lists together: they are counted in 32 bits.
 inline constexpr double neighbours = 2e9;
-/// radius / fluidRestDistance: the rest density is a sum over that many particles cubed, and fluid at rest has 3000
+/// radius / fluid_rest_distance: the rest density is a sum over that many particles cubed, and fluid at rest has 3000
 /// neighbours at a ratio of 8 already. Room for four times those at 20 is still counted in 32 bits.
 inline constexpr int radius_ratio = 20;
-/// kernelSupport, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density; the volume
+/// kernel_support, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density; the volume
 /// of a particle is a sum over the cube of so many.
 inline constexpr double min_kernel_support = 2, max_kernel_support = 4;
 /// Threads of a solver: they meet several times in each iteration, and more of them than processors only wait for each other.

@@ -3,14 +3,29 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "natator/gait.h"
-#include "natator/parameters.h"
-#include "natator/water_box.h"
+#include "natator/scene.h"
 
 namespace natator {
+
+/// What water meets at an end of its box.
+enum class WaterFace { periodic, free_slip, no_slip };
+
+/// Water on a lattice of cubic cells, as scheme `lattice` has it.
+struct WaterBox {
+    Eigen::Vector3i cells{1, 1, 1};   ///< along x, y, z
+    double cell = 1;                  ///< edge of a cell, length
+    Eigen::Vector3d corner{0, 0, 0};  ///< the lowest, length
+    WaterFace faces[3][2] = {};       ///< along x, y, z: below, above; both periodic or none
+    double viscosity = 0.001;         ///< kinematic, length^2/s, above 0
+    double density = 1;               ///< mass/length^3
+
+    double cell_mass() const { return density * cell * cell * cell; }
+};
 
 /// Bits of a particle's phase: a group number and flags, as NVIDIA Flex packs them.
 namespace phase {
@@ -59,10 +74,10 @@ struct CompanionBody {
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
 };
 
-/// All that stays constant while a scene runs. One Model serves any number of States.
+/// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none changes it.
 /// Per-particle vectors have the length of `position`.
 struct Model {
-    Scheme scheme = Scheme::flex;
+    Scheme scheme = Scheme::conserving;
     SolverParameters parameters;
     double time_step = 1.0 / 60;  ///< one frame, s
 
@@ -85,5 +100,67 @@ struct Model {
     int particles() const { return static_cast<int>(position.size()); }
     bool is_fluid(int i) const { return (phase[i] & natator::phase::fluid) != 0; }
 };
+
+/// Lays out the particles, clusters and muscles of a scene: first the body (by slice from the head, then y, then z),
+/// then the fluid (by x, then y, then z). Springs are sorted by actuator, front particle, rear particle; springs that
+/// join the same two particles are separate, neighbouring entries. A creature's `refinement` n makes each particle of its
+/// body n x n x n of them, one after the other by x, then y, then z, as model/refine_body.h says.
+/// Throws InputError when the scene has no particles, or more particles or springs than limits.h allows, when a particle starts
+/// beyond a plane, and when an actuator has no muscle. Of a Scene that a program made it is checked, too, that lists have sizes that
+/// belong together, that slices which are named are there, that counts, lengths and masses are above 0, the duration is a
+/// number and normals of planes have length 1; that the solver's parameters have the ranges of sim-native/protocol/scenes.md, and that
+/// scheme `conserving` can compute the water by them and beside these planes. All else has the ranges of that page, which load_scene and
+/// parse_scene have checked.
+Model build_model(const Scene& scene);
+
+template <class Real>
+using Vector3 = Eigen::Matrix<Real, 3, 1>;
+
+/// All that changes while a scene runs, in the order of the Model's particles.
+/// Real is float (default) or double (reference runs).
+template <class Real>
+struct State {
+    std::vector<Vector3<Real>> position;
+    std::vector<Vector3<Real>> velocity;
+    std::vector<Eigen::Quaternion<Real>> cluster_rotation;  ///< kept between iterations, substeps and frames
+    std::vector<Vector3<Real>> cluster_centre;              ///< stored centre with its dead band
+    std::vector<Real> spring_rest_length;                   ///< length, as the muscles are driven
+    /// Where the coordinates of a moving tank begin over ground, length: what is at x is at x + origin there.
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    double time = 0;                                        ///< s since the end of settling
+};
+
+/// The State that a Model starts from. Throws InputError as a Solver of the Model does.
+template <class Real>
+State<Real> initial_state(const Model& model);
+
+/// Throws InputError unless the gait has one amplitude and one phase per actuator and its values are within
+/// frequency (0, 60] 1/s, amplitude [0, 2], phase [0, 1] turns, power [0.5, 4], and if there are offsets, one per actuator
+/// with |offset| + amplitude at most 2.
+void check_gait(const Gait& gait, int actuators);
+
+/// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, in scheme `conserving` times the
+/// start ramp. The gait must fit the model (check_gait). Throws InputError if it has not one value for each actuator.
+std::vector<double> drive(const Model& model, const Gait& gait, double time);
+
+/// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
+/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if there is not one
+/// value for each actuator, or the state has not the model's number of springs.
+template <class Real>
+void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
+
+/// Sets the rest length of every muscle for `time` (s) from `driven`, one value o + a u in [-2, 2] for each actuator of
+/// the body, wherever it comes from. The muscles of companions follow their own gaits. Throws InputError if there is
+/// not one value for each actuator, or the state has not the model's number of springs.
+template <class Real>
+void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state);
+
+/// What drives each actuator's muscles at a time (s), as `drive` gives it for a gait.
+using Drive = std::function<std::vector<double>(double time)>;
+
+extern template void actuate(const Model&, const Gait&, double, State<float>&);
+extern template void actuate(const Model&, const Gait&, double, State<double>&);
+extern template void actuate(const Model&, std::vector<double>, double, State<float>&);
+extern template void actuate(const Model&, std::vector<double>, double, State<double>&);
 
 }  // namespace natator

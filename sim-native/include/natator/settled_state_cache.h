@@ -6,14 +6,14 @@
 
 #include "natator/model.h"
 #include "natator/scene.h"
-#include "natator/state.h"
 
 namespace natator {
 
 /// Settled starts of scenes in a folder, one file each, so that a scene settles once and not in every evaluation.
 /// A start is found by its whole content: all that settling depends on, with the precision, the instruction set and the
-/// build of the program, stands in the file and is compared byte by byte. Safe with several processes at once.
-/// Never throws: unreadable entries are misses, failed writes are ignored.
+/// build of the program (or the shared library), stands in the file and is compared byte by byte. A build is known by its build id, which
+/// most linkers give, or are told to by -Wl,--build-id; without one nothing is kept. Members may be called from several
+/// threads, and several processes may share a folder. Never throws: unreadable entries are misses, failed writes are ignored.
 class SettledStateCache {
 public:
     explicit SettledStateCache(std::filesystem::path folder);

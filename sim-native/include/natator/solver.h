@@ -1,17 +1,121 @@
 #pragma once
 
 #include <memory>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "natator/actuate.h"
-#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/instruction_set.h"
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator {
+
+class SettledStateCache;
+
+/// Wall time by stage of a step, see solver/step.h. For one thread at a time.
+class StageProfile {
+public:
+    struct Entry {
+        std::string stage;
+        long calls = 0;
+        double seconds = 0;
+    };
+
+    void add(const char* stage, double seconds);
+    /// In the order in which stages first ran.
+    const std::vector<Entry>& entries() const { return entries_; }
+    double seconds() const;
+
+private:
+    std::vector<Entry> entries_;
+};
+
+/// What is left of constraints of one kind: 0 if there are none, or if they are met.
+struct Residual {
+    double max = 0;
+    double mean = 0;  ///< over all of the kind
+};
+
+/// What a substep leaves of its constraints (Execution::residuals).
+struct Residuals {
+    double time = 0;     ///< s, at the substep's start
+    int iterations = 0;  ///< that it took
+    /// Of the fluid's particles, in rest densities. Scheme `conserving`: what the velocities would still have to take
+    /// off in the substep, of at most `max_excess` (docs/theory.md, section 4.4). Scheme `flex`: excess over rest
+    /// density, as the last iteration found it.
+    Residual density{};
+    /// Likewise what the velocities compress it by in a substep, after the pass on their divergence; scheme
+    /// `conserving` alone.
+    Residual divergence{};
+    /// |C + alpha lambda| over rest length, C = length - rest length: of a stiff spring its stretch. In scheme `flex`
+    /// |C| of all.
+    Residual springs{};
+    /// Way of a cluster's members from their goals, beyond what compliance leaves them, over the radius of particles.
+    Residual clusters{};
+};
+
+/// Where and how something is computed. None of these but `gpu` changes the result. What they point to must live as long as what they
+/// are given to, and a profile is that of one thread.
+struct Execution {
+    StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
+    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+    int threads = 1;                     ///< for scenes of many thousand particles, at most limits::threads; small ones use one all the same
+    std::function<void(const Residuals&)> residuals{};  ///< called behind each substep with what it leaves; empty costs nothing
+    bool forces = false;                 ///< keeps what Solver::forces gives; scheme conserving only, a per cent of its time
+    /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU. Results agree
+    /// with the CPU's to rounding. All else here, but `forces`, is the CPU's.
+    std::optional<int> gpu{};
+    bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
+};
+
+/// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
+struct Plan {
+    bool fluid = false;           ///< density constraint of scheme `flex`, fluid neighbour lists
+    bool water = false;           ///< pressure solves of scheme `conserving`
+    bool contacts = false;        ///< pairs that are not both fluid; in scheme `conserving` of solids alone
+    bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
+    bool solid_pressure = false;  ///< solids add to the fluid's density
+    bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
+    bool springs = false;
+    bool clusters = false;
+    bool planes = false;
+    bool particle_friction = false;
+    bool plane_friction = false;
+    bool viscosity = false;
+    bool damping = false;
+    bool clamp_acceleration = false;
+    bool clamp_speed = false;
+
+    // Off in the thesis.
+    bool restitution = false;
+    bool adhesion = false;
+    bool sleep = false;
+    bool shock_propagation = false;
+    bool dissipation = false;
+    bool cohesion = false;
+    bool surface_tension = false;
+    bool vorticity = false;
+    bool free_surface_drag = false;
+    bool fluid_forces = false;  ///< any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity in `flex`
+
+    /// Does anything act behind the velocities?
+    constexpr bool effects() const {
+        return dissipation || (fluid && (free_surface_drag || fluid_forces)) || adhesion || restitution || sleep;
+    }
+};
+
+/// The plan for a model: the stages that it needs.
+Plan make_plan(const Model& model);
+
+/// The plan with, on top of what the model needs, all stages that change no bit where there is nothing for them to do,
+/// such as forces of strength 0: for measuring what skipping them saves. Fluid stays out where there is none, and so do
+/// restitution and the acceleration clamp, which act at any coefficient.
+Plan make_unskipped_plan(const Model& model);
+
+/// One line per stage in the order of a substep, as `natator-sim info` prints it.
+std::vector<std::string> describe_plan(const Model& model);
 
 /// Where a run stopped being possible.
 struct Instability {
@@ -34,14 +138,22 @@ public:
     virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
 };
 
-/// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread. Members that take a State throw
-/// InputError if it is not of so many particles, clusters and springs as the Model.
+template <class Real>
+class GpuSolver;
+
+/// Advances States of one Model, on the CPU or with Execution::gpu on a GPU. There the State travels to the device and back with every
+/// update, so many whole evaluations are faster by evaluate_on_gpu, whose bits are the same. Members that take a State throw InputError
+/// if it is not of so many particles, clusters and springs as the Model; on a GPU they throw std::bad_alloc when its memory is
+/// insufficient and std::runtime_error, naming the call, when it fails.
+///
+/// One thread at a time may use a Solver; several Solvers, also of one Model, may run in as many threads.
 template <class Real>
 class Solver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as the Solver; so must `execution.profile`, if
     /// there is one. A temporary Model is refused by the compiler. Throws InputError unless the Model's lists belong together: of
-    /// as many particles, and of particles, springs and actuators that are there.
+    /// as many particles, and of particles, springs and actuators that are there; or if it needs what the GPU's stages do not do. Throws
+    /// NoDevice without that GPU, or in a library built without CUDA.
     explicit Solver(const Model& model, const Execution& execution = {});
     explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();
@@ -58,7 +170,8 @@ public:
     /// model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
-    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator.
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and on a GPU, but
+    /// for scheme `lattice`.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring
@@ -76,7 +189,7 @@ public:
     /// in conserving at those of the start of its last substep.
     std::vector<Real> densities();
     /// Pressure of each fluid particle in the last substep, mass/(length s^2): in scheme conserving the sum of the substep's
-    /// pressure impulses over h plus the carried pressure (modifiedPressure). Right inside the fluid, too low where a wall
+    /// pressure impulses over h plus the carried pressure (modified_pressure). Right inside the fluid, too low where a wall
     /// takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
@@ -87,9 +200,13 @@ public:
     /// Number of fluid and contact neighbours of each particle in the last substep.
     std::vector<int> neighbour_counts() const;
 
+    /// Whether a GPU computes.
+    bool on_gpu() const;
+
 private:
     class Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<Implementation> implementation_;  ///< of the CPU; null on a GPU
+    std::unique_ptr<GpuSolver<Real>> gpu_;
 };
 
 /// Whether Solver::muscle_work means something: the model has muscles, and a scheme with forces.
@@ -97,5 +214,8 @@ inline bool has_muscle_work(const Model& model) { return model.scheme != Scheme:
 
 extern template class Solver<float>;
 extern template class Solver<double>;
+
+/// Why an evaluation ended.
+enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
 }  // namespace natator

@@ -106,20 +106,25 @@ Enum read_choice(const json& value, const Place& place, const std::vector<std::p
     refuse(place, value, list + "\"");
 }
 
-/// Reads the fields of `table` that `object` has into `out`; the others keep their value. `also` names keys that the
-/// caller reads itself; any other key is refused.
+/// Reads the fields of `table` that `object` has into `out`; the others keep their value.
 template <class T>
-void read_object(const json& object, const Place& place, const std::vector<Field<T>>& table,
-                 const std::vector<std::string_view>& also, T& out) {
-    std::vector<std::string_view> allowed = also;
-    for (const Field<T>& field : table) allowed.emplace_back(field.key);
-    check_keys(object, place, allowed);
+void read_fields(const json& object, const Place& place, const std::vector<Field<T>>& table, T& out) {
     for (const Field<T>& field : table) {
         const auto found = object.find(field.key);
         if (found == object.end()) continue;
         const Place at = place.key(field.key);
         std::visit([&](auto member) { read(*found, at, field.range, out.*member); }, field.member);
     }
+}
+
+/// As read_fields, and refuses any key but those of `table` and those of `also`, which the caller reads itself.
+template <class T>
+void read_object(const json& object, const Place& place, const std::vector<Field<T>>& table,
+                 const std::vector<std::string_view>& also, T& out) {
+    std::vector<std::string_view> allowed = also;
+    for (const Field<T>& field : table) allowed.emplace_back(field.key);
+    check_keys(object, place, allowed);
+    read_fields(object, place, table, out);
 }
 
 /// Refuses a field of `table` whose value in `object`, which a program has made, no document could give it.

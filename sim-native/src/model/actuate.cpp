@@ -1,4 +1,4 @@
-#include "natator/actuate.h"
+#include "natator/model.h"
 
 #include "base/check_values.h"
 #include "check_gait.h"

@@ -34,7 +34,7 @@ Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy
 
 /// Whether weight of the water can be carried. `all`: depth of the water, length; the same in the functions below.
 bool may_carry(const Model& model, double all) {
-    return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && all > 0;
+    return model.scheme == Scheme::conserving && model.parameters.conserving.modified_pressure && !weight_of(model).isZero(0) && all > 0;
 }
 
 /// The depth of water that weighs as much as what gravity along the floor pushes against the walls, length: none of it is carried.
@@ -54,8 +54,8 @@ double min_solved_of(const Model& model, double all) {
 /// Largest H h^2 that the pressure passes can support, per unit of the density excess that they may remove, length s^2.
 double max_solved_depth(const Model& model) {
     const SolverParameters& p = model.parameters;
-    const int passes = 1 + p.numIterations;  // one on the divergence
-    return max_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
+    const int passes = 1 + p.iterations;  // one on the divergence
+    return max_weight * passes * p.fluid_rest_distance * p.fluid_rest_distance / weight_on_walls(model);
 }
 
 /// The depth D that is left to the passes, length: a share of the one at which longest_substep is the Model's, within limits.
@@ -63,7 +63,7 @@ double solved_of(const Model& model, double all) {
     if (!(min_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
     const double h = model.time_step / p.substeps, least = min_supports * support(model);
-    const double shallow = physics::shallow_layers * p.fluidRestDistance;
+    const double shallow = physics::shallow_layers * p.fluid_rest_distance;
     const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, fastest_expansion(p, shallow));
     const double most = std::min(solved_share * held, held - pushed_sideways(model));
     return std::min(all, std::max(least, std::min(most, shallow)));

@@ -1,7 +1,7 @@
 #include "check_gait.h"
 
 #include "base/check_values.h"
-#include "natator/actuate.h"
+#include "natator/model.h"
 
 namespace natator {
 

@@ -34,9 +34,9 @@ void require_of_state(std::size_t found, const char* what, std::size_t wanted, c
 
 /// What sums over a kernel, or over the particles within the radius, would else not come to an end.
 void check_kernels(const SolverParameters& parameters) {
-    check_range("model: parameters.kernelSupport", parameters.kernelSupport, limits::min_kernel_support,
+    check_range("model: parameters.kernelSupport", parameters.conserving.kernel_support, limits::min_kernel_support,
                 limits::max_kernel_support, false, " (rest distances of the fluid)");
-    const double spacing = parameters.fluidRestDistance;
+    const double spacing = parameters.fluid_rest_distance;
     if (spacing > 0 && !(parameters.radius <= limits::radius_ratio * spacing))
         throw InputError("model: parameters.fluidRestDistance = " + number_text(spacing) + ": must be at least radius / " +
                          std::to_string(limits::radius_ratio) + ", radius = " + number_text(parameters.radius));

@@ -3,13 +3,12 @@
 #include <vector>
 
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator {
 
 /// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and springs,
-/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernelSupport and the ratio of radius
-/// and fluidRestDistance are within their limits.
+/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernel_support and the ratio of radius
+/// and fluid_rest_distance are within their limits.
 void check_model(const Model& model);
 
 /// Throws InputError unless time goes on, and in at least one substep.

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "background_pressure.h"
 #include "base/text.h"
 #include "borders.h"
-#include "background_pressure.h"
 #include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -20,16 +20,16 @@ void check_explicit_forces(const Scene& scene, const Place& place) {
     const SolverParameters& p = scene.solver;
     double h = scene.time_step / p.substeps;
     if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
-    const double spacing = p.fluidRestDistance, reach = std::min(p.radius, p.kernelSupport * spacing) / spacing;
+    const double spacing = p.fluid_rest_distance, reach = std::min(p.radius, p.conserving.kernel_support * spacing) / spacing;
     const auto check = [&](const char* key, double value, double most, const char* why) {
         if (value > most) refuse(place.key("solver").key(key), value, "at most " + computed_text(most) + " (" + why + ", settling included)");
     };
-    check("kinematicViscosity", p.kinematicViscosity, physics::max_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
+    check("kinematicViscosity", p.conserving.kinematic_viscosity, physics::max_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
     check("cohesion", p.cohesion, 0.4 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
           "0.4 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
-    check("surfaceTension", p.surfaceTension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");
-    check("vorticityConfinement", p.vorticityConfinement, 0.5 * spacing / h, "0.5 fluidRestDistance / longest substep");
-    check("relaxationFactor", p.relaxationFactor, 2, "beyond it corrections grow from one iteration to the next");
+    check("surfaceTension", p.surface_tension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");
+    check("vorticityConfinement", p.vorticity_confinement, 0.5 * spacing / h, "0.5 fluidRestDistance / longest substep");
+    check("relaxationFactor", p.relaxation_factor, 2, "beyond it corrections grow from one iteration to the next");
 }
 
 /// Mirrors fill space only where they meet at right angles, or face each other.
@@ -48,7 +48,7 @@ void check_mirrors(const Scene& scene, const Place& place) {
 /// What water weighs along periodic axes is not carried.
 void check_modified_pressure(const Scene& scene, const Place& place) {
     const Eigen::Vector3d weight = scene.solver.buoyancy * gravity_on_walls(scene.solver, scene.periodic);
-    if (!scene.solver.modifiedPressure || weight.isZero(0)) return;
+    if (!scene.solver.conserving.modified_pressure || weight.isZero(0)) return;
     if (const auto reason = no_tank(weight, scene.planes, scene.periodic))
         refuse(place.key("solver").key("modifiedPressure"), true, "false here: it " + *reason);
 }

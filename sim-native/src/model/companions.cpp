@@ -71,7 +71,7 @@ void add_companion(const Model& own, const Gait& gait, Model& model) {
 }
 
 void check_apart(const Scene& scene, const Model& model) {
-    const double near = scene.solver.solidRestDistance;
+    const double near = scene.solver.solid_rest_distance;
     const auto cell_of = [near](const Eigen::Vector3d& x) {
         return Cell{std::lround(std::floor(x.x() / near)), std::lround(std::floor(x.y() / near)), std::lround(std::floor(x.z() / near))};
     };

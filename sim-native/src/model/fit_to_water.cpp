@@ -27,7 +27,7 @@ void raise_substeps(Model& model) {
     SolverParameters& p = model.parameters;
     const double gravity = p.gravity.norm() * std::max(1.0, std::abs(p.buoyancy));
     if (!(gravity > 0)) return;
-    const double spacing = p.fluidRestDistance;
+    const double spacing = p.fluid_rest_distance;
     double longest = std::sqrt(longest_fall * spacing / gravity);
     if (weight_on_walls(model) > 0) longest = std::min(longest, longest_substep(model, std::max(min_solved_depth(model), spacing)));
     constexpr double rounding = 1e-9;

@@ -1,4 +1,4 @@
-#include "natator/goal.h"
+#include "natator/scene.h"
 
 namespace natator {
 

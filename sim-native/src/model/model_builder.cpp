@@ -1,4 +1,4 @@
-#include "natator/model_builder.h"
+#include "natator/model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,6 @@
 #include "fit_to_water.h"
 #include "fluid_block.h"
 #include "muscles.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "obstacles.h"
@@ -189,7 +188,7 @@ Model build_model(const Scene& scene) {
     check_inside_tank(scene, model);
     check_periodic(scene, model);
     if (scene.scheme == Scheme::conserving && scene.fluid) {
-        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model, scene.fluid->disorder);
+        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluid_rest_distance), model, scene.fluid->disorder);
         fit_to_water(model);
     }
     return model;

@@ -1,4 +1,4 @@
-#include "natator/steering.h"
+#include "natator/gait.h"
 
 #include <algorithm>
 #include <cmath>

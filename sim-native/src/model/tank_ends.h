@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "natator/parameters.h"
+#include "natator/scene.h"
 
 namespace natator {
 

@@ -38,13 +38,13 @@ WaterBox water_box(const Scene& scene) {
     if (!scene.companions.empty() || !scene.obstacles.empty()) refuse_lattice(scene, "has no companions and obstacles yet; must be without them");
     const FluidBlock& fluid = *scene.fluid;
     if (fluid.gradient != MassGradient::uniform) refuse_lattice(scene, "fluid.mass.gradient: must be uniform");
-    if (!(scene.solver.kinematicViscosity > 0))
-        refuse_lattice(scene, "solver.kinematicViscosity = " + number_text(scene.solver.kinematicViscosity) + ": must be above 0");
+    if (!(scene.solver.conserving.kinematic_viscosity > 0))
+        refuse_lattice(scene, "solver.kinematicViscosity = " + number_text(scene.solver.conserving.kinematic_viscosity) + ": must be above 0");
     WaterBox box;
     box.cells = fluid.count;
     box.cell = fluid.spacing;
     box.corner = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2);
-    box.viscosity = scene.solver.kinematicViscosity;
+    box.viscosity = scene.solver.conserving.kinematic_viscosity;
     box.density = fluid.bottom_mass / std::pow(fluid.spacing, 3);
     for (auto& ends : box.faces) ends[0] = ends[1] = WaterFace::free_slip;
     for (std::size_t k = 0; k < scene.planes.size(); ++k) add_wall(scene, k, box);

@@ -26,7 +26,7 @@ double lattice_volume(double spacing, double radius) {
 }  // namespace
 
 double support(const Model& model) {
-    return model.parameters.kernelSupport * model.parameters.fluidRestDistance;
+    return model.parameters.conserving.kernel_support * model.parameters.fluid_rest_distance;
 }
 
 double effect_radius(const Model& model) {
@@ -41,12 +41,12 @@ double wendland(double r, double radius) {
 
 std::vector<double> particle_volumes(const Model& model) {
     const SolverParameters& p = model.parameters;
-    const double whole = lattice_volume(p.fluidRestDistance, support(model));
+    const double whole = lattice_volume(p.fluid_rest_distance, support(model));
     std::vector<double> volumes(model.particles(), whole);
     // Solids by group and cell of one rest distance: what is nearer than that is in the cells around.
     using GroupCell = std::array<std::int64_t, 4>;
     const auto cell_of = [&](int i, int dx, int dy, int dz) {
-        const Eigen::Array3d at = (model.position[i] / p.fluidRestDistance).array().floor();
+        const Eigen::Array3d at = (model.position[i] / p.fluid_rest_distance).array().floor();
         return GroupCell{model.phase[i] & phase::group_mask, std::int64_t(at.x()) + dx, std::int64_t(at.y()) + dy,
                          std::int64_t(at.z()) + dz};
     };
@@ -55,14 +55,14 @@ std::vector<double> particle_volumes(const Model& model) {
         if (!model.is_fluid(i)) cells[cell_of(i, 0, 0, 0)].push_back(i);
     for (int i = 0; i < model.particles(); ++i) {
         if (model.is_fluid(i)) continue;
-        double nearest = p.fluidRestDistance;
+        double nearest = p.fluid_rest_distance;
         for (int place = 0; place < 27; ++place) {
             const auto found = cells.find(cell_of(i, place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1));
             if (found == cells.end()) continue;
             for (const int other : found->second)
                 if (other != i) nearest = std::min(nearest, (model.position[other] - model.position[i]).norm());
         }
-        volumes[i] = whole * std::pow(nearest / p.fluidRestDistance, 3);
+        volumes[i] = whole * std::pow(nearest / p.fluid_rest_distance, 3);
     }
     return volumes;
 }
@@ -93,10 +93,10 @@ double depth(const Model& model) {
 }
 
 double fastest_expansion(const SolverParameters& parameters, double depth) {
-    const double layers = std::max(depth / parameters.fluidRestDistance, physics::shallow_layers);
+    const double layers = std::max(depth / parameters.fluid_rest_distance, physics::shallow_layers);
     const double slower = std::pow(physics::shallow_layers / layers, 2);
-    const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
-    return std::max(physics::min_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluidRestDistance);
+    const double acceleration = std::min(std::max(parameters.max_acceleration / 10, parameters.gravity.norm()), 1e30);
+    return std::max(physics::min_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluid_rest_distance);
 }
 
 }  // namespace natator

@@ -1,4 +1,4 @@
-#include "natator/wave_gait.h"
+#include "natator/gait.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,14 +9,14 @@ namespace natator::physics {
 template <class R>
 struct Friction {
     bool on;
-    R sticking;  ///< staticFriction
-    R sliding;   ///< particleFriction or dynamicFriction
+    R sticking;  ///< static_friction
+    R sliding;   ///< particle_friction or dynamic_friction
 };
 
 inline namespace NATATOR_SET {
 
 /// What friction takes off the displacement `moved` of a contact of this depth e: the tangential part as a whole if its
-/// length m is below staticFriction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim: Unified
+/// length m is below static_friction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim: Unified
 /// Particle Physics for Real-Time Applications (2014), eq. 24, with the limits that NVIDIA Flex was measured to have.
 template <class T, class N, class R>
 NATATOR_HD Vec3<T> friction(const Vec3<T>& moved, const Vec3<N>& normal, T depth, const Friction<R>& rule) {

@@ -8,7 +8,7 @@
 namespace natator::physics::inline NATATOR_SET {
 
 /// Pull between two fluid particles as a multiple of cohesion * R, negative where they are pushed apart:
-///   f(q) = -1 + b q^2 - (b - 1) q^3, b = 1 + 1/s + 1/s^2, s = fluidRestDistance / R,
+///   f(q) = -1 + b q^2 - (b - 1) q^3, b = 1 + 1/s + 1/s^2, s = fluid_rest_distance / R,
 /// the cubic with f(0) = -1, f'(0) = 0, f(s) = f(1) = 0. A spline along the line between two particles that pushes near
 /// and pulls far as in Akinci, Akinci, Teschner: Versatile Surface Tension and Adhesion for SPH Fluids (2013), eq. 1-2;
 /// its form is fitted to measurements of NVIDIA Flex (f_grid3_cohesion0.025_s0.08 in tests/conformance), to 2e-8.
@@ -29,7 +29,7 @@ NATATOR_HD T impulse_share(T own, T other) {
 
 /// R grad f_i = G sum of this, `change` = f_i - f_j; exact for a linear f in the rest packing, because that
 /// looks the same along all axes, with G = gradient_estimate. Of the colour field, which ends at the surface, change is
-/// 1: the normal n of Akinci, Akinci, Teschner (2013), eq. 3-4. Their force F_ij = -surfaceTension (n_i - n_j) grows
+/// 1: the normal n of Akinci, Akinci, Teschner (2013), eq. 3-4. Their force F_ij = -surface_tension (n_i - n_j) grows
 /// with curvature and pulls bumps in.
 template <class T>
 NATATOR_HD Vec3<T> gradient_part(T change, const Vec3<T>& difference, T r, T q) {
@@ -37,7 +37,7 @@ NATATOR_HD Vec3<T> gradient_part(T change, const Vec3<T>& difference, T r, T q) 
 }
 
 /// Vorticity confinement, Macklin, Müller: Position Based Fluids (2013), eq. 15-16: omega_i = sum of (v_j - v_i) x
-/// grad_j W, a_i = vorticityConfinement N x omega_i, N the direction of grad |omega|. Momentum is not kept.
+/// grad_j W, a_i = vorticity_confinement N x omega_i, N the direction of grad |omega|. Momentum is not kept.
 template <class T>
 NATATOR_HD Vec3<T> curl_part(const Vec3<T>& difference, T r, T q, const Vec3<T>& relative_velocity) {
     return (1 - q) / r * cross(relative_velocity, difference);
@@ -48,7 +48,7 @@ NATATOR_HD Vec3<T> confinement(const Vec3<T>& towards_stronger, const Vec3<T>& c
     return length > 0 ? step / length * cross(towards_stronger, curl) : Vec3<T>{};
 }
 
-/// Dissipation, implicitly, n = contacts closer than solidRestDistance when predicted, step = h dissipation. Scheme
+/// Dissipation, implicitly, n = contacts closer than solid_rest_distance when predicted, step = h dissipation. Scheme
 /// `flex`: v_i /= 1 + step max(n - 1, 0), a single contact was measured to do nothing (b_diss); what is taken off.
 template <class T>
 NATATOR_HD T dissipated(T contacts, T step) {
@@ -61,7 +61,7 @@ NATATOR_HD T dissipated_by_pair(T contacts_of_both, T step) {
     return step / (1 + step * contacts_of_both);
 }
 
-/// Free-surface drag dv/dt = -freeSurfaceDrag max(1 - density, 0) v by implicit Euler, step = h freeSurfaceDrag: full
+/// Free-surface drag dv/dt = -free_surface_drag max(1 - density, 0) v by implicit Euler, step = h free_surface_drag: full
 /// drag for a particle alone, none where the fluid has its rest density.
 template <class T>
 NATATOR_HD Vec3<T> dragged(const Vec3<T>& v, T density, T step) {

@@ -14,14 +14,14 @@ struct VelocityRule {
     bool damping;
     R damping_step;  ///< h damping
     bool clamp_acceleration;
-    R max_change;  ///< h maxAcceleration
+    R max_change;  ///< h max_acceleration
     bool clamp_speed;
     R max_speed;
 };
 
 inline namespace NATATOR_SET {
 
-/// v* = v + h g, |v*| <= maxSpeed: the velocity after external forces. No gravity on particles of infinite mass.
+/// v* = v + h g, |v*| <= max_speed: the velocity after external forces. No gravity on particles of infinite mass.
 template <class T>
 NATATOR_HD Vec3<T> predicted_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& gravity, T h, bool clamp_speed,
                                   T max_speed) {
@@ -29,7 +29,7 @@ NATATOR_HD Vec3<T> predicted_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& 
     return clamp_speed ? clamped(v, max_speed) : v;
 }
 
-/// v = v* + clamp(u + Du - v*, h maxAcceleration), |v| <= maxSpeed, Du = h (viscosity * smoothing - damping * u), as
+/// v = v* + clamp(u + Du - v*, h max_acceleration), |v| <= max_speed, Du = h (viscosity * smoothing - damping * u), as
 /// NVIDIA Flex 1.2.0 was measured; u = (x - x_start) / h, smoothing = the viscosity's sum over neighbours.
 template <class T, class R>
 NATATOR_HD Vec3<T> flex_velocity(const Vec3<T>& u, const Vec3<T>& smoothing, const Vec3<T>& predicted,

@@ -1,6 +1,6 @@
-// Forces of effects.h in the water of scheme `conserving`, which has G_ij of every pair by then (see dfsph.h): gradients come
-// from these, so that they are exact for linear fields, and walls and bodies are no surface. R is the lesser of
-// interaction radius and kernel support, `own` and `other` are inverse masses, difference = x_i - x_j.
+// Forces of effects.h in the water of scheme `conserving`, which has G_ij of every pair by then (see dfsph.h):
+// gradients come from these, so that they are exact for linear fields, and walls and bodies are no surface. R is the
+// lesser of interaction radius and kernel support, `own` and `other` are inverse masses, difference = x_i - x_j.
 #pragma once
 
 #include "effects.h"
@@ -14,7 +14,7 @@ NATATOR_HD Vec3<T> cohesion_part(const Vec3<T>& difference, T r, T inverse_radiu
     return impulse_share(own, other) * cohesion_pull(r * inverse_radius, slope) / r * difference;
 }
 
-/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surfaceTension h; normals as by
+/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surface_tension h; normals as by
 /// colour_normal.
 template <class T>
 NATATOR_HD Vec3<T> tension_part(const Vec3<T>& normal, const Vec3<T>& other_normal, T own, T other) {

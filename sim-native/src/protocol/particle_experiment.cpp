@@ -10,6 +10,7 @@
 #include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "natator/scene.h"
 
 namespace natator {
 namespace {
@@ -84,14 +85,14 @@ struct Reader {
 /// Parameters as NVIDIA Flex has them after its creation (its documentation and tests/conformance/README.md): all 0
 /// but these.
 SolverParameters flex_defaults() {
-    SolverParameters p;
-    p.numIterations = 1;
+    SolverParameters p = thesis_tank().solver;
+    p.iterations = 1;
     p.gravity.setZero();
     for (double* value :
-         {&p.radius, &p.solidRestDistance, &p.fluidRestDistance, &p.dynamicFriction, &p.staticFriction,
-          &p.particleFriction, &p.damping, &p.viscosity, &p.solidPressure, &p.buoyancy, &p.collisionDistance})
+         {&p.radius, &p.solid_rest_distance, &p.fluid_rest_distance, &p.dynamic_friction, &p.static_friction,
+          &p.particle_friction, &p.damping, &p.flex.viscosity, &p.flex.solidPressure, &p.buoyancy, &p.collision_distance})
         *value = 0;
-    p.maxAcceleration = p.maxSpeed;
+    p.max_acceleration = p.max_speed;
     return p;
 }
 
@@ -106,32 +107,33 @@ std::vector<Plane> read_planes(const json& value, const Reader& read) {
 
 void read_parameters(const json& params, const Reader& read, Model& model) {
     SolverParameters& p = model.parameters;
+    model.scheme = Scheme::flex;
     p = flex_defaults();
     const std::map<std::string, double*> scalars{{"radius", &p.radius},
-                                                 {"solidRestDistance", &p.solidRestDistance},
-                                                 {"fluidRestDistance", &p.fluidRestDistance},
-                                                 {"dynamicFriction", &p.dynamicFriction},
-                                                 {"staticFriction", &p.staticFriction},
-                                                 {"particleFriction", &p.particleFriction},
+                                                 {"solidRestDistance", &p.solid_rest_distance},
+                                                 {"fluidRestDistance", &p.fluid_rest_distance},
+                                                 {"dynamicFriction", &p.dynamic_friction},
+                                                 {"staticFriction", &p.static_friction},
+                                                 {"particleFriction", &p.particle_friction},
                                                  {"restitution", &p.restitution},
                                                  {"adhesion", &p.adhesion},
-                                                 {"sleepThreshold", &p.sleepThreshold},
-                                                 {"maxSpeed", &p.maxSpeed},
-                                                 {"maxAcceleration", &p.maxAcceleration},
-                                                 {"shockPropagation", &p.shockPropagation},
+                                                 {"sleepThreshold", &p.sleep_threshold},
+                                                 {"maxSpeed", &p.max_speed},
+                                                 {"maxAcceleration", &p.max_acceleration},
+                                                 {"shockPropagation", &p.shock_propagation},
                                                  {"dissipation", &p.dissipation},
                                                  {"damping", &p.damping},
                                                  {"cohesion", &p.cohesion},
-                                                 {"surfaceTension", &p.surfaceTension},
-                                                 {"viscosity", &p.viscosity},
-                                                 {"vorticityConfinement", &p.vorticityConfinement},
-                                                 {"solidPressure", &p.solidPressure},
-                                                 {"freeSurfaceDrag", &p.freeSurfaceDrag},
+                                                 {"surfaceTension", &p.surface_tension},
+                                                 {"viscosity", &p.flex.viscosity},
+                                                 {"vorticityConfinement", &p.vorticity_confinement},
+                                                 {"solidPressure", &p.flex.solidPressure},
+                                                 {"freeSurfaceDrag", &p.free_surface_drag},
                                                  {"buoyancy", &p.buoyancy},
-                                                 {"collisionDistance", &p.collisionDistance},
-                                                 {"particleCollisionMargin", &p.particleCollisionMargin},
-                                                 {"shapeCollisionMargin", &p.shapeCollisionMargin},
-                                                 {"relaxationFactor", &p.relaxationFactor}};
+                                                 {"collisionDistance", &p.collision_distance},
+                                                 {"particleCollisionMargin", &p.particle_collision_margin},
+                                                 {"shapeCollisionMargin", &p.shape_collision_margin},
+                                                 {"relaxationFactor", &p.relaxation_factor}};
     if (!params.is_object()) refuse(read.where, "params", params, "an object");
     for (const auto& [key, value] : params.items()) {
         const std::string field = "params." + key;
@@ -142,17 +144,17 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
         else if (key == "planes")
             model.planes = read_planes(value, read);
         else if (key == "numIterations")
-            p.numIterations = integer(value, read.where, field, 1, 10000);
+            p.iterations = integer(value, read.where, field, 1, 10000);
         else if (key == "solidIterations")
-            p.solidIterations = integer(value, read.where, field, 1, 10000);
+            p.conserving.solid_iterations = integer(value, read.where, field, 1, 10000);
         else if (key == "relaxationMode")
-            p.relaxationMode = static_cast<RelaxationMode>(integer(value, read.where, field, 0, 1));
+            p.flex.relaxationMode = static_cast<RelaxationMode>(integer(value, read.where, field, 0, 1));
         else
             throw InputError(read.where + ": " + field + ": unknown key (= " + shown(value) + ")");
     }
     if (!(p.radius > 0)) refuse(read.where, "params.radius", p.radius, "a length above 0");
-    if (p.fluidRestDistance > 0 && p.radius > limits::radius_ratio * p.fluidRestDistance)
-        refuse(read.where, "params.fluidRestDistance", p.fluidRestDistance,
+    if (p.fluid_rest_distance > 0 && p.radius > limits::radius_ratio * p.fluid_rest_distance)
+        refuse(read.where, "params.fluidRestDistance", p.fluid_rest_distance,
                "0 or at least radius / " + std::to_string(limits::radius_ratio));
 }
 

@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "natator/gpu_solver.h"
 #include "particle_experiment.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
 namespace {
@@ -106,7 +106,7 @@ void check_experiment_cost(const ParticleExperiment& experiment, const json& ask
     double rows = 0, updates = 0;
     for (const json& asked : asked_frames) {
         const double steps = is_traced(asked) ? experiment.substeps : 0;
-        rows += 3 + steps * (2 + experiment.model.parameters.numIterations);
+        rows += 3 + steps * (2 + experiment.model.parameters.iterations);
         updates = asked.at("frame").get<double>();
     }
     check_cost(experiment.model, updates * experiment.substeps, bytes_of_row * rows * experiment.model.particles(),

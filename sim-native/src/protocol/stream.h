@@ -7,8 +7,8 @@
 #include <string_view>
 #include <variant>
 
-#include "natator/live.h"
-#include "natator/sense.h"
+#include "natator/measure.h"
+#include "natator/simulation.h"
 
 /// The protocol of `natator-sim stream`: commands in, messages out (sim-native/protocol/stream.md).
 namespace natator {
@@ -51,7 +51,7 @@ struct Overrides {
     nlohmann::json patch;
 };
 struct NewScene {
-    LiveSetup setup;
+    SimulationSetup setup;
 };
 
 inline constexpr int max_credit = 1000;                 ///< frames
@@ -96,28 +96,28 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 
 /// The body of SCEN.
 template <class Real>
-nlohmann::ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head);
+nlohmann::ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head);
 
 /// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of `stream_scene`.
 nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 /// The FRAM of the present state, as bytes.
 template <class Real>
-std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head);
+std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& head);
 
 /// What a swimmer senses, in SENS and in answers.
 template <class Real>
-nlohmann::ordered_json stream_senses(const LiveSimulation<Real>& simulation, const Sensing& sensing);
+nlohmann::ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& sensing);
 
 /// The bodies of STOP: the time asked for is reached; the simulation has become unstable.
 nlohmann::ordered_json stream_stop();
 nlohmann::ordered_json stream_stop(const Instability& instability);
 
-extern template nlohmann::ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
-extern template nlohmann::ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
-extern template nlohmann::ordered_json stream_senses(const LiveSimulation<float>&, const Sensing&);
-extern template nlohmann::ordered_json stream_senses(const LiveSimulation<double>&, const Sensing&);
-extern template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
-extern template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
+extern template nlohmann::ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
+extern template nlohmann::ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
+extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, const Sensing&);
+extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const Sensing&);
+extern template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
+extern template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 
 }  // namespace natator

@@ -114,8 +114,8 @@ json read_overrides(const json& value) {
     return overrides;
 }
 
-LiveSetup read_setup(const json& value) {
-    LiveSetup setup;
+SimulationSetup read_setup(const json& value) {
+    SimulationSetup setup;
     fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, setup.scene);
     if (value.contains("overrides")) setup.overrides = read_overrides(value).dump();
     if (value.contains("gait")) setup.gait = parse_gait(value.at("gait"), "gait");

@@ -6,10 +6,8 @@
 #include "model/borders.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
-#include "natator/instruction_set.h"
 #include "natator/measure.h"
-#include "natator/momentum.h"
-#include "natator/pose.h"
+#include "natator/instruction_set.h"
 #include "natator/version.h"
 #include "protocol/stream.h"
 #include "run/conservation_errors.h"
@@ -191,8 +189,8 @@ std::string stream_message(std::string_view letters, const ordered_json& body) {
 }
 
 template <class Real>
-ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head) {
-    const LiveSetup& setup = simulation.setup();
+ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head) {
+    const SimulationSetup& setup = simulation.setup();
     const Scene& scene = simulation.scene();
     const Model& model = simulation.model();
     const SolverParameters& solver = model.parameters;
@@ -212,8 +210,8 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["timeStep"] = model.time_step;
     body["duration"] = scene.duration;
     body["radius"] = solver.radius;
-    body["solidRestDistance"] = solver.solidRestDistance;
-    body["fluidRestDistance"] = solver.fluidRestDistance;
+    body["solidRestDistance"] = solver.solid_rest_distance;
+    body["fluidRestDistance"] = solver.fluid_rest_distance;
     body["planes"] = planes_json(model);
     body["periodic"] = periodic_json(model);
     body["fields"] = fields_json(head.fields);
@@ -240,7 +238,7 @@ ordered_json stream_scene_change(const ordered_json& before, const ordered_json&
 }
 
 template <class Real>
-std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head) {
+std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& head) {
     const Model& model = simulation.model();
     const State<Real>& state = simulation.state();
     const std::vector<Real> densities = simulation.densities();
@@ -281,9 +279,9 @@ ordered_json stream_stop(const Instability& instability) {
             {"law", instability.law}};
 }
 
-template ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
-template ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
-template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
-template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
+template ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
+template ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
+template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
+template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 
 }  // namespace natator

@@ -1,5 +1,5 @@
 #include "natator/measure.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "protocol/stream.h"
 
 namespace natator {
@@ -21,7 +21,7 @@ ordered_json flow_json(const std::vector<SkinFlow>& flow) {
 }  // namespace
 
 template <class Real>
-ordered_json stream_senses(const LiveSimulation<Real>& simulation, const Sensing& sensing) {
+ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& sensing) {
     const Model& model = simulation.model();
     const Senses senses = sense(model, simulation.state(), sensing);
     ordered_json body;
@@ -44,7 +44,7 @@ ordered_json stream_senses(const LiveSimulation<Real>& simulation, const Sensing
     return body;
 }
 
-template ordered_json stream_senses(const LiveSimulation<float>&, const Sensing&);
-template ordered_json stream_senses(const LiveSimulation<double>&, const Sensing&);
+template ordered_json stream_senses(const Simulation<float>&, const Sensing&);
+template ordered_json stream_senses(const Simulation<double>&, const Sensing&);
 
 }  // namespace natator

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "natator/momentum.h"
+#include "natator/measure.h"
 
 namespace natator {
 

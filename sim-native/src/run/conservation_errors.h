@@ -4,7 +4,6 @@
 
 #include "natator/evaluate.h"
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator {
 

@@ -199,17 +199,17 @@ Cost cost_of(const Model& model, const Computing& computing) {
     }
     if (model.position.empty()) return cost;
     const bool water = model.scheme == Scheme::conserving;
-    const double support = p.kernelSupport * p.fluidRestDistance;
+    const double support = p.conserving.kernel_support * p.fluid_rest_distance;
     const double reach = water ? support : p.radius;
-    const Candidates start = candidates_at_start(model, water ? reach : reach + p.particleCollisionMargin, water);
+    const Candidates start = candidates_at_start(model, water ? reach : reach + p.particle_collision_margin, water);
     double fluid = 0;
     for (int i = 0; i < model.particles(); ++i) fluid += water || model.is_fluid(i) ? 1 : 0;
 
     // Fluid at rest: sqrt(2) particles in a cube of its spacing at most; cells are searched to 20 cubes of the radius.
-    const double ratio = p.fluidRestDistance > 0 ? reach / p.fluidRestDistance : 0;
+    const double ratio = p.fluid_rest_distance > 0 ? reach / p.fluid_rest_distance : 0;
     const double per_cube = std::numbers::sqrt2 * ratio * ratio * ratio;
     const double at_rest = 4 * std::numbers::pi / 3 * per_cube;
-    double most = p.maxNeighborsPerParticle;
+    double most = p.flex.maxNeighborsPerParticle;
     most = water ? fluid : std::min(most, fluid);
     cost.candidates = std::max(start.fluid, fluid * std::min(20.25 * per_cube, fluid)) + start.contacts;
     const double of_fluid = fluid > 0 ? std::max(start.fluid / fluid / 2, at_rest) : 0;  // half of the cells is near
@@ -221,11 +221,11 @@ Cost cost_of(const Model& model, const Computing& computing) {
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
     const double springs = static_cast<double>(model.springs.size());
     const double of_solids = springs + members + work_of_cluster * static_cast<double>(model.clusters.size());
-    const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.solidIterations) * of_solids +
+    const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.conserving.solid_iterations) * of_solids +
                                  particles * (work_of_particle + static_cast<double>(model.planes.size())) +
                                  work_of_substep;
-    const bool to_tolerance = p.densityTolerance > 0 && model.scheme == Scheme::conserving;
-    const int iterations = to_tolerance ? std::max(p.numIterations, p.maxIterations) : p.numIterations;
+    const bool to_tolerance = p.conserving.density_tolerance > 0 && model.scheme == Scheme::conserving;
+    const int iterations = to_tolerance ? std::max(p.iterations, p.conserving.max_iterations) : p.iterations;
     cost.per_substep += cost.candidates + 2 * cost.neighbours + iterations * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
 
@@ -266,7 +266,7 @@ void check_cost(const Model& model, double substeps, double more_bytes, const st
     const double work = substeps * cost.per_substep;
     if (work > budget.work)
         throw InputError(where + ": " + particles + " in " + figure_text(substeps) + " substeps of " +
-                         std::to_string(model.parameters.numIterations) + " iterations are about " + figure_text(work) +
+                         std::to_string(model.parameters.iterations) + " iterations are about " + figure_text(work) +
                          " pair visits: must be at most " + figure_text(budget.work) + " (NATATOR_MOST_WORK)");
 }
 

@@ -2,11 +2,9 @@
 
 #include "evaluation_run.h"
 #include "move_tank.h"
-#include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/pose.h"
+#include "natator/model.h"
 #include "perturb.h"
 #include "settled_start.h"
 

@@ -1,10 +1,9 @@
 #include <exception>
 
-#include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 
 namespace natator {
 namespace {

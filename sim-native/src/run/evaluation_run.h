@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "natator/evaluate.h"
-#include "natator/laws.h"
+#include "run/laws.h"
 #include "physics/laws.h"
 #include "swim_record.h"
 

@@ -3,8 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "natator/goal.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
 #include "natator/scene.h"
 
 namespace natator {

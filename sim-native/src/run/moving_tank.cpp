@@ -1,4 +1,4 @@
-#include "natator/moving_tank.h"
+#include "moving_tank.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "model/tank_ends.h"
 #include "natator/error.h"
-#include "natator/pose.h"
+#include "natator/measure.h"
 
 namespace natator {
 namespace {
@@ -43,7 +43,7 @@ MovingFrame::MovingFrame(const Scene& scene, const Model& model) : model_(model)
             refuse(scene, "step = " + number_text(tank_.step) + ": must be a multiple of the cells' " + number_text(model.water_box->cell) + " (fluid.spacing) in scheme lattice");
     }
     const Eigen::Vector3d centre = rest_centre(model);
-    const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
+    const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.conserving.kernel_support * model.parameters.fluid_rest_distance;
     for (const int axis : {0, 2}) {
         if ((axis == 2 && !tank_.along_z) || is_periodic(scene, axis)) continue;
         const auto [low, high] = walls_across(scene, axis);

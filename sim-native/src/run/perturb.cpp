@@ -13,7 +13,7 @@ Perturbation choose_start(int start, Scene& scene) {
         scene.fluid->disorder = start;
         return {};
     }
-    return {start_amplitude * scene.solver.fluidRestDistance, static_cast<std::uint64_t>(start)};
+    return {start_amplitude * scene.solver.fluid_rest_distance, static_cast<std::uint64_t>(start)};
 }
 
 void perturb(const Perturbation& perturbation, Model& model) {

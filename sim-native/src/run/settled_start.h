@@ -8,10 +8,11 @@
 namespace natator {
 
 /// The start of the scene at rest: from the cache if there is one and it is there, else settled and kept there. Sets
-/// `instability` if settling was unstable.
+/// `instability` if settling was unstable. What a GPU settles has bits of its own, and is not kept.
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver,
                           const SettledStateCache* cache, std::optional<Instability>& instability) {
+    if (solver.on_gpu()) cache = nullptr;
     if (cache)
         if (auto found = cache->find<Real>(model, settling)) return *found;
     State<Real> state = initial_state<Real>(model);

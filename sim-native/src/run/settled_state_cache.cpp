@@ -116,7 +116,9 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 template <class Real>
 std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
     if (is_not_worth_it(model, settling)) return std::nullopt;
-    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
+    std::string key = settled_state_key(model, settling, sizeof(Real));
+    if (key.empty()) return std::nullopt;
+    key.insert(0, by);
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
     std::ostringstream content;
@@ -135,7 +137,9 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 template <class Real>
 void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
     if (is_not_worth_it(model, settling)) return;
-    const std::string key = by + settled_state_key(model, settling, sizeof(Real));
+    std::string key = settled_state_key(model, settling, sizeof(Real));
+    if (key.empty()) return;
+    key.insert(0, by);
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&hash), sizeof hash);

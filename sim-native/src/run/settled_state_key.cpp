@@ -2,16 +2,25 @@
 
 #include <link.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "byte_writer.h"
 #include "natator/instruction_set.h"
 
 namespace natator {
 namespace {
 
-/// The build id that the linker put into the running program (ELF note NT_GNU_BUILD_ID): a digest of all its code.
+/// The build id that the linker put into the program or shared library that holds this function (ELF note
+/// NT_GNU_BUILD_ID): a digest of all its code. Empty without one.
 std::string build_id() {
     std::string id;
     const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
+        const auto here = reinterpret_cast<std::uintptr_t>(&build_id);
+        const auto holds = [&](const ElfW(Phdr)& part) {
+            return part.p_type == PT_LOAD && here - (info->dlpi_addr + part.p_vaddr) < part.p_memsz;
+        };
+        if (std::none_of(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum, holds)) return 0;
         for (int i = 0; i < info->dlpi_phnum; ++i) {
             if (info->dlpi_phdr[i].p_type != PT_NOTE) continue;
             // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
@@ -27,53 +36,54 @@ std::string build_id() {
                 at = content + padded(note->n_descsz);
             }
         }
-        return 1;  // the first object is the program itself
+        return 1;
     };
     dl_iterate_phdr(look, &id);
     return id;
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 288, "a parameter was added or removed: list it here");
-    for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxIterations, p.maxNeighborsPerParticle}) key.add(value);
+    static_assert(sizeof(SolverParameters) == 280, "a parameter was added or removed: list it here");
+    for (const int value : {p.substeps, p.iterations, p.conserving.solid_iterations, p.conserving.max_iterations, p.flex.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
-    for (const double value : {p.densityTolerance,
+    for (const double value : {p.conserving.density_tolerance,
                                p.radius,
-                               p.solidRestDistance,
-                               p.fluidRestDistance,
-                               p.dynamicFriction,
-                               p.staticFriction,
-                               p.particleFriction,
+                               p.solid_rest_distance,
+                               p.fluid_rest_distance,
+                               p.dynamic_friction,
+                               p.static_friction,
+                               p.particle_friction,
                                p.restitution,
                                p.adhesion,
-                               p.sleepThreshold,
-                               p.maxSpeed,
-                               p.maxAcceleration,
-                               p.shockPropagation,
+                               p.sleep_threshold,
+                               p.max_speed,
+                               p.max_acceleration,
+                               p.shock_propagation,
                                p.dissipation,
                                p.damping,
                                p.cohesion,
-                               p.surfaceTension,
-                               p.viscosity,
-                               p.kernelSupport,
-                               p.kinematicViscosity,
-                               p.vorticityConfinement,
-                               p.solidPressure,
-                               p.freeSurfaceDrag,
+                               p.surface_tension,
+                               p.flex.viscosity,
+                               p.conserving.kernel_support,
+                               p.conserving.kinematic_viscosity,
+                               p.vorticity_confinement,
+                               p.flex.solidPressure,
+                               p.free_surface_drag,
                                p.buoyancy,
-                               p.collisionDistance,
-                               p.particleCollisionMargin,
-                               p.shapeCollisionMargin,
-                               p.relaxationFactor})
+                               p.collision_distance,
+                               p.particle_collision_margin,
+                               p.shape_collision_margin,
+                               p.relaxation_factor})
         key.add(value);
-    key.add(p.relaxationMode);
-    key.add(p.modifiedPressure);
+    key.add(p.flex.relaxationMode);
+    key.add(p.conserving.modified_pressure);
 }
 
 }  // namespace
 
 std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
     static const std::string id = build_id();
+    if (id.empty()) return {};
     ByteWriter key;
     key.add(id);
     key.add(instruction_set());

@@ -1,6 +1,6 @@
 #include "base/whole_file.h"
 #include "natator/error.h"
-#include "natator/snapshot.h"
+#include "natator/record.h"
 
 namespace natator {
 

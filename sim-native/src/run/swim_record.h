@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "goals.h"
+#include "moving_tank.h"
 #include "natator/evaluate.h"
-#include "natator/moving_tank.h"
 
 namespace natator {
 

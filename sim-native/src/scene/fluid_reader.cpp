@@ -27,7 +27,7 @@ const std::vector<Field<FluidBlock>>& mass_fields() {
 }  // namespace
 
 FluidBlock read_fluid(const json& value, const Place& place) {
-    FluidBlock block;
+    FluidBlock block = thesis_tank().fluid.value();
     read_object(value, place, block_fields(), {"mass"}, block);
     if (!value.contains("mass")) return block;
 

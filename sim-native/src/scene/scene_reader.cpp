@@ -75,8 +75,10 @@ void check_frames(const Scene& scene, const Place& place) {
 
 Scene scene_from_json(const json& document, const std::string& name, const std::filesystem::path& data) {
     const Place place{"scene " + quoted(name), ""};
-    Scene scene;
+    Scene scene = thesis_tank();
     scene.name = name;
+    scene.planes.clear();
+    scene.fluid.reset();
     fields::read_object(document, place, scene_fields(),
                         {"base", "scheme", "solver", "planes", "periodic", "fluid", "creature", "settling",
                          "stopping", "movingTank", "goals", "companions", "obstacles"},

@@ -1,16 +1,16 @@
-#include "natator/gpu_solver.h"
+#include "gpu_solver.h"
 
 #include <utility>
 
 #include "cuda/device.h"
 #include "cuda/grid/grid_runner.h"
-#include "cuda/refusal.h"
 #include "cuda/kernel_choice.h"
+#include "cuda/refusal.h"
 #include "flex/cuda/batch_runner.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
+#include "natator/model.h"
 
 namespace natator {
 namespace cuda {
@@ -90,6 +90,7 @@ public:
     }
 
     double muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { muscle_work_ = 0; }
 
     std::vector<int> neighbour_counts() const {
         std::vector<int> counts(model_.particles(), 0);
@@ -256,6 +257,10 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Gait
 template <class Real>
 double GpuSolver<Real>::muscle_work() const {
     return implementation_->muscle_work();
+}
+template <class Real>
+void GpuSolver<Real>::clear_muscle_work() {
+    implementation_->clear_muscle_work();
 }
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {

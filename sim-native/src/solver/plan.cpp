@@ -1,4 +1,4 @@
-#include "natator/plan.h"
+#include "natator/solver.h"
 
 #include <algorithm>
 #include <limits>
@@ -41,7 +41,7 @@ bool is_uniform_fluid(const Model& model) {
 
 /// What scheme conserving is told of the water's weight.
 std::string about_weight(const Model& model) {
-    if (!model.parameters.modifiedPressure) return "";
+    if (!model.parameters.conserving.modified_pressure) return "";
     return solved_depth(model) < depth(model) ? ", modified pressure" : ", modified pressure (carries nothing: the water is shallow or weightless)";
 }
 
@@ -57,26 +57,26 @@ Plan make_plan(const Model& model) {
     plan.water = !flex && any_fluid;
     plan.fluid = flex && any_fluid;
     plan.contacts = has_contacts(model);
-    plan.solid_pressure = plan.fluid && plan.contacts && p.solidPressure != 0;
+    plan.solid_pressure = plan.fluid && plan.contacts && p.flex.solidPressure != 0;
     plan.uniform_fluid = plan.fluid && is_uniform_fluid(model);
     plan.springs = !model.springs.empty();
     plan.clusters = !model.clusters.empty();
     plan.planes = !model.planes.empty();
-    plan.particle_friction = plan.contacts && p.dynamicFriction > 0 && (p.particleFriction > 0 || p.staticFriction > 0);
-    plan.plane_friction = plan.planes && p.dynamicFriction > 0;
-    plan.viscosity = any_fluid && (flex ? p.viscosity != 0 : p.kinematicViscosity > 0);
+    plan.particle_friction = plan.contacts && p.dynamic_friction > 0 && (p.particle_friction > 0 || p.static_friction > 0);
+    plan.plane_friction = plan.planes && p.dynamic_friction > 0;
+    plan.viscosity = any_fluid && (flex ? p.flex.viscosity != 0 : p.conserving.kinematic_viscosity > 0);
     plan.damping = p.damping != 0;
-    plan.clamp_acceleration = flex && is_limit(p.maxAcceleration);
-    plan.clamp_speed = is_limit(p.maxSpeed);
+    plan.clamp_acceleration = flex && is_limit(p.max_acceleration);
+    plan.clamp_speed = is_limit(p.max_speed);
     plan.restitution = plan.planes && p.restitution > 0;
     plan.adhesion = plan.planes && p.adhesion > 0;
-    plan.sleep = p.sleepThreshold > 0;
-    plan.shock_propagation = plan.contacts && p.shockPropagation > 0 && !p.gravity.isZero();
+    plan.sleep = p.sleep_threshold > 0;
+    plan.shock_propagation = plan.contacts && p.shock_propagation > 0 && !p.gravity.isZero();
     plan.dissipation = plan.contacts && p.dissipation > 0;
     plan.cohesion = any_fluid && p.cohesion > 0;
-    plan.surface_tension = any_fluid && p.surfaceTension > 0;
-    plan.vorticity = any_fluid && p.vorticityConfinement > 0;
-    plan.free_surface_drag = any_fluid && p.freeSurfaceDrag > 0;
+    plan.surface_tension = any_fluid && p.surface_tension > 0;
+    plan.vorticity = any_fluid && p.vorticity_confinement > 0;
+    plan.free_surface_drag = any_fluid && p.free_surface_drag > 0;
     plan.fluid_forces = plan.surface_tension || plan.vorticity || (plan.water && (plan.cohesion || plan.free_surface_drag));
     return plan;
 }
@@ -84,11 +84,11 @@ Plan make_plan(const Model& model) {
 Plan make_unskipped_plan(const Model& model) {
     const SolverParameters& p = model.parameters;
     Plan plan = make_plan(model);
-    const bool frictionless = p.particleFriction <= 0 && p.staticFriction <= 0;
+    const bool frictionless = p.particle_friction <= 0 && p.static_friction <= 0;
     plan.contacts = plan.springs = plan.clusters = plan.planes = true;
     plan.uniform_fluid = false;
     plan.particle_friction |= frictionless;
-    plan.plane_friction |= p.dynamicFriction <= 0 && p.staticFriction <= 0;
+    plan.plane_friction |= p.dynamic_friction <= 0 && p.static_friction <= 0;
     plan.damping = plan.clamp_speed = plan.sleep = plan.adhesion = plan.dissipation = true;
     plan.shock_propagation |= !p.gravity.isZero();
     plan.solid_pressure = plan.fluid;
@@ -108,10 +108,10 @@ std::vector<std::string> describe_plan(const Model& model) {
         flex ? "per frame: actuate muscles" : "per substep: actuate muscles, with a start ramp");
     const auto once = [](const std::string& what) { return "per substep: " + what; };
     const auto each = [&](Stage stage, const char* kind = "") {
-        return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
+        return std::to_string(model.parameters.iterations) + " x per substep: " + kind + name(stage);
     };
     const auto each_of_solids = [&](Stage stage) {
-        const int times = model.parameters.numIterations * (flex ? 1 : model.parameters.solidIterations);
+        const int times = model.parameters.iterations * (flex ? 1 : model.parameters.conserving.solid_iterations);
         return std::to_string(times) + " x per substep: " + name(stage);
     };
     const auto forces = [&] {
@@ -137,7 +137,7 @@ std::vector<std::string> describe_plan(const Model& model) {
                            (plan.shock_propagation ? ", shock propagation" : ""));
     add(plan.springs, each_of_solids(Stage::springs));
     add(plan.clusters, each_of_solids(Stage::shape_matching));
-    const bool local = model.parameters.relaxationMode == RelaxationMode::local;
+    const bool local = model.parameters.flex.relaxationMode == RelaxationMode::local;
     add(flex, each(Stage::relaxation, local ? "local " : "global "));
     add(plan.planes, each_of_solids(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
     std::string velocities = once(name(Stage::velocities));

@@ -7,11 +7,13 @@
 
 #include "base/check_values.h"
 #include "flex/cpu/flex_stages.h"
+#include "gpu_solver.h"
 #include "lattice/coupling.h"
 #include "law_name.h"
 #include "model/check_model.h"
-#include "natator/actuate.h"
-#include "natator/steering.h"
+#include "natator/error.h"
+#include "natator/gait.h"
+#include "natator/model.h"
 #include "solids/cpu/conserving_stages.h"
 #include "step.h"
 
@@ -20,8 +22,8 @@ namespace {
 
 Iterations iterations_of(const Model& model) {
     const SolverParameters& p = model.parameters;
-    const bool to_tolerance = p.densityTolerance > 0 && model.scheme == Scheme::conserving;
-    return {p.numIterations, p.solidIterations, to_tolerance ? p.maxIterations : 0};
+    const bool to_tolerance = p.conserving.density_tolerance > 0 && model.scheme == Scheme::conserving;
+    return {p.iterations, p.conserving.solid_iterations, to_tolerance ? p.conserving.max_iterations : 0};
 }
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
@@ -142,6 +144,7 @@ public:
     }
 
     const Model& model() const { return model_; }
+    bool on_gpu() const { return coupling_ && execution_.gpu; }
 
     void shift_water(const Eigen::Vector3d& by) {
         if (coupling_) coupling_->shift(by);
@@ -229,8 +232,12 @@ private:
 };
 
 template <class Real>
-Solver<Real>::Solver(const Model& model, const Execution& execution)
-    : implementation_(std::make_unique<Implementation>(model, execution)) {}
+Solver<Real>::Solver(const Model& model, const Execution& execution) {
+    if (execution.gpu && model.scheme != Scheme::lattice)
+        gpu_ = std::make_unique<GpuSolver<Real>>(model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
+    else
+        implementation_ = std::make_unique<Implementation>(model, execution);
+}
 template <class Real>
 Solver<Real>::~Solver() = default;
 template <class Real>
@@ -241,17 +248,20 @@ Solver<Real>& Solver<Real>::operator=(Solver&&) noexcept = default;
 template <class Real>
 std::optional<Instability> Solver<Real>::update(State<Real>& state, double time_step, int substeps,
                                                 StepObserver<Real>* observer) {
+    if (gpu_) return gpu_->update(state, time_step, substeps, observer);
     return implementation_->update(state, time_step, substeps, observer, nullptr);
 }
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& gait) {
+    if (gpu_) return gpu_->frame(state, gait);
     const Model& model = implementation_->model();
     return implementation_->frame(state, [&](double time) { return natator::drive(model, gait, time); });
 }
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
+    if (gpu_) throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
     return implementation_->frame(state, [&](double time) {
         std::vector<double> driven = drive(time);
         check_driven(driven, implementation_->model().actuators);
@@ -261,37 +271,42 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
 
 template <class Real>
 void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
-    implementation_->shift_water(by);
+    if (!gpu_) implementation_->shift_water(by);
 }
 
 template <class Real>
 double Solver<Real>::muscle_work() const {
-    return implementation_->muscle_work();
+    return gpu_ ? gpu_->muscle_work() : implementation_->muscle_work();
 }
 
 template <class Real>
 void Solver<Real>::clear_muscle_work() {
-    implementation_->clear_muscle_work();
+    gpu_ ? gpu_->clear_muscle_work() : implementation_->clear_muscle_work();
 }
 
 template <class Real>
 std::vector<Real> Solver<Real>::densities() {
-    return implementation_->densities();
+    return gpu_ ? gpu_->densities() : implementation_->densities();
 }
 
 template <class Real>
 std::vector<Real> Solver<Real>::pressures() const {
-    return implementation_->pressures();
+    return gpu_ ? gpu_->pressures() : implementation_->pressures();
 }
 
 template <class Real>
 std::vector<Vector3<Real>> Solver<Real>::forces() const {
-    return implementation_->forces();
+    return gpu_ ? gpu_->forces() : implementation_->forces();
 }
 
 template <class Real>
 std::vector<int> Solver<Real>::neighbour_counts() const {
-    return implementation_->neighbour_counts();
+    return gpu_ ? gpu_->neighbour_counts() : implementation_->neighbour_counts();
+}
+
+template <class Real>
+bool Solver<Real>::on_gpu() const {
+    return gpu_ || implementation_->on_gpu();
 }
 
 template State<float> initial_state<float>(const Model&);

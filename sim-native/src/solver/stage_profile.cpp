@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "natator/execution.h"
+#include "natator/solver.h"
 
 namespace natator {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/plan.h"
+#include "natator/solver.h"
 #include "physics/dfsph.h"
 #include "stage.h"
 

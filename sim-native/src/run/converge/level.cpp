@@ -22,11 +22,11 @@ json refined_fluid(const FluidBlock& fluid, int n) {
 
 json refined_distances(const SolverParameters& p, int n) {
     return {{"radius", p.radius / n},
-            {"solidRestDistance", p.solidRestDistance / n},
-            {"fluidRestDistance", p.fluidRestDistance / n},
-            {"collisionDistance", p.collisionDistance / n},
-            {"particleCollisionMargin", p.particleCollisionMargin / n},
-            {"shapeCollisionMargin", p.shapeCollisionMargin / n}};
+            {"solidRestDistance", p.solid_rest_distance / n},
+            {"fluidRestDistance", p.fluid_rest_distance / n},
+            {"collisionDistance", p.collision_distance / n},
+            {"particleCollisionMargin", p.particle_collision_margin / n},
+            {"shapeCollisionMargin", p.shape_collision_margin / n}};
 }
 
 }  // namespace

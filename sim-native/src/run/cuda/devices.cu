@@ -1,7 +1,7 @@
 #include <string>
 
 #include "natator/batch.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/owned_array.h"
 #include "solver/cuda/refusal.h"

@@ -1,21 +1,20 @@
 #include <algorithm>
 #include <new>
 
-#include "uses_grid_kernels.h"
 #include "evaluate_on_grid.h"
 #include "evaluation.h"
-#include "natator/actuate.h"
 #include "natator/batch.h"
-#include "natator/laws.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "natator/settled_state_cache.h"
+#include "run/laws.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
 #include "solver/cuda/device.h"
-#include "solver/cuda/refusal.h"
 #include "solver/cuda/kernel_choice.h"
+#include "solver/cuda/refusal.h"
 #include "solver/flex/cuda/batch_runner.h"
 #include "solver/law_name.h"
+#include "uses_grid_kernels.h"
 
 namespace natator {
 namespace cuda {

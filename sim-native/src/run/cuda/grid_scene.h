@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "busy_time.h"
-#include "model_group.h"
 #include "evaluation.h"
+#include "model_group.h"
 #include "natator/settled_state_cache.h"
-#include "shared_once.h"
 #include "run/perturb.h"
 #include "run/side_by_side.h"
+#include "shared_once.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/grid/grid_runner.h"
 

@@ -1,6 +1,6 @@
 #include "model_group.h"
 
-#include "natator/model_builder.h"
+#include "natator/model.h"
 
 namespace natator::cuda {
 

@@ -1,8 +1,8 @@
 #include "uses_grid_kernels.h"
 
-#include "natator/plan.h"
-#include "solver/cuda/owned_array.h"
+#include "natator/solver.h"
 #include "solver/cuda/kernel_choice.h"
+#include "solver/cuda/owned_array.h"
 
 namespace natator::cuda {
 namespace {

@@ -5,7 +5,7 @@
 #include "model/check_model.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
-#include "natator/swimming.h"
+#include "natator/measure.h"
 #include "physics/dfsph.h"
 
 namespace natator {

@@ -1,9 +1,8 @@
-#include "natator/course.h"
+#include "natator/measure.h"
 
 #include <cmath>
 
 #include "model/check_model.h"
-#include "natator/pose.h"
 
 namespace natator {
 

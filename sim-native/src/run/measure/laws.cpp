@@ -1,4 +1,4 @@
-#include "natator/laws.h"
+#include "run/laws.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr double max_unequal = 4;      ///< of masses: a light particle gets up 
 constexpr double max_body_lengths = 90;  ///< a second, that anything goes unless it falls as fast
 constexpr double energy_margin = 0.1;   ///< of the energy of a fall of all that moves
 // What explicit forces set free, measured in a box of water: at most 14 cohesion at R = 1.5 s = 0.15, and without gravity, which
-// gives no measure for it, 0.25 surfaceTension at s = 0.1.
+// gives no measure for it, 0.25 surface_tension at s = 0.1.
 constexpr double cohesion_energy = 1.0 / 32, tension_energy = 5;
 constexpr double corrected_start = 0.01;  ///< of the radius, by constraints in a substep: starts may be shifted by as much
 constexpr double disordered = 1.1;      ///< room in the box around water that is disordered, over what it needs
@@ -141,7 +141,7 @@ struct LawWatch::Parts {
     static Sources sources(const Model& model) {
         const SolverParameters& p = model.parameters;
         const Eigen::Vector3d gravity = bounded_gravity(model);
-        const double pull = gravity.norm() * std::max(1.0, std::abs(p.buoyancy)), spacing = p.fluidRestDistance;
+        const double pull = gravity.norm() * std::max(1.0, std::abs(p.buoyancy)), spacing = p.fluid_rest_distance;
         Eigen::AlignedBox3d fluid;
         double low = std::numeric_limits<double>::max(), high = -low, lightest = low, heaviest = 0;
         int count = 0;
@@ -163,7 +163,7 @@ struct LawWatch::Parts {
         const double room = (fluid.sizes().array() + spacing).prod();
         own.crowding = std::max(1.0, disordered * model.particles() * spacing * spacing * spacing / room);  // solids take room, too
         own.forces = cohesion_energy * p.cohesion * square(p.radius / physics::thesis_substep);
-        if (!(pull > 0)) own.forces += tension_energy * p.surfaceTension * spacing;
+        if (!(pull > 0)) own.forces += tension_energy * p.surface_tension * spacing;
         own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
         const double expansion = physics::max_excess * p.substeps / model.time_step;
         const double slow = pull > 0 ? physics::expansion * std::sqrt(pull / spacing) : expansion;

@@ -21,7 +21,7 @@ bool touches_plane(const Model& model, const State<Real>& state) {
     return std::any_of(model.planes.begin(), model.planes.end(), [&](const Plane& plane) {
         return std::any_of(model.body.particles.begin(), model.body.particles.end(), [&](int particle) {
             const double distance = plane.distance(state.position[particle].template cast<double>());
-            return physics::touches(distance, model.parameters.collisionDistance, plane.offset);
+            return physics::touches(distance, model.parameters.collision_distance, plane.offset);
         });
     });
 }

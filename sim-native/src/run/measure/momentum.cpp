@@ -1,4 +1,4 @@
-#include "natator/momentum.h"
+#include "natator/measure.h"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "natator/pose.h"
+#include "natator/measure.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

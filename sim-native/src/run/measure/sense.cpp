@@ -1,4 +1,4 @@
-#include "natator/sense.h"
+#include "natator/measure.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include "model/borders.h"
 #include "model/check_model.h"
 #include "natator/error.h"
-#include "natator/pose.h"
 #include "physics/constants.h"
 
 namespace natator {
@@ -155,7 +154,7 @@ std::vector<SkinFlow> flow_at(const Model& model, const State<Real>& state, cons
     std::vector<Probe> probes;
     for (const SkinPlace& place : sensing.flow) probes.push_back(probe_at(model, state, place));
     const SolverParameters& solver = model.parameters;
-    const double within = sensing.within > 0 ? sensing.within : solver.solidRestDistance + 2 * solver.fluidRestDistance;
+    const double within = sensing.within > 0 ? sensing.within : solver.solid_rest_distance + 2 * solver.fluid_rest_distance;
     feel_water(model, state, within, probes);
     std::vector<SkinFlow> flow;
     for (const Probe& probe : probes) {

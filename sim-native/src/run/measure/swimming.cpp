@@ -1,11 +1,11 @@
-#include "natator/swimming.h"
+#include "natator/measure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/text.h"
-#include "natator/plan.h"
+#include "natator/solver.h"
 
 namespace natator {
 namespace {
@@ -47,7 +47,7 @@ double water_across(const Model& model) {
         const Eigen::Array3d size = high - low + model.body.spacing;
         across = std::max(across, std::min(size.y(), size.z()));
     }
-    return across / (model.water_box ? model.water_box->cell : model.parameters.fluidRestDistance);
+    return across / (model.water_box ? model.water_box->cell : model.parameters.fluid_rest_distance);
 }
 
 std::string warning_of_across(double across) {
@@ -83,7 +83,7 @@ std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& 
     numbers.tail_amplitude = *amplitude;
     numbers.across = water_across(model);
     const double speed = std::abs(distance) / simulated, length = model.body.length;
-    const double viscosity = model.parameters.kinematicViscosity;
+    const double viscosity = model.parameters.conserving.kinematic_viscosity;
     if (speed > 0) numbers.strouhal = gait.frequency * *amplitude / speed;
     if (viscosity > 0) {
         numbers.reynolds = speed * length / viscosity;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "natator/state.h"
+#include "natator/model.h"
 #include "thread_team.h"
 
 namespace natator::cpu {

@@ -44,7 +44,7 @@ void Substep<Real>::find_contacts() {
     ws_.contact_begin.push_back(static_cast<int>(ws_.contact.size()));
 }
 
-/// Lists the planes that each particle is within collisionDistance plus margin of, last plane first.
+/// Lists the planes that each particle is within collision_distance plus margin of, last plane first.
 template <class Real>
 void Substep<Real>::find_plane_contacts() {
     ws_.plane_groups.clear();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "natator/residuals.h"
+#include "natator/solver.h"
 
 namespace natator::cpu {
 

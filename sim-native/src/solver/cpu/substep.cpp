@@ -8,22 +8,22 @@ template <class Real>
 Constants<Real>::Constants(const SolverParameters& p)
     : radius(Real(p.radius)),
       inverse_radius(1 / radius),
-      search_distance(Real(p.radius) + Real(p.particleCollisionMargin)),
-      solid_rest_distance(Real(p.solidRestDistance)),
+      search_distance(Real(p.radius) + Real(p.particle_collision_margin)),
+      solid_rest_distance(Real(p.solid_rest_distance)),
       density_scale(0),
-      dynamic_friction(Real(p.dynamicFriction)),
-      static_friction(Real(p.staticFriction)),
-      particle_friction(Real(p.particleFriction)),
-      collision_distance(Real(p.collisionDistance)),
-      plane_search_distance(Real(p.collisionDistance) + Real(p.shapeCollisionMargin)),
-      relaxation_factor(Real(p.relaxationFactor)),
-      max_speed(Real(p.maxSpeed)),
-      cohesion_slope(static_cast<Real>(physics::cohesion_slope(p.fluidRestDistance / p.radius))),
+      dynamic_friction(Real(p.dynamic_friction)),
+      static_friction(Real(p.static_friction)),
+      particle_friction(Real(p.particle_friction)),
+      collision_distance(Real(p.collision_distance)),
+      plane_search_distance(Real(p.collision_distance) + Real(p.shape_collision_margin)),
+      relaxation_factor(Real(p.relaxation_factor)),
+      max_speed(Real(p.max_speed)),
+      cohesion_slope(static_cast<Real>(physics::cohesion_slope(p.fluid_rest_distance / p.radius))),
       gradient_estimate(0) {
-    if (p.fluidRestDistance > 0)
+    if (p.fluid_rest_distance > 0)
         gradient_estimate = static_cast<Real>(
-            3 / rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return (1 - q) * q; }));
-    const double rest_sum = p.fluidRestDistance > 0 ? rest_packing_sum(p.fluidRestDistance / p.radius,
+            3 / rest_packing_sum(p.fluid_rest_distance / p.radius, [](double q) { return (1 - q) * q; }));
+    const double rest_sum = p.fluid_rest_distance > 0 ? rest_packing_sum(p.fluid_rest_distance / p.radius,
                                                                        [](double q) { return (1 - q) * (1 - q); })
                                                     : 0;
     if (rest_sum > 0) density_scale = static_cast<Real>(1 / rest_sum);
@@ -35,7 +35,7 @@ Substep<Real>::Substep(const Model& model, const Plan& plan)
       plan_(plan),
       constants_(model.parameters),
       ws_(model),
-      max_neighbours_(model.parameters.maxNeighborsPerParticle),
+      max_neighbours_(model.parameters.flex.maxNeighborsPerParticle),
       kernels_(&fluid_kernels<Real>(instruction_set())),
       neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
       motion_kernels_(&motion_kernels<Real>(instruction_set())),

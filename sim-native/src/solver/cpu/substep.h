@@ -7,11 +7,10 @@
 
 #include "fluid_kernels.h"
 #include "motion_kernels.h"
-#include "natator/plan.h"
 #include "natator/solver.h"
+#include "neighbour_lists.h"
 #include "physics/contact.h"
 #include "physics/spring.h"
-#include "neighbour_lists.h"
 #include "plane_kernels.h"
 #include "solver/step.h"
 #include "thread_team.h"
@@ -25,7 +24,7 @@ struct Constants {
     explicit Constants(const SolverParameters& parameters);
 
     Real radius, inverse_radius;
-    Real search_distance;  ///< radius + particleCollisionMargin
+    Real search_distance;  ///< radius + particle_collision_margin
     Real solid_rest_distance;
     Real density_scale;  ///< 1/S: makes the density of the rest packing 1
     Real dynamic_friction, static_friction, particle_friction;
@@ -182,7 +181,7 @@ protected:
     Real partner_weight(int slot, int other) const {
         const Real w = ws_.inverse_mass[other];
         if (!plan_.shock_propagation) return w;
-        return w * physics::shock_factor(up_, static_cast<Real>(model_.parameters.shockPropagation),
+        return w * physics::shock_factor(up_, static_cast<Real>(model_.parameters.shock_propagation),
                                          start_of_slot(slot) - start_of_slot(other));
     }
     /// Calls visit(other slot, vector from other to this, r, q = r/R) for the fluid neighbours with 0 < r < R.

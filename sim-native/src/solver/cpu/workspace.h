@@ -6,7 +6,6 @@
 #include "aligned.h"
 #include "cell_grid.h"
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator::cpu {
 

@@ -3,8 +3,8 @@
 #include "base/text.h"
 #include "device.h"
 #include "model_view.h"
-#include "natator/actuate.h"
 #include "natator/error.h"
+#include "natator/model.h"
 #include "natator/solver.h"
 #include "owned_array.h"
 #include "refusal.h"
@@ -40,8 +40,8 @@ std::optional<std::string> refusal(const Model& model) {
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
     if (!make_plan(model).water) return std::nullopt;
-    if (model.parameters.densityTolerance > 0) {
-        return "densityTolerance = " + number_text(model.parameters.densityTolerance) + "; must be 0: a GPU has numIterations";
+    if (model.parameters.conserving.density_tolerance > 0) {
+        return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) + "; must be 0: a GPU has numIterations";
     }
     if (const std::size_t borders = model.planes.size() + 2 * model.periodic.size(); borders > max_borders)
         return std::to_string(borders) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +

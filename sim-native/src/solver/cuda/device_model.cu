@@ -4,15 +4,15 @@
 #include <limits>
 
 #include "ghost_maps.h"
-#include "model/borders.h"
+#include "kernel_choice.h"
 #include "model/background_pressure.h"
+#include "model/borders.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/substep.h"
 #include "solver/solids/cpu/solids.h"
-#include "kernel_choice.h"
 
 namespace natator::cuda {
 namespace {
@@ -72,10 +72,10 @@ void DeviceModel<Real>::set_constants(const Model& model) {
     view_.plane_search_distance = constants.plane_search_distance;
     view_.relaxation_factor = constants.relaxation_factor;
     view_.max_speed = constants.max_speed;
-    view_.viscosity = static_cast<Real>(p.viscosity);
+    view_.viscosity = static_cast<Real>(p.flex.viscosity);
     view_.damping = static_cast<Real>(p.damping);
-    view_.max_acceleration = static_cast<Real>(p.maxAcceleration);
-    view_.solid_pressure = static_cast<Real>(p.solidPressure);
+    view_.max_acceleration = static_cast<Real>(p.max_acceleration);
+    view_.solid_pressure = static_cast<Real>(p.flex.solidPressure);
     view_.restitution = static_cast<Real>(p.restitution);
     view_.touching_distance = constants.collision_distance + Real(physics::touching_tolerance) * constants.radius;
     view_.slowest_impact = 2 * static_cast<Real>(p.gravity.norm());
@@ -84,20 +84,20 @@ void DeviceModel<Real>::set_constants(const Model& model) {
     view_.cohesion_slope = constants.cohesion_slope;
     view_.gradient_estimate = constants.gradient_estimate;
     view_.adhesion = static_cast<Real>(p.adhesion);
-    view_.sleep_threshold = static_cast<Real>(p.sleepThreshold);
-    view_.surface_tension = static_cast<Real>(p.surfaceTension);
-    view_.vorticity = static_cast<Real>(p.vorticityConfinement);
-    view_.free_surface_drag = static_cast<Real>(p.freeSurfaceDrag);
-    view_.shock_propagation = static_cast<Real>(p.shockPropagation);
+    view_.sleep_threshold = static_cast<Real>(p.sleep_threshold);
+    view_.surface_tension = static_cast<Real>(p.surface_tension);
+    view_.vorticity = static_cast<Real>(p.vorticity_confinement);
+    view_.free_surface_drag = static_cast<Real>(p.free_surface_drag);
+    view_.shock_propagation = static_cast<Real>(p.shock_propagation);
     view_.up = vec3<Real>(-p.gravity.normalized());
-    view_.local_relaxation = p.relaxationMode == RelaxationMode::local;
+    view_.local_relaxation = p.flex.relaxationMode == RelaxationMode::local;
     view_.gravity = vec3<Real>(p.gravity);
     view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);
     view_.bounded_gravity = vec3<Real>(gravity_on_walls(model));
     view_.bounded_fluid_gravity = vec3<Real>(gravity_on_walls(model) * p.buoyancy);
-    view_.iterations = p.numIterations;
-    view_.solid_iterations = p.solidIterations;
-    view_.most_neighbours = p.maxNeighborsPerParticle;
+    view_.iterations = p.iterations;
+    view_.solid_iterations = p.conserving.solid_iterations;
+    view_.most_neighbours = p.flex.maxNeighborsPerParticle;
     view_.planes = static_cast<int>(model.planes.size());
     for (int k = 0; k < view_.planes; ++k) {
         const Plane& plane = model.planes[k];
@@ -138,7 +138,7 @@ void DeviceModel<Real>::upload_particles(const Model& model) {
 template <class Real>
 void DeviceModel<Real>::set_water(const Model& model) {
     WaterModel<Real>& water = view_.water;
-    const double radius = support(model), spacing = model.parameters.fluidRestDistance;
+    const double radius = support(model), spacing = model.parameters.fluid_rest_distance;
     const std::vector<double> volumes = particle_volumes(model);
     water.radius = static_cast<Real>(radius);
     water.spacing = static_cast<Real>(spacing);
@@ -146,7 +146,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.softening = physics::viscous_softening(water.spacing);
     const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
-    water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
+    water.dynamic_viscosity = static_cast<Real>(model.parameters.conserving.kinematic_viscosity * density);
     water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
     water.carried = background_pressure<Real>(model);
     water.kernel = physics::wendland_kernel(water.radius, static_cast<Real>(wendland(0, radius)));

@@ -4,7 +4,7 @@
 
 #include "device_model.h"
 #include "host_buffer.h"
-#include "natator/state.h"
+#include "natator/model.h"
 #include "state_team.cuh"
 
 namespace natator::cuda {

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "natator/plan.h"
-#include "physics/border.h"
+#include "natator/solver.h"
 #include "physics/background_pressure.h"
+#include "physics/border.h"
 #include "physics/dfsph.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"

@@ -1,8 +1,8 @@
 // What a build without CUDA answers.
-#include "natator/error.h"
-#include "natator/gpu_solver.h"
 #include "no_cuda.h"
+#include "natator/error.h"
 #include "solver/cuda/grid/fetch_roof.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
 
@@ -43,6 +43,10 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
 }
 template <class Real>
 double GpuSolver<Real>::muscle_work() const {
+    refuse_without_cuda();
+}
+template <class Real>
+void GpuSolver<Real>::clear_muscle_work() {
     refuse_without_cuda();
 }
 template <class Real>

@@ -6,7 +6,6 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/state.h"
 
 namespace natator::cuda {
 

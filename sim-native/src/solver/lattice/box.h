@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/water_box.h"
+#include "natator/model.h"
 
 namespace natator::lattice {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "natator/model.h"
-#include "natator/state.h"
 #include "water.h"
 
 namespace natator::lattice {

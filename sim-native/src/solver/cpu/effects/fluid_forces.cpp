@@ -8,7 +8,7 @@ namespace natator::cpu {
 /// Masses enter by impulse_share.
 template <class Real>
 void Substep<Real>::add_surface_tension() {
-    const Real strength = static_cast<Real>(model_.parameters.surfaceTension);
+    const Real strength = static_cast<Real>(model_.parameters.surface_tension);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         Vec3<Real> sum{};
         for_each_fluid_neighbour(slot, [&](int, const Vec3<Real>& difference, Real r, Real q) {
@@ -30,7 +30,7 @@ void Substep<Real>::add_surface_tension() {
 template <class Real>
 void Substep<Real>::add_vorticity_confinement() {
     const Real scale = constants_.gradient_estimate * constants_.inverse_radius;
-    const Real strength = static_cast<Real>(model_.parameters.vorticityConfinement);
+    const Real strength = static_cast<Real>(model_.parameters.vorticity_confinement);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         const Vec3<Real> velocity = new_velocity_[ws_.particle_of[slot]];
         Vec3<Real> sum{};

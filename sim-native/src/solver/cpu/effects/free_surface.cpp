@@ -6,7 +6,7 @@ namespace natator::cpu {
 /// The density is that of the last iteration.
 template <class Real>
 void Substep<Real>::drag_free_surface() {
-    const Real step = h_ * static_cast<Real>(model_.parameters.freeSurfaceDrag);
+    const Real step = h_ * static_cast<Real>(model_.parameters.free_surface_drag);
     for (const int i : ws_.fluid_ids)
         new_velocity_[i] = physics::dragged(new_velocity_[i], ws_.density[ws_.slot_of[i]], step);
 }

@@ -2,11 +2,11 @@
 
 namespace natator::cpu {
 
-/// A particle that ends the substep slower than sleepThreshold stays where it started and loses its velocity.
+/// A particle that ends the substep slower than sleep_threshold stays where it started and loses its velocity.
 /// (NVIDIA Flex was measured to hold its position too, but to report v - v_x in every component as its velocity.)
 template <class Real>
 void Substep<Real>::apply_sleep() {
-    const Real threshold = static_cast<Real>(model_.parameters.sleepThreshold);
+    const Real threshold = static_cast<Real>(model_.parameters.sleep_threshold);
     for (int i = 0; i < ws_.particles; ++i) {
         if (!(norm(new_velocity_[i]) < threshold)) continue;
         new_velocity_[i] = {};

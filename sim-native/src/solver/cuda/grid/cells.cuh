@@ -11,7 +11,7 @@ __device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real>
     return x;
 }
 
-/// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
+/// v* = v + h g, |v*| <= max_speed, x* = x + h v*; counts the particles of each cell, the fluid's first.
 template <Scheme scheme, class Real>
 __device__ void predict_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     Vec4<Real> x = slots.at.state_position[s];

@@ -7,7 +7,7 @@
 
 #include "grid_runner.h"
 #include "natator/error.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/event.h"
 #include "solver/cuda/refusal.h"
@@ -49,7 +49,7 @@ FetchRoof measure_fetch_roof(const Scene& scene, const std::vector<Gait>& gaits,
         const std::vector<int> counts = runner.neighbour_counts();
         roof.pairs += std::accumulate(counts.begin(), counts.end(), 0.0) / frames;
     }
-    const double passes = static_cast<double>(frames) * model.parameters.substeps * model.parameters.numIterations;
+    const double passes = static_cast<double>(frames) * model.parameters.substeps * model.parameters.iterations;
     roof.density_constraint = seconds_in(profile, Stage::density_constraint) / passes;
     roof.velocities = runner.fetch_seconds(Fetch::velocities);
     roof.impulses = runner.fetch_seconds(Fetch::impulses);

@@ -61,7 +61,7 @@ GridMemory<Real>::GridMemory(const Model& model, const DeviceModel<Real>& device
     if (!view_.plan.water) return;
     make_room_for_copies(usual_copies(view_));
     list_water(blocks_for(view_.particles, slots_of_row) *
-               blocks_for(usual_water_neighbours(model.parameters.kernelSupport), water_lists));
+               blocks_for(usual_water_neighbours(model.parameters.conserving.kernel_support), water_lists));
 }
 
 /// The arrays of a State one behind the other, and so for each State.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "natator/state.h"
+#include "natator/model.h"
 #include "slots.cuh"
 #include "solver/cuda/device_model.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "natator/actuate.h"
+#include "natator/model.h"
 #include "rows.h"
 #include "solver/cuda/event.h"
 

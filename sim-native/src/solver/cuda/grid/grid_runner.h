@@ -8,7 +8,7 @@
 
 #include "grid_memory.h"
 #include "natator/gait.h"
-#include "natator/state.h"
+#include "natator/model.h"
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
 #include "solver/cuda/stream.h"

@@ -3,7 +3,7 @@
 #include <deque>
 #include <optional>
 
-#include "natator/execution.h"
+#include "natator/solver.h"
 #include "solver/cuda/device_buffer.h"
 #include "solver/stage.h"
 

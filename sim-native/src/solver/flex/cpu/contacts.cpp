@@ -2,7 +2,7 @@
 
 namespace natator::cpu {
 
-/// Pair that is not fluid-fluid, depth e = solidRestDistance - r > 0: Dx_i = w_i / (w_i + w_j) (e n - friction).
+/// Pair that is not fluid-fluid, depth e = solid_rest_distance - r > 0: Dx_i = w_i / (w_i + w_j) (e n - friction).
 template <class Real>
 void FlexStages<Real>::solve_contacts() {
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {

@@ -7,7 +7,7 @@ template <class Real>
 void FlexStages<Real>::compute_density() {
     if (plan_.solid_pressure) {
         std::fill(ws_.solid_density.begin(), ws_.solid_density.end(), Real(0));
-        const Real weight = static_cast<Real>(model_.parameters.solidPressure);
+        const Real weight = static_cast<Real>(model_.parameters.flex.solidPressure);
         for (std::size_t k = 0; k < ws_.touched.size() && ws_.touched[k] < ws_.fluid; ++k) {
             const int slot = ws_.touched[k];
             Real sum = 0;

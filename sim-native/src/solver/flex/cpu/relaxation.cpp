@@ -6,7 +6,7 @@ namespace natator::cpu {
 /// clusters.
 template <class Real>
 void FlexStages<Real>::relax_and_apply() {
-    const bool local = model_.parameters.relaxationMode == RelaxationMode::local;
+    const bool local = model_.parameters.flex.relaxationMode == RelaxationMode::local;
     this->on_all_threads(this->motion_view(), [&](const MotionView<Real>& slots) {
         motion_kernels_->relax(slots, constants_.relaxation_factor, local);
     });

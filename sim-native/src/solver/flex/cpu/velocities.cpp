@@ -16,11 +16,11 @@ void FlexStages<Real>::update_velocities() {
         this->on_all_threads(fluid, kernels_->smooth_velocities);
     }
     const physics::VelocityRule<Real> rule{.viscosity = plan_.viscosity,
-                                           .viscosity_step = h_ * static_cast<Real>(p.viscosity),
+                                           .viscosity_step = h_ * static_cast<Real>(p.flex.viscosity),
                                            .damping = plan_.damping,
                                            .damping_step = h_ * static_cast<Real>(p.damping),
                                            .clamp_acceleration = plan_.clamp_acceleration,
-                                           .max_change = h_ * static_cast<Real>(p.maxAcceleration),
+                                           .max_change = h_ * static_cast<Real>(p.max_acceleration),
                                            .clamp_speed = plan_.clamp_speed,
                                            .max_speed = constants_.max_speed};
     this->on_all_threads(all, [&](const MotionView<Real>& slots) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/stop_reason.h"
+#include "natator/solver.h"
 #include "physics/laws.h"
 #include "solver/cuda/state_team.cuh"
 

@@ -6,7 +6,7 @@
 
 #include "batch_kernel.cuh"
 #include "natator/error.h"
-#include "natator/execution.h"
+#include "natator/solver.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/device_states.h"
 #include "solver/cuda/event.h"

@@ -38,7 +38,7 @@ public:
     void begin_iterations();
     void compute_density_impulses();
     /// Whether the last iteration found the density within its tolerance.
-    bool has_converged() const { return !water_ || density_error_ <= model_.parameters.densityTolerance; }
+    bool has_converged() const { return !water_ || density_error_ <= model_.parameters.conserving.density_tolerance; }
     void apply_density_impulses();
     void return_zeroth_order_correction();
     void apply_wall_pressure() { water_->apply_wall_pressure(*this->team_); }

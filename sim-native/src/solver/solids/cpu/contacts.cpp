@@ -11,7 +11,7 @@ Real ConservingStages<Real>::contact_depth(int i, int j) const {
         [&] { return norm(start_of_slot(i) - start_of_slot(j)); }, [&] { return norm(base_.at(i) - base_.at(j)); });
 }
 
-/// Pair of solids, depth e = solidRestDistance - r > 0, less where it started too deep, n = contacts with
+/// Pair of solids, depth e = solid_rest_distance - r > 0, less where it started too deep, n = contacts with
 /// e > 0 of a particle: Dx_i = w_i / (w_i n_i + w_j n_j) (e n - friction).
 template <class Real>
 void ConservingStages<Real>::solve_contacts() {

@@ -22,7 +22,7 @@ void ConservingStages<Real>::compute_density_impulses() {
     tell_water();
     if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
     water_->compute_impulses(*this->team_);
-    if (model_.parameters.densityTolerance > 0) density_error_ = water_->lacking().mean;
+    if (model_.parameters.conserving.density_tolerance > 0) density_error_ = water_->lacking().mean;
 }
 
 template <class Real>

@@ -13,7 +13,7 @@ Vec3<Real> ConservingStages<Real>::before_planes(Vec3<Real> x, Real distance) co
 template <class Real>
 Real ConservingStages<Real>::wall_distance(int particle) const {
     return model_.is_fluid(particle)
-               ? static_cast<Real>(physics::min_wall_distance * model_.parameters.fluidRestDistance)
+               ? static_cast<Real>(physics::min_wall_distance * model_.parameters.fluid_rest_distance)
                : constants_.collision_distance;
 }
 

@@ -6,7 +6,7 @@
 namespace natator::cpu {
 
 double overlap_acceleration(const SolverParameters& p) {
-    return std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30);
+    return std::min(std::max(p.max_acceleration, 10 * p.gravity.norm()), 1e30);
 }
 
 std::vector<std::vector<int>> free_bodies(const Model& model) {

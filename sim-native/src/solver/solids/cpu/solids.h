@@ -3,11 +3,10 @@
 #include <vector>
 
 #include "natator/model.h"
-#include "natator/state.h"
 
 namespace natator::cpu {
 
-/// At which solids are pushed apart that overlap, length/s^2: maxAcceleration, but enough to win against gravity. Unlimited
+/// At which solids are pushed apart that overlap, length/s^2: max_acceleration, but enough to win against gravity. Unlimited
 /// only nominally, so that it can be multiplied.
 double overlap_acceleration(const SolverParameters& parameters);
 

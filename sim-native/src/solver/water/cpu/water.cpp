@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "model/borders.h"
 #include "model/background_pressure.h"
+#include "model/borders.h"
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -20,9 +20,9 @@ Water<Real>::Water(const Model& model)
       kernels_(&water_kernels<Real>(instruction_set())),
       neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
       radius_(static_cast<Real>(support(model))),
-      spacing_(static_cast<Real>(model.parameters.fluidRestDistance)),
+      spacing_(static_cast<Real>(model.parameters.fluid_rest_distance)),
       kernel_scale_(static_cast<Real>(wendland(0, support(model)))),
-      at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluidRestDistance, support(model)))),
+      at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluid_rest_distance, support(model)))),
       images_(model),
       seams_(seams_of<Real>(model)),
       particles_(model.particles()),
@@ -35,7 +35,7 @@ Water<Real>::Water(const Model& model)
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
     fluid_density_ = static_cast<Real>(density);
-    dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * density);
+    dynamic_viscosity_ = static_cast<Real>(model.parameters.conserving.kinematic_viscosity * density);
     for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
     for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
     for (int i = 0; i < particles_; ++i)

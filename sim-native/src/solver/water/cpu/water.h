@@ -5,8 +5,7 @@
 
 #include "images.h"
 #include "natator/model.h"
-#include "natator/residuals.h"
-#include "natator/state.h"
+#include "natator/solver.h"
 #include "physics/background_pressure.h"
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/cell_grid.h"

@@ -48,7 +48,7 @@ void Water<Real>::add_cohesion(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::add_surface_tension(ThreadTeam& team) {
-    const Real step = h_ * static_cast<Real>(model_.parameters.surfaceTension);
+    const Real step = h_ * static_cast<Real>(model_.parameters.surface_tension);
     field_.resize(position_.x.size());
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
@@ -69,7 +69,7 @@ void Water<Real>::add_surface_tension(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
-    const Real step = h_ * static_cast<Real>(model_.parameters.vorticityConfinement);
+    const Real step = h_ * static_cast<Real>(model_.parameters.vorticity_confinement);
     field_.resize(position_.x.size());
     strength_.assign(position_.x.size(), 0);
     for (int slot = 0; slot < particles_; ++slot) field_.set(slot, {});
@@ -94,7 +94,7 @@ void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::drag_free_surface(ThreadTeam& team) {
-    const Real step = h_ * static_cast<Real>(model_.parameters.freeSurfaceDrag);
+    const Real step = h_ * static_cast<Real>(model_.parameters.free_surface_drag);
     for_fluid_slots(team, [&](int slot) {
         velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step));
     });
@@ -103,10 +103,10 @@ void Water<Real>::drag_free_surface(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::add_forces(ThreadTeam& team) {
     const SolverParameters& p = model_.parameters;
-    if (p.freeSurfaceDrag > 0) drag_free_surface(team);
+    if (p.free_surface_drag > 0) drag_free_surface(team);
     if (p.cohesion > 0) add_cohesion(team);
-    if (p.surfaceTension > 0) add_surface_tension(team);
-    if (p.vorticityConfinement > 0) add_vorticity_confinement(team);
+    if (p.surface_tension > 0) add_surface_tension(team);
+    if (p.vorticity_confinement > 0) add_vorticity_confinement(team);
 }
 
 template void Water<float>::add_forces(ThreadTeam&);

@@ -6,19 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/model.h"
-#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
-#include "natator/state.h"
-#include "natator/steering.h"
 
 namespace natator {
 
-/// What a live simulation runs.
-struct LiveSetup {
+class MovingFrame;
+
+/// What a Simulation runs, where that is a scene by name.
+struct SimulationSetup {
     std::string scene;             ///< name or path of the scene, see load_scene
     std::string overrides{};       ///< JSON merge patch (RFC 7386) on it, as text; empty changes nothing
     std::optional<Gait> gait{};    ///< none: muscles at rest
@@ -26,49 +24,63 @@ struct LiveSetup {
     std::filesystem::path data{};  ///< where the scene is looked up, as in SceneOptions
     /// s; how long it is to run, for what that may cost (cost.h); it goes on all the same. None: not known
     std::optional<double> until{};
+    std::optional<Scene> made{};  ///< runs in place of a scene by name: one that a program has made
 };
 
-/// A scene that runs frame by frame and can be changed in between. Until a change each frame is, bit by bit, that of
-/// `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early, but for instability.
-/// Where a member throws InputError or std::bad_alloc nothing has changed.
-template <class Real>
-class LiveSimulation {
+/// A scene that runs frame by frame, on the CPU or on a GPU (Execution::gpu), and can be changed in between:
+/// `Simulation tank(load_scene("pool/eel")); while (tank.time() < 1) tank.step(gait);`. Until a change each frame is, bit by bit, that
+/// of `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early, but for instability.
+/// Where a member throws InputError or std::bad_alloc nothing has changed. Real is float, or double for reference runs.
+///
+/// Several threads may call const members of one Simulation as long as none calls another member; several Simulations
+/// may run in as many threads.
+template <class Real = float>
+class Simulation {
 public:
-    /// Settles the scene. Throws InputError when the setup can't be used. What `execution` points to must live as long
-    /// as this.
-    explicit LiveSimulation(const LiveSetup& setup, const Execution& execution = {});
-    ~LiveSimulation();
+    /// Settles a scene, with muscles at rest. Throws InputError when it can't be used, NoDevice without the GPU that
+    /// `execution` names. What `execution` points to must live as long as this.
+    explicit Simulation(const Scene& scene, const Execution& execution = {});
+    /// Settles a scene that is looked up by its name. Throws as for a scene.
+    explicit Simulation(const SimulationSetup& setup, const Execution& execution = {});
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
+    /// starts anew.
+    bool step();
+    /// Sets the gait and advances by one time step. Throws InputError when the gait does not fit (set_gait).
+    bool step(const Gait& gait);
 
     /// Starts another scene. Throws InputError.
-    void load(const LiveSetup& setup);
-    /// Drives the muscles by another gait from the next frame on. Throws InputError when it does not fit, the steering in
-    /// force included.
+    void load(const SimulationSetup& setup);
+    /// Drives the muscles by another gait from the next frame on; before the first frame as if the start had had it. Throws
+    /// InputError when it does not fit, the steering in force included.
     void set_gait(const Gait& gait);
     /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
     /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a
-    /// straight line, so that the water is not struck. Throws InputError when it does not fit.
+    /// straight line, so that the water is not struck. Throws InputError when it does not fit, and on a GPU, but for
+    /// scheme `lattice`.
     void steer(const Steering& steering);
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
-    /// steering_of_drive. Scheme `conserving` has no start ramp for them. Throws InputError.
+    /// steering_of_drive. Scheme `conserving` has no start ramp for them. Throws InputError as `steer`.
     void drive(const std::vector<double>& values);
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
-    /// instability, starts anew. True if it did. Throws InputError.
+    /// instability, starts anew. True if it did. Throws InputError, also where the scene was made by the program.
     bool merge_overrides(const std::string& patch);
     /// Goes back to the settled start.
     void reset();
     /// Goes to another of the scene's starts, see choose_start. Throws InputError.
     void reset(int start);
-    /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
-    /// starts anew.
-    bool frame();
 
     /// What runs now; its gait is always there.
-    const LiveSetup& setup() const { return setup_; }
+    const SimulationSetup& setup() const { return setup_; }
     const Gait& gait() const { return *setup_.gait; }
     const Scene& scene() const;
     const Model& model() const;
     const State<Real>& state() const { return state_; }
+    double time() const { return state_.time; }  ///< s since the start
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
     /// What the next frame is steered to.
@@ -87,13 +99,14 @@ public:
 private:
     struct Run;
 
-    std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
+    void refuse_to_steer_on_gpu() const;
+    std::unique_ptr<Run> make_run(const SimulationSetup& setup) const;
     void follow(MovingFrame& follower);
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
 
     Execution execution_;
-    LiveSetup setup_;
+    SimulationSetup setup_;
     std::unique_ptr<Run> run_;
     State<Real> state_;
     bool updated_ = false;  ///< whether the state is what run_'s solver has left
@@ -107,7 +120,7 @@ private:
     std::optional<Instability> instability_;
 };
 
-extern template class LiveSimulation<float>;
-extern template class LiveSimulation<double>;
+extern template class Simulation<float>;
+extern template class Simulation<double>;
 
 }  // namespace natator

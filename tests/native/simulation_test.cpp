@@ -5,9 +5,9 @@
 
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/live.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
+#include "natator/model.h"
+#include "natator/simulation.h"
 #include "run/settle.h"
 #include "scene/scene_json.h"
 
@@ -22,16 +22,16 @@ const std::string in_water = "bench/small-tank", in_vacuum = "thesis/creature-1-
 const json hardly_settled{{"settling", {{"updates", 2}}}};
 
 template <class Real>
-std::uint64_t hash_after(LiveSimulation<Real>& simulation, int frames) {
-    while (simulation.frames() < frames) EXPECT_TRUE(simulation.frame());
+std::uint64_t hash_after(Simulation<Real>& simulation, int frames) {
+    while (simulation.frames() < frames) EXPECT_TRUE(simulation.step());
     return state_hash(simulation.state());
 }
 
-LiveSimulation<float> swimmer(const std::string& scene, const json& overrides = json::object()) {
-    return LiveSimulation<float>({scene, overrides.dump(), swimming});
+Simulation<float> swimmer(const std::string& scene, const json& overrides = json::object()) {
+    return Simulation<float>({scene, overrides.dump(), swimming});
 }
 
-bool merge(LiveSimulation<float>& simulation, const json& patch) {
+bool merge(Simulation<float>& simulation, const json& patch) {
     return simulation.merge_overrides(patch.dump());
 }
 
@@ -44,8 +44,8 @@ Evaluation evaluated(const std::string& scene, int frames, const json& overrides
     return evaluate(whole, swimming, {.precision = precision});
 }
 
-TEST(LiveTest, BeginsWithTheSettledStart) {
-    LiveSimulation<float> simulation = swimmer(in_water);
+TEST(SimulationTest, BeginsWithTheSettledStart) {
+    Simulation<float> simulation = swimmer(in_water);
     const Scene scene = load_scene(in_water);
     const Model model = build_model(scene);
     Solver<float> solver(model);
@@ -57,10 +57,28 @@ TEST(LiveTest, BeginsWithTheSettledStart) {
     EXPECT_EQ(simulation.distance(), 0);
 }
 
-TEST(LiveTest, FramesAreThoseOfAnEvaluationBitByBit) {
+/// The short path: a scene that the program holds, and a gait.
+TEST(SimulationTest, OfASceneStepsByTheGaitItIsGiven) {
+    const Scene scene = load_scene(in_water, hardly_settled);
+    Simulation simulation(scene);
+    EXPECT_EQ(simulation.time(), 0);
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(simulation.step(swimming));
+    const Evaluation expected = evaluated(in_water, 3, hardly_settled);
+    EXPECT_EQ(state_hash(simulation.state()), expected.hash);
+    EXPECT_EQ(simulation.time(), expected.simulated);
+    EXPECT_EQ(simulation.distance(), expected.distance);
+    EXPECT_EQ(simulation.gait(), swimming);
+
+    Simulation moved = std::move(simulation);
+    EXPECT_THROW(moved.step(Gait{}), InputError);
+    EXPECT_THROW(merge(moved, {{"duration", 1}}), InputError);
+    EXPECT_EQ(hash_after(moved, 5), evaluated(in_water, 5, hardly_settled).hash);
+}
+
+TEST(SimulationTest, FramesAreThoseOfAnEvaluationBitByBit) {
     for (const char* scheme : {"flex", "conserving"}) {
         const json overrides{{"scheme", scheme}, {"settling", {{"updates", 2}}}};
-        LiveSimulation<float> simulation = swimmer(in_water, overrides);
+        Simulation<float> simulation = swimmer(in_water, overrides);
         for (const int frames : {1, 2, 5}) {
             const Evaluation expected = evaluated(in_water, frames, overrides);
             EXPECT_EQ(hash_after(simulation, frames), expected.hash) << scheme << ", frame " << frames;
@@ -68,20 +86,20 @@ TEST(LiveTest, FramesAreThoseOfAnEvaluationBitByBit) {
             EXPECT_EQ(simulation.state().time, expected.simulated);
         }
     }
-    LiveSimulation<double> in_double({in_vacuum, {}, swimming});
+    Simulation<double> in_double({in_vacuum, {}, swimming});
     EXPECT_EQ(hash_after(in_double, 5), evaluated(in_vacuum, 5, json::object(), Precision::double_precision).hash);
 }
 
-TEST(LiveTest, WithoutAGaitTheMusclesRest) {
-    LiveSimulation<float> simulation(LiveSetup{.scene = in_vacuum});
+TEST(SimulationTest, WithoutAGaitTheMusclesRest) {
+    Simulation<float> simulation(SimulationSetup{.scene = in_vacuum});
     EXPECT_EQ(simulation.gait().amplitude, (std::vector<double>{0, 0}));
     const State<float> start = simulation.state();
     EXPECT_NE(hash_after(simulation, 3), evaluated(in_vacuum, 3).hash);
     EXPECT_EQ(simulation.state().spring_rest_length, start.spring_rest_length);
 }
 
-TEST(LiveTest, AGaitActsFromTheNextFrameOn) {
-    LiveSimulation<float> simulation = swimmer(in_vacuum), unchanged = swimmer(in_vacuum);
+TEST(SimulationTest, AGaitActsFromTheNextFrameOn) {
+    Simulation<float> simulation = swimmer(in_vacuum), unchanged = swimmer(in_vacuum);
     const std::uint64_t before = hash_after(simulation, 4);
     Gait slower = swimming;
     slower.frequency = 0.7;
@@ -92,9 +110,9 @@ TEST(LiveTest, AGaitActsFromTheNextFrameOn) {
     EXPECT_EQ(simulation.frames(), 5);
 }
 
-TEST(LiveTest, OverridesThatChangeNothingChangeNoBit) {
-    LiveSimulation<float> simulation = swimmer(in_water, hardly_settled);
-    const double viscosity = simulation.scene().solver.viscosity;
+TEST(SimulationTest, OverridesThatChangeNothingChangeNoBit) {
+    Simulation<float> simulation = swimmer(in_water, hardly_settled);
+    const double viscosity = simulation.scene().solver.flex.viscosity;
     for (int frames = 0; frames < 6; frames += 2) {
         hash_after(simulation, frames);
         EXPECT_FALSE(merge(simulation, {{"solver", {{"viscosity", viscosity}}}, {"duration", 9}}));
@@ -104,7 +122,7 @@ TEST(LiveTest, OverridesThatChangeNothingChangeNoBit) {
     EXPECT_EQ(simulation.scene().duration, 9);
 }
 
-TEST(LiveTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
+TEST(SimulationTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
     const json masses{{"creature", {{"particleMass", 3}}}, {"fluid", {{"mass", {{"bottom", 5}}}}}};
     const std::vector<json> patches{{{"solver", {{"viscosity", 9}}}},
                                     {{"solver", {{"substeps", 2}, {"numIterations", 6}}}},
@@ -112,10 +130,10 @@ TEST(LiveTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
                                     {{"planes", json::array({{0, 1, 0, 0}})}},
                                     {{"creature", {{"clusterStiffness", 0.3}}}},
                                     masses};
-    LiveSimulation<float> unchanged = swimmer(in_water, hardly_settled);
+    Simulation<float> unchanged = swimmer(in_water, hardly_settled);
     const std::uint64_t before = hash_after(unchanged, 3), after = hash_after(unchanged, 4);
     for (const json& patch : patches) {
-        LiveSimulation<float> simulation = swimmer(in_water, hardly_settled);
+        Simulation<float> simulation = swimmer(in_water, hardly_settled);
         hash_after(simulation, 3);
         EXPECT_FALSE(merge(simulation, patch)) << patch;
         EXPECT_EQ(state_hash(simulation.state()), before) << patch;
@@ -124,7 +142,7 @@ TEST(LiveTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
     }
 }
 
-TEST(LiveTest, OtherParticlesOrConstraintsStartAnew) {
+TEST(SimulationTest, OtherParticlesOrConstraintsStartAnew) {
     const std::vector<json> patches{{{"fluid", {{"count", {17, 6, 9}}}}},
                                     {{"fluid", {{"origin", {0.051, 0.05, 0.05}}}}},
                                     {{"fluid", nullptr}},
@@ -133,7 +151,7 @@ TEST(LiveTest, OtherParticlesOrConstraintsStartAnew) {
                                     {{"creature", {{"springsPerParticle", 3}}}},
                                     {{"scheme", "conserving"}}};  // whose water starts in disorder
     for (const json& patch : patches) {
-        LiveSimulation<float> simulation = swimmer(in_water);
+        Simulation<float> simulation = swimmer(in_water);
         hash_after(simulation, 2);
         EXPECT_TRUE(merge(simulation, patch)) << patch;
         EXPECT_EQ(simulation.frames(), 0);
@@ -141,8 +159,8 @@ TEST(LiveTest, OtherParticlesOrConstraintsStartAnew) {
     }
 }
 
-TEST(LiveTest, TimeGoesOnUnderAnotherTimeStep) {
-    LiveSimulation<float> simulation = swimmer(in_vacuum);
+TEST(SimulationTest, TimeGoesOnUnderAnotherTimeStep) {
+    Simulation<float> simulation = swimmer(in_vacuum);
     hash_after(simulation, 6);
     EXPECT_FALSE(merge(simulation, {{"timeStep", 0.01}}));
     hash_after(simulation, 9);
@@ -155,8 +173,8 @@ TEST(LiveTest, TimeGoesOnUnderAnotherTimeStep) {
     EXPECT_EQ(simulation.state().time, 0.04);
 }
 
-TEST(LiveTest, ResetGivesTheSameBitsAgain) {
-    LiveSimulation<float> simulation = swimmer(in_water);
+TEST(SimulationTest, ResetGivesTheSameBitsAgain) {
+    Simulation<float> simulation = swimmer(in_water);
     const std::uint64_t start = state_hash(simulation.state()), later = hash_after(simulation, 5);
     simulation.reset();
     EXPECT_EQ(simulation.frames(), 0);
@@ -165,8 +183,8 @@ TEST(LiveTest, ResetGivesTheSameBitsAgain) {
     EXPECT_EQ(hash_after(simulation, 5), later);
 }
 
-TEST(LiveTest, AnotherSceneStartsWithItsOwnSettings) {
-    LiveSimulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
+TEST(SimulationTest, AnotherSceneStartsWithItsOwnSettings) {
+    Simulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
     hash_after(simulation, 2);
     simulation.load({in_vacuum, {}, swimming});
     EXPECT_EQ(simulation.setup().scene, in_vacuum);
@@ -174,21 +192,21 @@ TEST(LiveTest, AnotherSceneStartsWithItsOwnSettings) {
     EXPECT_EQ(hash_after(simulation, 4), evaluated(in_vacuum, 4).hash);
 }
 
-TEST(LiveTest, MergedOverridesLoadAgain) {
-    LiveSimulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
+TEST(SimulationTest, MergedOverridesLoadAgain) {
+    Simulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
     EXPECT_TRUE(merge(simulation, {{"fluid", nullptr}}));
     EXPECT_FALSE(merge(simulation, {{"solver", {{"damping", 2}}}}));
     const json expected{{"fluid", nullptr}, {"solver", {{"viscosity", 9}, {"damping", 2}}}};
     EXPECT_EQ(json::parse(simulation.setup().overrides), expected);
     EXPECT_EQ(simulation.model().particles(), 81);
-    LiveSimulation<float> again(simulation.setup());
+    Simulation<float> again(simulation.setup());
     EXPECT_EQ(hash_after(again, 2), evaluated(in_water, 2, expected).hash);
 }
 
-TEST(LiveTest, WhatIsRefusedChangesNothing) {
-    LiveSimulation<float> simulation = swimmer(in_vacuum);
+TEST(SimulationTest, WhatIsRefusedChangesNothing) {
+    Simulation<float> simulation = swimmer(in_vacuum);
     hash_after(simulation, 3);
-    const LiveSetup setup = simulation.setup();
+    const SimulationSetup setup = simulation.setup();
     Gait wrong = swimming;
     wrong.amplitude.push_back(0.5);
     EXPECT_THROW(simulation.set_gait(wrong), InputError);
@@ -202,47 +220,47 @@ TEST(LiveTest, WhatIsRefusedChangesNothing) {
     EXPECT_EQ(simulation.setup().scene, setup.scene);
     EXPECT_EQ(simulation.setup().overrides, setup.overrides);
     EXPECT_EQ(hash_after(simulation, 5), evaluated(in_vacuum, 5).hash);
-    EXPECT_THROW(LiveSimulation<float>({"thesis/creature-2", {}, swimming}), InputError);
+    EXPECT_THROW(Simulation<float>({"thesis/creature-2", {}, swimming}), InputError);
 }
 
 /// Undivided global relaxation explodes at once in water.
-TEST(LiveTest, AnUnstableSimulationStandsStillUntilItStartsAnew) {
+TEST(SimulationTest, AnUnstableSimulationStandsStillUntilItStartsAnew) {
     const json unstable{{"solver", {{"relaxationMode", "global"}}}}, stable{{"solver", {{"relaxationMode", "local"}}}};
-    LiveSimulation<float> simulation = swimmer(in_water);
+    Simulation<float> simulation = swimmer(in_water);
     hash_after(simulation, 2);
     EXPECT_FALSE(merge(simulation, unstable));
-    while (simulation.frame()) ASSERT_LT(simulation.frames(), 100);
+    while (simulation.step()) ASSERT_LT(simulation.frames(), 100);
     ASSERT_TRUE(simulation.instability());
     EXPECT_FALSE(simulation.instability()->stage.empty());
     const std::uint64_t broken = state_hash(simulation.state());
-    EXPECT_FALSE(simulation.frame());
+    EXPECT_FALSE(simulation.step());
     EXPECT_EQ(state_hash(simulation.state()), broken);
     simulation.reset();
     EXPECT_TRUE(simulation.instability());  // while settling
-    EXPECT_FALSE(simulation.frame());
+    EXPECT_FALSE(simulation.step());
     EXPECT_TRUE(merge(simulation, stable));
     EXPECT_FALSE(simulation.instability());
     EXPECT_EQ(hash_after(simulation, 2), evaluated(in_water, 2).hash);
 }
 
 /// One iteration of a hundredth of what it should push, against a strong pull.
-TEST(LiveTest, WaterThatIsCompressedEndsAStreamAsItEndsAnEvaluation) {
+TEST(SimulationTest, WaterThatIsCompressedEndsAStreamAsItEndsAnEvaluation) {
     const json crushed{
         {"settling", {{"updates", 0}}},
         {"solver", {{"numIterations", 1}, {"substeps", 16}, {"relaxationFactor", 0.01}, {"gravity", {0, -100, 0}}}}};
     const Evaluation evaluation = evaluated(in_water, 32, crushed);
     ASSERT_TRUE(evaluation.instability);
     EXPECT_EQ(evaluation.instability->law, "compression");
-    LiveSimulation<float> simulation = swimmer(in_water, crushed);
-    while (simulation.frame()) ASSERT_LT(simulation.frames(), 32);
+    Simulation<float> simulation = swimmer(in_water, crushed);
+    while (simulation.step()) ASSERT_LT(simulation.frames(), 32);
     EXPECT_EQ(simulation.instability()->law, "compression");
 }
 
 /// The densities of a state are the same whether or not an update has just led to it, but for pairs that come to less
 /// than the radius within a substep: they weigh (1 - r/R)^2, next to nothing.
-TEST(LiveTest, DensitiesOfAStateNeedNoUpdate) {
+TEST(SimulationTest, DensitiesOfAStateNeedNoUpdate) {
     for (const char* scheme : {"flex", "conserving"}) {
-        LiveSimulation<float> simulation = swimmer(in_water, {{"scheme", scheme}});
+        Simulation<float> simulation = swimmer(in_water, {{"scheme", scheme}});
         hash_after(simulation, 5);
         const std::vector<float> updated = simulation.densities();
         ASSERT_FALSE(merge(simulation, json::object()));

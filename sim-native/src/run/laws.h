@@ -6,7 +6,6 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/state.h"
 
 namespace natator {
 
@@ -27,7 +26,8 @@ struct LawMargins {
 
 /// Watches that a run keeps to laws of mechanics that no water and no body can break: nobody is behind a plane, no particle has more
 /// energy than gravity and muscles can give it, all together have no more than they began with and muscles gave (scheme
-/// `conserving`), no body is stretched to several times its length, no fluid compressed to a fraction of its volume.
+/// `conserving`), no body is stretched to several times its length, no fluid compressed to a fraction of its volume. One for each run, in one thread at
+/// a time.
 class LawWatch {
 public:
     /// Watches a run that begins where the model does, with muscles at rest.

@@ -1,16 +1,17 @@
+#include "natator/simulation.h"
+
 #include "base/strict_json.h"
 #include "conservation_errors.h"
+#include "laws.h"
 #include "move_tank.h"
-#include "natator/actuate.h"
+#include "moving_tank.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "natator/laws.h"
+#include "natator/evaluate.h"
 #include "natator/limits.h"
-#include "natator/live.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
-#include "natator/model_builder.h"
-#include "natator/pose.h"
+#include "natator/model.h"
 #include "perturb.h"
 #include "physics/laws.h"
 #include "same_layout.h"
@@ -26,7 +27,7 @@ constexpr int frames_between_densities = 16;  ///< an evaluation looks at them a
 template <class Real>
 std::vector<Real> densities_at_rest(Model model, State<Real> state) {
     model.parameters.gravity.setZero();
-    model.parameters.numIterations = 0;
+    model.parameters.iterations = 0;
     std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
     Solver<Real> solver(model);
     solver.update(state, model.time_step, 1);
@@ -44,8 +45,8 @@ Model affordable(const Scene& scene, std::optional<double> until, const Computin
 
 /// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
 template <class Real>
-struct LiveSimulation<Real>::Run {
-    Run(Scene of, const Perturbation& by, const LiveSetup& setup, const Execution& execution)
+struct Simulation<Real>::Run {
+    Run(Scene of, const Perturbation& by, const SimulationSetup& setup, const Execution& execution)
         : scene(std::move(of)),
           perturbation(by),
           model(affordable(scene, setup.until,
@@ -82,16 +83,24 @@ struct LiveSimulation<Real>::Run {
 };
 
 template <class Real>
-LiveSimulation<Real>::LiveSimulation(const LiveSetup& setup, const Execution& execution) : execution_(execution) {
+Simulation<Real>::Simulation(const Scene& scene, const Execution& execution)
+    : Simulation(SimulationSetup{.scene = scene.name, .made = scene}, execution) {}
+
+template <class Real>
+Simulation<Real>::Simulation(const SimulationSetup& setup, const Execution& execution) : execution_(execution) {
     load(setup);
 }
 
 template <class Real>
-LiveSimulation<Real>::~LiveSimulation() = default;
+Simulation<Real>::~Simulation() = default;
+template <class Real>
+Simulation<Real>::Simulation(Simulation&&) noexcept = default;
+template <class Real>
+Simulation<Real>& Simulation<Real>::operator=(Simulation&&) noexcept = default;
 
 template <class Real>
-void LiveSimulation<Real>::load(const LiveSetup& setup) {
-    LiveSetup next = setup;
+void Simulation<Real>::load(const SimulationSetup& setup) {
+    SimulationSetup next = setup;
     std::unique_ptr<Run> run = make_run(next);
     if (!next.gait) next.gait = resting_gait(run->model.actuators);
     check_gait(*next.gait, run->model.actuators);
@@ -100,31 +109,40 @@ void LiveSimulation<Real>::load(const LiveSetup& setup) {
 }
 
 template <class Real>
-void LiveSimulation<Real>::set_gait(const Gait& gait) {
+void Simulation<Real>::set_gait(const Gait& gait) {
     check_gait(gait, model().actuators);
     check_steering(steering_, gait, model().actuators);
     check_steering(applied_, gait, model().actuators);
     setup_.gait = gait;
-    run_->laws.drive_freely();  // muscles jump from the one to the other
+    if (frames_ > 0) run_->laws.drive_freely();  // muscles jump from the one to the other
 }
 
 template <class Real>
-void LiveSimulation<Real>::steer(const Steering& steering) {
+void Simulation<Real>::refuse_to_steer_on_gpu() const {
+    if (execution_.gpu && model().scheme != Scheme::lattice)
+        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) + "; must be on the CPU");
+}
+
+template <class Real>
+void Simulation<Real>::steer(const Steering& steering) {
     check_steering(steering, gait(), model().actuators);
+    refuse_to_steer_on_gpu();
     steering_ = steering;
     run_->laws.drive_freely();
 }
 
 template <class Real>
-void LiveSimulation<Real>::drive(const std::vector<double>& values) {
+void Simulation<Real>::drive(const std::vector<double>& values) {
     check_drive(values, model().actuators);
+    refuse_to_steer_on_gpu();
     steering_ = steering_of_drive(values);
     run_->laws.drive_freely();
 }
 
 template <class Real>
-bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
-    LiveSetup next = setup_;
+bool Simulation<Real>::merge_overrides(const std::string& patch) {
+    if (setup_.made) throw InputError("overrides: the scene was made by the program; must be a scene by name");
+    SimulationSetup next = setup_;
     const std::string before = next.overrides.empty() ? "{}" : next.overrides;
     next.overrides = merge_patches(parse_json(before, "overrides"), parse_json(patch, "overrides")).dump();
     if (next.overrides.size() > limits::live_overrides_bytes)
@@ -151,47 +169,53 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
 }
 
 template <class Real>
-void LiveSimulation<Real>::reset() {
+void Simulation<Real>::reset() {
     start(nullptr);
 }
 
 template <class Real>
-void LiveSimulation<Real>::reset(int start_number) {
+void Simulation<Real>::reset(int start_number) {
     if (setup_.start == start_number) return reset();
-    LiveSetup next = setup_;
+    SimulationSetup next = setup_;
     next.start = start_number;
     start(make_run(next));
     setup_ = std::move(next);
 }
 
-/// Of the frame that begins now.
+/// What drives the muscles in the frame that begins now, where they are steered.
 template <class Real>
-Drive LiveSimulation<Real>::next_drive() const {
+Drive Simulation<Real>::next_drive() const {
     const bool along = model().scheme != Scheme::flex;  // from one steering to the next; else at once
     return [this, along, begin = state_.time, frame = model().time_step](double time) {
         std::vector<double> driven = natator::drive(model(), gait(), time);
-        if (leaves_gait(steering_) && leaves_gait(applied_)) return driven;
         const double part = along ? std::clamp((time - begin) / frame, 0.0, 1.0) : 1;
         return natator::steer(applied_, steering_, part, std::move(driven));
     };
 }
 
 template <class Real>
-std::vector<double> LiveSimulation<Real>::driven() const {
+std::vector<double> Simulation<Real>::driven() const {
     std::vector<double> driven = natator::drive(model(), gait(), state_.time);
     return leaves_gait(applied_) ? driven : natator::steer(applied_, applied_, 1, std::move(driven));
 }
 
 template <class Real>
-double LiveSimulation<Real>::muscle_work() const {
+double Simulation<Real>::muscle_work() const {
     return earlier_work_ + run_->solver.muscle_work();
 }
 
 template <class Real>
-bool LiveSimulation<Real>::frame() {
+bool Simulation<Real>::step(const Gait& next) {
+    if (next != gait()) set_gait(next);
+    return step();
+}
+
+template <class Real>
+bool Simulation<Real>::step() {
     if (instability_) return false;
     run_->laws.drive_by(gait());
-    instability_ = run_->solver.frame(state_, next_drive());
+    instability_ = leaves_gait(steering_) && leaves_gait(applied_) ? run_->solver.frame(state_, gait())
+                                                                   : run_->solver.frame(state_, next_drive());
     updated_ = true;
     if (!instability_)
         instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
@@ -208,41 +232,41 @@ bool LiveSimulation<Real>::frame() {
 
 /// As SwimRecord does it.
 template <class Real>
-void LiveSimulation<Real>::follow(MovingFrame& follower) {
+void Simulation<Real>::follow(MovingFrame& follower) {
     follower.drift(scene().time_step);
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model().body, state_));
     if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.begin_anew();
 }
 
 template <class Real>
-const Scene& LiveSimulation<Real>::scene() const {
+const Scene& Simulation<Real>::scene() const {
     return run_->scene;
 }
 
 template <class Real>
-const Model& LiveSimulation<Real>::model() const {
+const Model& Simulation<Real>::model() const {
     return run_->model;
 }
 
 template <class Real>
-double LiveSimulation<Real>::distance() const {
+double Simulation<Real>::distance() const {
     return mean_x(model().body, state_) + state_.origin.x() - start_x_;
 }
 
 template <class Real>
-std::vector<Real> LiveSimulation<Real>::densities() {
+std::vector<Real> Simulation<Real>::densities() {
     return updated_ ? run_->solver.densities() : densities_at_rest(model(), state_);
 }
 
 template <class Real>
-std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
-    Scene scene = load_scene(setup.scene, {setup.overrides, setup.data});
+std::unique_ptr<typename Simulation<Real>::Run> Simulation<Real>::make_run(const SimulationSetup& setup) const {
+    Scene scene = setup.made ? *setup.made : load_scene(setup.scene, {setup.overrides, setup.data});
     const Perturbation shift = setup.start ? choose_start(*setup.start, scene) : Perturbation{};
     return std::make_unique<Run>(std::move(scene), shift, setup, execution_);
 }
 
 template <class Real>
-void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
+void Simulation<Real>::start(std::unique_ptr<Run> run) {
     Run& next = run ? *run : *run_;
     std::optional<Instability> instability;
     State<Real> state = next.begin(execution_.starts, instability);
@@ -261,7 +285,7 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     steering_ = applied_ = no_steering(model().actuators);
 }
 
-template class LiveSimulation<float>;
-template class LiveSimulation<double>;
+template class Simulation<float>;
+template class Simulation<double>;
 
 }  // namespace natator

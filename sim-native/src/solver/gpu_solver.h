@@ -7,7 +7,6 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
-#include "natator/state.h"
 
 namespace natator {
 
@@ -26,14 +25,8 @@ struct GpuSolverOptions {
     bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
 };
 
-/// Advances one State of a Model on a GPU, update by update, as Solver does on the CPU: for observing and testing what
-/// batches compute. The State travels to the device and back with every update, so whole evaluations are faster by
-/// evaluate_on_gpu. Results agree with the CPU's to rounding; the same GPU and input give the same bits. Not shared
-/// between threads. A library built without CUDA has this class too; making one then throws NoDevice. As those of Solver, members that
-/// take a State throw InputError if it is not of so many particles, clusters and springs as the Model.
-///
-/// Real is float or double. Members throw std::bad_alloc when the device's memory is insufficient and std::runtime_error,
-/// naming the call, when the device fails.
+/// What a Solver is on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the same GPU
+/// and input give the same bits. A library built without CUDA has this class too; making one then throws NoDevice.
 template <class Real>
 class GpuSolver {
 public:
@@ -59,6 +52,7 @@ public:
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2
     /// (Solver::muscle_work); 0 in scheme flex.
     double muscle_work() const;
+    void clear_muscle_work();
 
     /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.

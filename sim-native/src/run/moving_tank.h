@@ -3,21 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "natator/evaluate.h"
 #include "natator/model.h"
 #include "natator/scene.h"
-#include "natator/state.h"
 
 namespace natator {
 
-/// What moving a tank has taken from its water: what is put in front is at rest.
-struct WaterRenewal {
-    int times = 0;
-    long particles = 0;                                      ///< sum over all times
-    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();      ///< taken away, mass length/s
-    double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
-};
-
-/// Keeps a tank about its swimmer. One for each run.
+/// Keeps a tank about its swimmer. One for each run, in one thread at a time.
 class MovingFrame {
 public:
     /// Throws InputError unless the scene has water of scheme `conserving`, a creature, and for each
