@@ -87,7 +87,7 @@ printf '… and its program: %s\n' "$(head -1 <<<"$said")"
 grep -q "version \`GLIBC_.*' not found" <<<"$said"
 
 $with_source || exit 0
-"$python" -m build --sdist --no-isolation --outdir build/wheel . >/dev/null
+"$python" -c 'from scikit_build_core.build import build_sdist; build_sdist("build/wheel")' >/dev/null
 sdist=$(echo build/wheel/natator-*.tar.gz)
 printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
 system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev

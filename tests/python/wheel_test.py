@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 import zipfile
@@ -83,6 +84,16 @@ class WheelTest(unittest.TestCase):
             for file in folder.rglob("*.json"):
                 self.assertIn(f"natator/program/share/natator/{folder.name}/{file.relative_to(folder)}", names)
         self.assertLess(Path(WHEEL).stat().st_size, 15e6)  # CONTRIBUTING.md
+
+    def test_the_sdist_holds_what_the_program_is_built_of(self):
+        made = subprocess.run([sys.executable, "-c", "import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])",
+                               self.folder], cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        with tarfile.open(next(self.folder.glob("natator-*.tar.gz"))) as sdist:
+            held = {name.partition("/")[2] for name in sdist.getnames()}
+        source = {str(file.relative_to(ROOT)) for file in (ROOT / "sim-native").rglob("*")
+                  if file.is_file() and "__pycache__" not in file.parts}
+        self.assertEqual(held, source | {"CMakeLists.txt", "LICENSE", "PKG-INFO", "pyproject.toml", "setup.sh"})
 
     def test_it_is_a_good_wheel(self):
         shown = subprocess.run([sys.executable, "-m", "auditwheel", "show", WHEEL], capture_output=True, text=True)
