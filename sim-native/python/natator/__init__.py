@@ -5,6 +5,7 @@
 """
 
 from natator.errors import InputError, NatatorError, ProgramError, Unstable
+from natator.evolution import Evolved, evolve
 from natator.gait import Gait
 from natator.simulator import Simulator, evaluate
 from natator.stream import Frame, Senses, Stream
@@ -14,6 +15,6 @@ from natator.trajectory import Trajectory, record
 __version__ = "0.2.0"
 
 __all__ = [
-    "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Swim", "Trajectory",
-    "Unstable", "evaluate", "record", "swim",
+    "Evolved", "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Swim", "Trajectory",
+    "Unstable", "evaluate", "evolve", "record", "swim",
 ]

@@ -32,11 +32,7 @@ def swim(creature_or_scene, duration=2.0, gait=None, **options):
     those of Stream. One swim is one start: evaluate several before you compare gaits. Returns a Swim. Raises InputError, ProgramError
     and Unstable.
     """
-    if not isinstance(creature_or_scene, (str, os.PathLike)):
-        raise InputError(f"creature_or_scene = {creature_or_scene!r}: must be a name or a path")
-    scene = os.fspath(creature_or_scene)
-    if "/" not in scene and not scene.endswith(".json"):
-        scene = ELSEWHERE.get(scene, f"pool/{scene}")
+    scene = scene_of(creature_or_scene)
     with Stream(scene, fields=("position",), **options) as stream:
         if not stream.actuators:
             raise InputError(f'scene "{scene}": must have a creature with actuators')
@@ -45,6 +41,14 @@ def swim(creature_or_scene, duration=2.0, gait=None, **options):
         every = max(1, round(1 / PICTURES / stream.scene["timeStep"]))
         trajectory = joined(list(frames(stream, duration, every, least=1)), stream.scene)
         return Swim(scene, gait, trajectory, stream.ask({"do": "sense"})["senses"].get("work"))
+
+
+def scene_of(creature_or_scene):
+    """The name or path of a scene; a creature's is that of its scene in the pool. Raises InputError."""
+    if not isinstance(creature_or_scene, (str, os.PathLike)):
+        raise InputError(f"creature_or_scene = {creature_or_scene!r}: must be a name or a path")
+    scene = os.fsdecode(creature_or_scene)
+    return scene if "/" in scene or scene.endswith(".json") else ELSEWHERE.get(scene, f"pool/{scene}")
 
 
 def _own_gait(scene, program):
