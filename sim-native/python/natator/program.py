@@ -45,10 +45,11 @@ def simulator_path(program=None):
 def _version(path, *_):
     """What a program says of its version; None of one that says none within a second, which its first use will tell."""
     try:
-        process = subprocess.Popen([path, "--version"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([path, "--version"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)  # not the null device: who writes on it without end is to end
     except (OSError, ValueError):
         return None
-    with process.stdout as said:
+    with process.stdout as said, process.stderr:
         poll = select.poll()
         poll.register(said, select.POLLIN)
         text = os.read(said.fileno(), 100) if poll.poll(1000 * GRACE) else b""
