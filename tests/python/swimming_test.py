@@ -37,6 +37,7 @@ class SwimTest(unittest.TestCase):
         self.assertEqual(swim.speed, swim.distance / swim.duration / swim.trajectory.scene["bodyLength"])
         self.assertEqual(repr(swim), f"{TANK}: {swim.distance:.3f} in 0.20 s, {swim.speed:.2f} body lengths/s")
         self.assertIsNone(natator.swim(TANK, duration=0.02, scheme="flex").work)
+        self.assertAlmostEqual(natator.swim(TANK, duration=0.25).duration, 0.25)  # an odd number of frames
 
     def test_each_creature_swims_by_its_own_gait(self):
         gaits = ROOT / "sim-native/examples/gaits"

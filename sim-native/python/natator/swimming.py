@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from natator.errors import InputError
-from natator.gait import Gait, wave_in
+from natator.gait import Gait, number, wave_in
 from natator.program import simulator_path
 from natator.script import package
 from natator.source import read_json
@@ -38,7 +38,9 @@ def swim(creature_or_scene, duration=2.0, gait=None, **options):
             raise InputError(f'scene "{scene}": must have a creature with actuators')
         gait = _own_gait(stream.scene, options.get("program")) if gait is None else gait
         stream.set_gait(gait)
-        every = max(1, round(1 / PICTURES / stream.scene["timeStep"]))
+        step = stream.scene["timeStep"]
+        steps = int(number("duration", duration) / step + 0.5)
+        every = next(count for count in range(max(1, round(1 / PICTURES / step)), 0, -1) if steps % count == 0)
         trajectory = joined(list(frames(stream, duration, every, least=1)), stream.scene)
         return Swim(scene, gait, trajectory, stream.ask({"do": "sense"})["senses"].get("work"))
 
