@@ -45,16 +45,16 @@ def simulator_path(program=None):
 def _version(path, *_):
     """What a program says of its version; None of one that says none within a second, which its first use will tell."""
     try:
-        process = subprocess.Popen([path, "--version"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE)  # not the null device: who writes on it without end is to end
+        with subprocess.Popen([path, "--version"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as process:  # not the null device: who writes on it without end is to end
+            try:
+                poll = select.poll()
+                poll.register(process.stdout, select.POLLIN)
+                text = os.read(process.stdout.fileno(), 100) if poll.poll(1000 * GRACE) else b""
+            finally:
+                process.kill()
     except (OSError, ValueError):
         return None
-    with process.stdout as said, process.stderr:
-        poll = select.poll()
-        poll.register(said, select.POLLIN)
-        text = os.read(said.fileno(), 100) if poll.poll(1000 * GRACE) else b""
-    process.kill()
-    process.wait()
     found = re.match(rb"natator-sim (\d[\w.]*), ", text)
     return found and found[1].decode()
 
