@@ -97,7 +97,7 @@ system source bookworm ''
 mkdir "$root/work/checkout"
 git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/work/checkout"
 install_and_swim checkout 'Debian 12, the checkout'
-inside dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
-said=$(inside /work/venv/bin/pip install --force-reinstall --no-deps /work/checkout 2>&1) && exit 1
+inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
+said=$(inside /work/venv/bin/pip install --force-reinstall --no-deps /work/checkout 2>&1) && exit 1  # one library is missing
 rm "$root/complete"
 grep -A2 'Eigen 3.4' <<<"$said"
