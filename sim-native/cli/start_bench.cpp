@@ -15,8 +15,12 @@ void start_bench(char** arguments) {
     const std::string program = (folder / "natator-bench").string();
     ::execv(program.c_str(), arguments);
     if (errno != ENOENT) throw std::system_error(errno, std::generic_category(), program);
-    throw std::runtime_error("the benchmarks are a program of their own, which is not built; build it by: cmake --build " +
-                             folder.parent_path().string() + " --target natator-bench");
+    const std::filesystem::path build = folder.parent_path();
+    const bool built_here = std::filesystem::exists(build / "CMakeCache.txt");
+    throw std::runtime_error(
+        "the benchmarks are a program of their own, which is not " +
+        (built_here ? "built; build it by: cmake --build " + build.string() + " --target natator-bench"
+                    : "installed; build it in a checkout by: cmake --build --preset release --target natator-bench"));
 }
 
 }  // namespace natator::cli

@@ -1,5 +1,5 @@
 # cmake --install: the library as a CMake package, the programs, and the data that they find beside themselves
-# (../share/natator of the program's folder), wherever the prefix is moved to.
+# (../share/natator of the program's folder), wherever the prefix is moved to. Component `program`: what a wheel brings.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -20,11 +20,12 @@ if(NATATOR_PROGRAMS)
     if(BUILD_SHARED_LIBS)
         set_target_properties(natator-sim natator-bench PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
     endif()
-    install(TARGETS natator-sim RUNTIME DESTINATION bin)
+    install(TARGETS natator-sim RUNTIME DESTINATION bin COMPONENT program)
     install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
     install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
     install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
 endif()
-install(DIRECTORY scenes creatures references DESTINATION ${NATATOR_DATA_DIR})
-install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} FILES_MATCHING PATTERN "*.schema.json")
+install(DIRECTORY scenes creatures examples/gaits DESTINATION ${NATATOR_DATA_DIR} COMPONENT program)
+install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} COMPONENT program FILES_MATCHING PATTERN "*.schema.json")
+install(DIRECTORY references DESTINATION ${NATATOR_DATA_DIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/natator)

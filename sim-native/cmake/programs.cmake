@@ -8,6 +8,10 @@ function(natator_program program)
     target_link_options(${program} PRIVATE ${NATATOR_BUILD_ID})
     target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)
     set_target_properties(${program} PROPERTIES UNITY_BUILD ${NATATOR_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 0)
+    if(CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT NATATOR_SANITIZE)
+        # A wheel's program runs where libstdc++ is older or missing; what it does not use of it would need a newer C library.
+        target_link_options(${program} PRIVATE -static-libstdc++ LINKER:--gc-sections)
+    endif()
 endfunction()
 
 natator_program(natator-sim
@@ -56,6 +60,7 @@ add_custom_target(natator-data ALL
     COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/scenes ${PROJECT_BINARY_DIR}/share/natator/scenes
     COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/creatures ${PROJECT_BINARY_DIR}/share/natator/creatures
     COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/references ${PROJECT_BINARY_DIR}/share/natator/references
+    COMMAND ${CMAKE_COMMAND} -E copy_directory ${CMAKE_CURRENT_SOURCE_DIR}/examples/gaits ${PROJECT_BINARY_DIR}/share/natator/gaits
     COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share/natator/protocol
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${NATATOR_SCHEMAS} ${PROJECT_BINARY_DIR}/share/natator/protocol)
 add_dependencies(natator-sim natator-data)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Python client as its users do, into a folder of its own, and runs its tests: run.sh PYTHON SIMULATOR FOLDER [TESTS]
+# Makes the wheel of a built program, installs it as its users do into a folder of its own, and runs the client's tests:
+# run.sh PYTHON SIMULATOR FOLDER [TESTS]
 set -euo pipefail
 readonly python=$1 simulator=$2 folder=$3 tests=${4:-python}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -9,7 +10,10 @@ if [[ ! -x $python ]]; then
     exit 1
 fi
 rm -rf "$folder"
-"$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --no-build-isolation \
-    --target "$folder" "$root/sim-native/python"
-export PYTHONPATH=$folder PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator
+build=$(dirname "$(dirname "$simulator")")
+"$python" -m pip --quiet --disable-pip-version-check wheel --no-index --no-deps --no-build-isolation \
+    --config-settings "cmake.define.NATATOR_BUILT=$build" --wheel-dir "$folder/wheel" "$root"
+NATATOR_WHEEL=$(echo "$folder"/wheel/natator-*.whl)
+"$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --target "$folder/installed" "$NATATOR_WHEEL"
+export NATATOR_WHEEL PYTHONPATH=$folder/installed PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator
 exec "$python" -W error -m unittest discover --start-directory "$root/tests/$tests" --pattern '*_test.py'

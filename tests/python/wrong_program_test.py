@@ -7,6 +7,7 @@ import shlex
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -121,6 +122,23 @@ class WrongProgramTest(unittest.TestCase):
                 self.refused(lambda: natator.Simulator(2, program=program).evaluate_all([make_request(TANK, GAIT)] * 3), message)
                 self.refused(lambda: natator.Stream(TANK, program=program), message)
                 self.refused(lambda: natator.gym.SwimmerEnv(TANK, program=program), message)
+
+    def test_a_version_is_asked_for_once_and_leaves_nobody_behind(self):
+        child = Path(self.folder.name, "child")
+        path = self.program(f"cat /dev/zero >&2 & echo $! > {shlex.quote(str(child))}; echo once >> {shlex.quote(str(child))}s; wait")
+        for _ in range(2):
+            self.assertEqual(simulator_path(path), path)
+        self.assertEqual(Path(f"{child}s").read_text(), "once\n")
+        until = time.monotonic() + 10
+        with self.assertRaises(ProcessLookupError, msg="goes on"):
+            while time.monotonic() < until:
+                os.kill(int(child.read_text()), 0)
+                time.sleep(0.01)
+
+    def test_another_version(self):
+        path = self.program("echo natator-sim 0.0.1, commit unknown")
+        self.refused(lambda: natator.evaluate(TANK, GAIT, program=path),
+                     r"is natator-sim 0\.0\.1, this package is [\d.]+: must be of the same version; ")
 
     def test_no_program(self):
         for program in (3, ["natator-sim"], {}, b"natator-sim"):

@@ -1,8 +1,10 @@
 """The program natator-sim: how it is started, spoken to and ended."""
 
 import errno
+import functools
 import json
 import os
+import re
 import select
 import shutil
 import subprocess
@@ -11,26 +13,50 @@ import weakref
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import natator
 from natator.errors import InputError, ProgramError
 
 
 def simulator_path(program=None):
-    """Path of natator-sim: `program`, else $NATATOR_SIM, else that on the PATH, else that of the checkout which this package
-    is run from. Raises ProgramError where there is none."""
+    """Path of natator-sim: `program`, else $NATATOR_SIM, else the one that came with this package, else that on the PATH, else that
+    of the checkout which this package is run from. Raises ProgramError where there is none, or of another version."""
     if program is not None and not isinstance(program, (str, os.PathLike)):
         raise InputError(f"program = {program!r}: must be a path")
-    named = program or os.environ.get("NATATOR_SIM")
-    if named:
-        if "\0" in str(named) or not os.access(named, os.X_OK) or os.path.isdir(named):
-            raise _other_program(named)
-        return str(named)
-    found = shutil.which("natator-sim")
-    if found:
-        return found
-    built = Path(__file__).resolve().parents[3] / "build/release/bin/natator-sim"
-    if os.access(built, os.X_OK):
-        return str(built)
-    raise ProgramError("no natator-sim: put the folder of the program, build/release/bin, on the PATH, or name it by NATATOR_SIM")
+    path = program or os.environ.get("NATATOR_SIM")
+    if path:
+        if "\0" in str(path) or not os.access(path, os.X_OK) or os.path.isdir(path):
+            raise _other_program(path)
+    else:
+        own = [Path(folder, "program/bin/natator-sim") for folder in natator.__path__]
+        built = Path(__file__).resolve().parents[3] / "build/release/bin/natator-sim"
+        path = next(filter(Path.exists, own), None) or shutil.which("natator-sim") or (built if os.access(built, os.X_OK) else None)
+        if not path:
+            raise ProgramError("no natator-sim: install the package by pip install . in a checkout, put the folder of the program, "
+                               "build/release/bin, on the PATH, or name it by NATATOR_SIM")
+    file = os.stat(path)
+    version = _version(str(path), file.st_ino, file.st_mtime_ns)
+    if version not in (None, natator.__version__):
+        raise ProgramError(f"{path} is natator-sim {version}, this package is {natator.__version__}: must be of the same version; install or "
+                           "build both again, or name another program by NATATOR_SIM")
+    return str(path)
+
+
+@functools.lru_cache
+def _version(path, *_):
+    """What a program says of its version; None of one that says none within a second, which its first use will tell."""
+    try:
+        with subprocess.Popen([path, "--version"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as process:  # not the null device: who writes on it without end is to end
+            try:
+                poll = select.poll()
+                poll.register(process.stdout, select.POLLIN)
+                text = os.read(process.stdout.fileno(), 100) if poll.poll(1000 * GRACE) else b""
+            finally:
+                process.kill()
+    except (OSError, ValueError):
+        return None
+    found = re.match(rb"natator-sim (\d[\w.]*), ", text)
+    return found and found[1].decode()
 
 
 def _other_program(path, wrong=""):
@@ -61,7 +87,7 @@ class Program:
                                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         except OSError as error:
             kind = InputError if error.errno == errno.E2BIG else ProgramError
-            raise kind(f"{self.path}: cannot be started: {error.strerror}") from error
+            raise kind(f"{self.path}: cannot be started: {error.strerror}{WAYS_OUT.get(error.errno, '')}") from error
         except ValueError as error:
             raise InputError(f"argument of {self.path}: {error}") from error
         self._finalizer = weakref.finalize(self, _drop, self._process)
@@ -135,6 +161,8 @@ class Program:
         last = next((_printable(text.strip()) for text in reversed(lines) if text.strip()), "")
         if code == 2 and last.startswith(NAME):
             return InputError(last.removeprefix(NAME))
+        if "version `GLIBC_" in last:
+            return ProgramError(f"{last}: this system's C library is too old for it; {BUILD_IT}")
         return ProgramError(f"natator-sim has ended, exit code {code}" + (f": {last.removeprefix(NAME)}" if last else ""))
 
     def no_simulator(self):
@@ -286,6 +314,10 @@ def _printable(text):
 
 
 NAME = "natator-sim: "
+BUILD_IT = "build it here: pip install . in a checkout"
+WAYS_OUT = {errno.ENOEXEC: f", as a program for another kind of processor; {BUILD_IT}",
+            errno.ENOENT: f", as where there is no glibc (musl); {BUILD_IT}",
+            errno.EACCES: ": must be executable, on a disk that programs may run from; install the package again"}
 PATIENCE = 0.5            # s for a program that has nothing to do, to end with its input
 GRACE = 1.0               # s for one that was told to end, or seems to
 CHUNK = 1 << 18           # bytes written or read at once

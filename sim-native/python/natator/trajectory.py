@@ -28,7 +28,7 @@ def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **opti
     """Swims for `duration` seconds and keeps every `every`th frame. `options`: those of Stream. Raises InputError and
     Unstable. It does not end early as an evaluation may."""
     with Stream(scene, gait=gait, fields=fields or ("position",), **options) as stream:
-        return _joined(list(frames(stream, duration, every)), stream.scene)
+        return joined(list(frames(stream, duration, every)), stream.scene)
 
 
 def frames(stream, duration, every=1, least=0):
@@ -55,7 +55,8 @@ def frames(stream, duration, every=1, least=0):
     yield frame
 
 
-def _joined(frames, scene):
+def joined(frames, scene):
+    """The Trajectory of all these frames."""
     def all_of(name):
         values = [getattr(frame, name) for frame in frames]
         return None if values[0] is None else np.array(values)

@@ -10,11 +10,14 @@ namespace {
 constexpr double min_order = 0.5, max_order = 4;
 constexpr double significant = 2;  // standard errors
 
+/// Of independent errors. std::hypot would keep the program from systems older than glibc 2.35.
+double of_both(double one, double other) { return std::sqrt(one * one + other * other); }
+
 /// The order that three levels show, if they show one.
 std::optional<double> observed_order(const Sample& base, const Sample& half, const Sample& quarter) {
     const double first = half.mean - base.mean, second = quarter.mean - half.mean;
-    if (!(std::abs(first) > significant * std::hypot(base.error, half.error))) return std::nullopt;
-    if (!(std::abs(second) > significant * std::hypot(half.error, quarter.error))) return std::nullopt;
+    if (!(std::abs(first) > significant * of_both(base.error, half.error))) return std::nullopt;
+    if (!(std::abs(second) > significant * of_both(half.error, quarter.error))) return std::nullopt;
     const double order = std::log2(first / second);  // not a number where the signs differ
     if (!(order >= min_order && order <= max_order)) return std::nullopt;
     return order;
@@ -42,14 +45,14 @@ Sample sample_of(const std::vector<double>& values) {
 }
 
 Sample difference(const Sample& from, const Sample& to) {
-    return {to.mean - from.mean, std::hypot(to.error, from.error), to.runs};
+    return {to.mean - from.mean, of_both(to.error, from.error), to.runs};
 }
 
 std::optional<Sample> relative_change(const Sample& from, const Sample& to) {
     const bool may_be_zero = std::isfinite(from.error) && std::abs(from.mean) <= significant * from.error;
     if (from.mean == 0 || may_be_zero) return std::nullopt;
     const double ratio = to.mean / from.mean;
-    return Sample{ratio - 1, std::hypot(to.error, weighted(ratio, from)) / std::abs(from.mean), to.runs};
+    return Sample{ratio - 1, of_both(to.error, weighted(ratio, from)) / std::abs(from.mean), to.runs};
 }
 
 Limit limit_of(const Sample& base, const Sample& half, const std::optional<Sample>& quarter) {
@@ -81,14 +84,14 @@ Estimate estimate_of(const Sample& base, const std::optional<Sample>& half_time,
     const auto add = [&](const Limit& limit, const Sample& half, const std::optional<Sample>& quarter) {
         base_weight += limit.base_weight;
         estimate.value += limit.from_base;
-        estimate.discretisation = std::hypot(estimate.discretisation, limit.from_finest);
-        estimate.statistical = std::hypot(estimate.statistical, weighted(limit.half_weight, half));
-        if (quarter) estimate.statistical = std::hypot(estimate.statistical, weighted(limit.quarter_weight, *quarter));
+        estimate.discretisation = of_both(estimate.discretisation, limit.from_finest);
+        estimate.statistical = of_both(estimate.statistical, weighted(limit.half_weight, half));
+        if (quarter) estimate.statistical = of_both(estimate.statistical, weighted(limit.quarter_weight, *quarter));
     };
     if (estimate.time) add(*estimate.time, *half_time, quarter_time);
     if (estimate.space) add(*estimate.space, *half_space, std::nullopt);
-    estimate.statistical = std::hypot(estimate.statistical, weighted(base_weight, base));
-    estimate.error = std::hypot(estimate.statistical, estimate.discretisation);
+    estimate.statistical = of_both(estimate.statistical, weighted(base_weight, base));
+    estimate.error = of_both(estimate.statistical, estimate.discretisation);
     return estimate;
 }
 

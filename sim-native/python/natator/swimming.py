@@ -1,0 +1,167 @@
+"""One swim, with what is told of it, and shown in a notebook or a file."""
+
+import html
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from natator.errors import InputError
+from natator.gait import Gait, number, wave_in
+from natator.program import simulator_path
+from natator.script import package
+from natator.source import read_json
+from natator.stream import Stream
+from natator.trajectory import Trajectory, frames, joined
+
+ELSEWHERE = {"evolved-eel": "endless/evolved-eel", "fry": "lake/fry"}  # creatures that are not in pool/
+GAITS = {"creature-2": "fish-like", "eel": "fish-like"}  # those of others have their names
+PICTURES = 30  # of a second
+WIDTH, MARGIN, LEGEND = 720, 12, 22  # pixels
+WATER, BODY, GHOST, PATH, INK = "#eaf4fb", "#1f6f8b", "#a9c9d8", "#e04a2b", "#26323d"
+BAR = 0.2  # body lengths
+GHOSTS = 4  # earlier places of the body that are drawn, too
+
+
+def swim(creature_or_scene, duration=2.0, gait=None, **options):
+    """Simulates one swim and keeps it; it does not end early as an evaluation may.
+
+    creature_or_scene: a creature, such as "eel" (in the scene pool/eel), a scene's name, or a path that ends in .json. duration: s, to
+    the nearest frame. gait: a Gait or a dict; None is the one that comes with the creature, else a wave from head to tail. options:
+    those of Stream. One swim is one start: evaluate several before you compare gaits. Returns a Swim. Raises InputError, ProgramError
+    and Unstable.
+    """
+    scene = scene_of(creature_or_scene)
+    with Stream(scene, fields=("position",), **options) as stream:
+        if not stream.actuators:
+            raise InputError(f'scene "{scene}": must have a creature with actuators')
+        gait = _own_gait(stream.scene, options.get("program")) if gait is None else gait
+        stream.set_gait(gait)
+        step = stream.scene["timeStep"]
+        steps = int(number("duration", duration) / step + 0.5)
+        every = next(count for count in range(max(1, round(1 / PICTURES / step)), 0, -1) if steps % count == 0)
+        trajectory = joined(list(frames(stream, duration, every, least=1)), stream.scene)
+        return Swim(scene, gait, trajectory, stream.ask({"do": "sense"})["senses"].get("work"))
+
+
+def scene_of(creature_or_scene):
+    """The name or path of a scene; a creature's is that of its scene in the pool. Raises InputError."""
+    if not isinstance(creature_or_scene, (str, os.PathLike)):
+        raise InputError(f"creature_or_scene = {creature_or_scene!r}: must be a name or a path")
+    scene = os.fsdecode(creature_or_scene)
+    return scene if "/" in scene or scene.endswith(".json") else ELSEWHERE.get(scene, f"pool/{scene}")
+
+
+def _own_gait(scene, program):
+    """Of the file that has the creature's name, beside the program's scenes; or a wave."""
+    name = (scene["definition"].get("creature") or {}).get("name")
+    file = Path(os.path.realpath(simulator_path(program))).parents[1] / f"share/natator/gaits/{GAITS.get(name, name)}.json"
+    if not name or not file.is_file():
+        return wave_in(scene)
+    given = {key: value for key, value in read_json(file).items() if key != "$schema"}
+    return Gait(**given) if len(given["amplitude"]) == scene["actuators"] else wave_in(scene)
+
+
+@dataclass(frozen=True, repr=False)
+class Swim:
+    """One swim. Its repr is one line; a notebook shows it moving, which needs no other package."""
+
+    scene: str
+    gait: Gait
+    trajectory: Trajectory
+    work: float = None  #: of the muscles, mass length²/s²; None in scheme flex
+
+    @property
+    def duration(self):
+        """s."""
+        return float(self.trajectory.time[-1])
+
+    @property
+    def distance(self):
+        """Change of the body's mean x over ground, length; negative is backwards."""
+        return float(self.trajectory.distance[-1])
+
+    @property
+    def speed(self):
+        """Mean along x, body lengths/s."""
+        return self.distance / self.duration / self.trajectory.scene["bodyLength"]
+
+    def __repr__(self):
+        return f"{self.scene}: {self.distance:.3f} in {self.duration:.2f} s, {self.speed:.2f} body lengths/s"
+
+    def save(self, file):
+        """Draws it: .svg and .html move in a browser; .gif and .png, which shows its end, need Pillow (natator[film]). Raises
+        InputError and OSError."""
+        kind, drawing = Path(file).suffix.lower(), _Drawing(self)
+        if kind in (".svg", ".html"):
+            Path(file).write_text("<!DOCTYPE html><meta charset=utf-8>" * (kind == ".html") + drawing.svg(), encoding="utf-8")
+        elif kind == ".png":
+            drawing.image(-1).save(file, optimize=True)
+        elif kind == ".gif":
+            first, *others = (drawing.image(k).quantize(32) for k in range(len(self.trajectory.time)))
+            first.save(file, save_all=True, append_images=others, duration=1000 * self.duration / len(others), loop=0)
+        else:
+            raise InputError(f"file = {os.fspath(file)!r}: must end in .svg, .html, .gif or .png")
+
+    def _repr_html_(self):
+        return _Drawing(self).svg()
+
+
+class _Drawing:
+    """The body's outline as it moves, seen from above or, where it moves more up and down, from the side."""
+
+    def __init__(self, swim):
+        scene, body = swim.trajectory.scene, swim.trajectory.position.astype(float)
+        own = body[:, swim.trajectory.body].mean(1)
+        body[:, :, 0] += (own[0, 0] + swim.trajectory.distance - own[:, 0])[:, None]  # a moving tank takes its places along
+        own[:, 0] = own[0, 0] + swim.trajectory.distance
+        axis = 1 if np.ptp(body - own[:, None], axis=0)[scene["body"], 1:].mean(0).argmax() == 0 else 2
+        body[:, :, 1] *= -1
+        self.legend, self.duration = f"{swim!r}; the bar is {BAR} body lengths", swim.duration
+        # Of each slice the particles outermost at first, on one side and on the other: the outline goes along with the body.
+        sides = [[], []]
+        for members in map(np.array, scene["slices"]):
+            across = body[0, members, axis]
+            for side, end in zip(sides, (across.min(), across.max())):
+                side.append(body[:, members[np.abs(across - end) < 1e-3]].mean(1)[:, [0, axis]])
+        outline = np.stack(sides[0] + sides[1][::-1], axis=1)
+        path = own[:, [0, axis]] * [1, -1 if axis == 1 else 1]
+        low, high = outline.min((0, 1)), outline.max((0, 1))
+        scale = (WIDTH - 2 * MARGIN) / (high - low)[0]
+        self.outline, self.path = ((part - low) * scale + MARGIN for part in (outline, path))
+        self.height = int((high - low)[1] * scale) + 2 * MARGIN + LEGEND
+        self.length = BAR * scale * scene["bodyLength"]
+
+    def ghosts(self, until):
+        return [self.outline[k] for k in np.linspace(0, len(self.outline) - 1, GHOSTS, endpoint=False).astype(int) if k < until]
+
+    def svg(self):
+        def text(points):
+            return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+
+        ghosts = "".join(f'<polygon points="{text(ghost)}" fill="none" stroke="{GHOST}"/>' for ghost in self.ghosts(len(self.outline)))
+        base, right, legend = self.height - 9, WIDTH - MARGIN, html.escape(self.legend)
+        return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {self.height}" width="{WIDTH}" height="{self.height}" '
+                f'font-family="sans-serif" font-size="12" fill="{INK}"><title>{legend}</title><rect width="{WIDTH}" height="{self.height}" '
+                f'fill="{WATER}"/>{ghosts}<polyline points="{text(self.path)}" fill="none" stroke="{PATH}"/>'
+                f'<polygon points="{text(self.outline[-1])}" fill="{BODY}"><animate attributeName="points" dur="{self.duration:.2f}s" '
+                f'repeatCount="indefinite" values="{";".join(map(text, self.outline))}"/></polygon>'
+                f'<path d="M{right - self.length:.1f} {base}H{right}" stroke="{INK}" stroke-width="2"/>'
+                f'<text x="{MARGIN}" y="{base}">{legend}</text></svg>')
+
+    def image(self, k):
+        """A frame as Pillow's image."""
+        pillow, pen = package("PIL.Image", "pillow", "a .png or .gif"), package("PIL.ImageDraw", "pillow", "a .png or .gif")
+        k %= len(self.outline)
+        big = pillow.new("RGB", (2 * WIDTH, 2 * self.height), WATER)
+        draw = pen.Draw(big)
+        for ghost in self.ghosts(k):
+            draw.polygon([tuple(point) for point in 2 * ghost], outline=GHOST, width=2)
+        draw.polygon([tuple(point) for point in 2 * self.outline[k]], BODY)
+        draw.line([tuple(point) for point in 2 * self.path[:k + 1]], PATH, 2)
+        image = big.resize((WIDTH, self.height), pillow.Resampling.LANCZOS)
+        draw, base, right = pen.Draw(image), self.height - 9, WIDTH - MARGIN
+        draw.line([(right - self.length, base), (right, base)], INK, 2)
+        draw.text((MARGIN, base), self.legend, INK, package("PIL.ImageFont", "pillow", "a picture").load_default(12), "ls")
+        return image

