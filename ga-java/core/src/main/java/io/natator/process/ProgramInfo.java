@@ -95,7 +95,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      */
     static String ask(Path simulator, List<String> arguments, String subject) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
-            NativeProgram.Output output = program.call(arguments, "");
+            NativeProgram.Output output = program.call(arguments, "", line -> { });
             if (output.exitStatus() != 0) {
                 throw output.failure(subject);
             }

@@ -55,7 +55,7 @@ public final class TrajectoryRecorder {
             add(arguments, "--at", at);
         }
         try (NativeProgram program = new NativeProgram(execution.simulator(), execution.timeout())) {
-            NativeProgram.Output output = program.call(arguments, "");
+            NativeProgram.Output output = program.call(arguments, "", line -> { });
             if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
                 throw output.failure("scene " + request.scene());
             }

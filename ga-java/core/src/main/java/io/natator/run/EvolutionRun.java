@@ -10,16 +10,12 @@ import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.FitnessKind;
-import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.fitness.BodyCheckEvaluator;
-import io.natator.fitness.EffortEvaluator;
-import io.natator.fitness.NetEvaluator;
-import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.process.TimeLimit;
@@ -117,7 +113,6 @@ public final class EvolutionRun {
         CachedEvaluator cached = evaluator instanceof CachedEvaluator shared ? shared.counting() : null;
         Evaluator own = cached == null ? evaluator : cached;
         SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator());
-        checkFitness(settings, scene);
         double duration = settings.problem().duration() != null ? settings.problem().duration() : scene.duration();
         EvaluationCounter counter = new EvaluationCounter(folder, duration, cached == null ? () -> 0 : cached::found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
@@ -127,7 +122,7 @@ public final class EvolutionRun {
         all.addAll(List.of(listeners));
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded())
+        EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all, folder.recorded())
                 .run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
@@ -147,41 +142,6 @@ public final class EvolutionRun {
             folder.write(best);
         }
         return new Outcome(state, best);
-    }
-
-    /**
-     * An evaluator that tells, as the run's own will, what the run asks of results beside the distance: its objectives, or what its map tells
-     * gaits apart by. What the simulator does not measure in the scene it refuses with the first result.
-     *
-     * @param evaluator carries out the evaluations; closed with this one, open where there is none
-     * @throws InvalidInputException if the scene has goals, and the run would have another fitness
-     */
-    public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
-        checkFitness(settings, scene);
-        return measuring(settings, settings.problem().objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
-    }
-
-    /** Goals are what is rewarded where a scene has any, so that there is no distance to take a drift off. */
-    private static void checkFitness(EvolutionSettings settings, SceneInfo scene) {
-        if (settings.problem().fitness() == FitnessKind.NET && scene.goals() != null && !scene.goals().isEmpty()) {
-            throw new InvalidInputException("--fitness net is for scenes without goals, and " + settings.problem().scene()
-                    + " has some, which are its fitness; expected --objectives net, alone or together with goals");
-        }
-    }
-
-    /** An evaluator whose results tell what the optimizer asks for. */
-    private static Evaluator measuring(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
-        if (settings.search().optimizer() != OptimizerKind.MAP_ELITES) {
-            return evaluator;
-        }
-        return settings.problem().evolve() == null ? EffortEvaluator.of(evaluator, scene.bodyLength())
-                : new EffortEvaluator(evaluator, request -> settings.problem().bodyLength(request.overrides()));
-    }
-
-    /** An evaluator whose results are worth what the run rewards. */
-    static Evaluator rewarding(EvolutionSettings settings, Evaluator evaluator) {
-        return settings.problem().objectives() != null ? new ObjectiveEvaluator(evaluator, settings.problem().objectives())
-                : settings.problem().fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */

@@ -10,9 +10,8 @@ import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
 import io.natator.protocol.Perturbation;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -42,7 +41,7 @@ class CachedEvaluatorTest {
     /** How many of the requests the simulator is asked for. */
     private int simulated(ExecutionSettings settings, SimulationRequest... requests) throws InterruptedException {
         ToySimulator simulator = new ToySimulator();
-        try (Evaluator inner = new WorkerPool(simulator, 2);
+        try (Evaluator inner = new FakePool(simulator, 2);
                 CachedEvaluator cached = new CachedEvaluator(inner, new EvaluationCache(folder.resolve("cache")),
                         settings)) {
             for (SimulationRequest request : requests) {
@@ -81,19 +80,9 @@ class CachedEvaluatorTest {
 
     @Test
     void failuresAreNotKept() throws InterruptedException {
-        Simulator failing = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) {
-                return SimulationResult.failed(request.id(), "crashed");
-            }
-
-            @Override
-            public void close() {
-                // Nothing is held.
-            }
-        };
+        FakePool.Simulation failing = request -> SimulationResult.failed(request.id(), "crashed");
         SimulationRequest request = new SimulationRequest(1, "thesis/creature-1", GAIT, null, null, null);
-        try (Evaluator inner = new WorkerPool(failing, 1); CachedEvaluator cached = new CachedEvaluator(inner,
+        try (Evaluator inner = new FakePool(failing, 1); CachedEvaluator cached = new CachedEvaluator(inner,
                 new EvaluationCache(folder.resolve("cache")), execution)) {
             cached.evaluate(request);
         }

@@ -13,8 +13,8 @@ import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.WorkerPool;
 import io.natator.run.EvolutionRun;
 import io.natator.run.PlannedRun;
 import java.nio.file.Files;
@@ -44,7 +44,7 @@ class CompactRunTest {
         Path directory = folder.resolve("run");
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3);
         try (RunFolder run = RunFolder.create(directory, settings);
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             assertThatThrownBy(() -> CompactRun.compact(directory)).isInstanceOf(InvalidInputException.class)
                     .hasMessageContaining("not a finished run");
             new EvolutionRun(run).run(execution, evaluator);
@@ -66,7 +66,7 @@ class CompactRunTest {
 
     private void evolve(Path directory, EvolutionSettings settings) throws Exception {
         try (RunFolder run = new PlannedRun(settings, directory).open();
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             new EvolutionRun(run).run(execution, evaluator);
         }
     }

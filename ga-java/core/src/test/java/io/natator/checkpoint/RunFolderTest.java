@@ -16,9 +16,8 @@ import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.ToySimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
-import io.natator.protocol.SimulationRequest;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.io.RandomAccessFile;
@@ -61,7 +60,7 @@ class RunFolderTest {
         List<EvolutionListener> listeners = new ArrayList<>(List.of(folder));
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
-        try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
+        try (folder; Evaluator pool = new FakePool(simulator, 3)) {
             EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
                     .run(folder.checkpoint());
             folder.writeResults(end);
@@ -264,21 +263,9 @@ class RunFolderTest {
     void aGenerationThatFailedIsSimulatedAnew() throws IOException {
         evolve(RunFolder.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
         RunFolder broken = RunFolder.create(run, settings(OperatorSet.CORRECTED));
-        Simulator failing = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
-                try (ToySimulator toy = new ToySimulator()) {
-                    return request.id() < 15 ? toy.evaluate(request)
-                            : SimulationResult.failed(request.id(), "no memory");
-                }
-            }
-
-            @Override
-            public void close() {
-                // Nothing is held.
-            }
-        };
-        try (broken; WorkerPool pool = new WorkerPool(failing, 2)) {
+        ToySimulator toy = new ToySimulator();
+        try (broken; Evaluator pool = new FakePool(request -> request.id() < 15 ? toy.evaluate(request)
+                : SimulationResult.failed(request.id(), "no memory"), 2)) {
             Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded());
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(EvolutionFailedException.class)
                     .hasMessageContaining("simulations failed, the first: no memory");

@@ -10,8 +10,8 @@ import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.fitness.ObjectiveEvaluator;
-import io.natator.process.WorkerPool;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -24,8 +24,8 @@ class Nsga2Test {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(24, generations)
                 .withSeed(3).withStarts(starts, Judge.MEAN)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            return new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
+        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
+            return new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
                     new Recorded(0, List.of())).run(null);
         }
     }
@@ -81,8 +81,8 @@ class Nsga2Test {
     void weightsMakeOneObjective() {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
                 .withObjectives(OptimizerKind.CMA_ES, WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            EvolutionState end = new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
+        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
+            EvolutionState end = new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
                     new Recorded(0, List.of())).run(null);
             SimulationResult best = end.best().result();
             Gait gait = ENCODING.decode(end.best().genes());

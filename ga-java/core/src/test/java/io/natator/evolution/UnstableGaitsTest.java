@@ -6,13 +6,14 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.checkpoint.JudgedGaits;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
 import io.natator.config.Json;
 import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
-import io.natator.fitness.NetEvaluator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
+import io.natator.fitness.FitnessEvaluator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -38,7 +39,7 @@ class UnstableGaitsTest {
     private static final List<String> LAWS = List.of("tank", "energy", "tank", "shape", "particle-energy");
 
     /** Half of the gaits cheat: they go ten units further than others, and break a law from some of their starts. */
-    private static class Cheats implements Simulator {
+    private static class Cheats implements FakePool.Simulation {
 
         private final ToySimulator toy = new ToySimulator();
         private final int oneOf;
@@ -62,11 +63,6 @@ class UnstableGaitsTest {
         static boolean cheats(Gait gait) {
             return gait.hashCode() % 2 == 0;
         }
-
-        @Override
-        public void close() {
-            toy.close();
-        }
     }
 
     private static SimulationResult unstable(long id, String law) {
@@ -76,7 +72,7 @@ class UnstableGaitsTest {
 
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        try (WorkerPool pool = new WorkerPool(new Cheats(oneOf), 2)) {
+        try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
             new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new Recorded(0, List.of()))
                     .run(null);
         }
@@ -145,14 +141,15 @@ class UnstableGaitsTest {
     @Test
     void whatIsUnstableInVacuumHasNoNetDistance() throws InterruptedException {
         SimulationRequest request = SimulationRequest.of("thesis/creature-1", new Gait(1.5, List.of(0.6), List.of(0.3))).withId(7);
-        Simulator simulator = new Cheats(1) {
+        FakePool.Simulation simulator = new Cheats(1) {
             @Override
             public SimulationResult evaluate(SimulationRequest one) throws InterruptedException {
                 return one.overrides() == null ? new ToySimulator().evaluate(one) : unstable(one.id(), "shape");
             }
         };
-        try (WorkerPool pool = new WorkerPool(simulator, 1)) {
-            SimulationResult result = new NetEvaluator(pool).evaluate(request);
+        try (Evaluator pool = new FakePool(simulator, 1)) {
+            SimulationResult result = FitnessEvaluator.of(pool, EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                    .withFitness(FitnessKind.NET, false).problem()).evaluate(request);
 
             assertThat(result.status()).isEqualTo(Status.UNSTABLE);
             assertThat(result.id()).isEqualTo(7);

@@ -47,11 +47,9 @@ class BatchSimulatorTest {
 
     private List<SimulationResult> evaluate(List<SimulationRequest> requests, double timeoutSeconds)
             throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
         try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
-            evaluator.evaluateInOrder(requests, results::add);
+            return evaluator.evaluate(requests);
         }
-        return results;
     }
 
     @Test
@@ -177,7 +175,7 @@ class BatchSimulatorTest {
                 all.add(own);
                 callers.add(new Thread(() -> {
                     try {
-                        evaluator.evaluateInOrder(requests(30, "thesis/creature-1"), own::add);
+                        own.addAll(evaluator.evaluate(requests(30, "thesis/creature-1")));
                     } catch (InterruptedException e) {
                         Thread.currentThread().interrupt();
                     }

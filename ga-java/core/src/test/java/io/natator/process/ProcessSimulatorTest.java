@@ -36,7 +36,7 @@ class ProcessSimulatorTest {
     private Path folder;
 
     private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
-        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+        try (Evaluator simulator = new ProcessSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
             return simulator.evaluate(FakeSimulator.request(7, scene));
         }
     }
@@ -105,7 +105,7 @@ class ProcessSimulatorTest {
         ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
         SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
 
-        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+        try (Evaluator simulator = new ProcessSimulator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
             assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
         }
         assertThatNoChildIsLeft();
@@ -158,7 +158,7 @@ class ProcessSimulatorTest {
     @Test
     void aProgramThatCannotStartIsNoFaultOfTheRequest() throws IOException {
         Path program = Files.writeString(folder.resolve("program"), "not a program");
-        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
+        try (Evaluator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
             assertThatThrownBy(() -> simulator.evaluate(FakeSimulator.request(1, "a")))
                     .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
                     .hasMessageStartingWith("cannot start " + program);
@@ -167,7 +167,7 @@ class ProcessSimulatorTest {
 
     @Test
     void interruptionKillsTheProcess() throws InterruptedException {
-        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             Thread caller = new Thread(() -> {
                 try {
                     simulator.evaluate(FakeSimulator.request(1, "fault/hang"));
@@ -185,7 +185,7 @@ class ProcessSimulatorTest {
 
     @Test
     void manyCallsLeakNeitherProcessesNorFileHandles() throws InterruptedException, IOException {
-        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             simulator.evaluate(FakeSimulator.request(0, "fault/half"));
             long before = openFiles();
             for (int i = 1; i <= 20; i++) {

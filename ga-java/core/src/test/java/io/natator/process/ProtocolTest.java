@@ -89,7 +89,7 @@ class ProtocolTest {
     void answersFitTheSchema(String scene) throws Exception {
         try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofMinutes(5))) {
             String answer = program.call(List.of("evaluate"),
-                    Json.line(FakeSimulator.request(5, scene)) + "\n").text();
+                    Json.line(FakeSimulator.request(5, scene)) + "\n", line -> { }).text();
             assertThat(check("result.schema.json", answer)).as(answer).isEmpty();
         }
     }

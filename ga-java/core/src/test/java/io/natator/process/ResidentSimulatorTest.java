@@ -32,14 +32,14 @@ class ResidentSimulatorTest {
     private Path folder;
 
     private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
-        try (Simulator simulator = new ResidentSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
             return simulator.evaluate(FakeSimulator.request(7, scene));
         }
     }
 
     @Test
     void keepsOneProcessForManyEvaluations() throws InterruptedException {
-        try (Simulator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             SimulationResult first = simulator.evaluate(FakeSimulator.request(1, "thesis/creature-1"));
             long[] processes = ProcessHandle.current().children().mapToLong(ProcessHandle::pid).toArray();
             SimulationResult second = simulator.evaluate(FakeSimulator.request(2, "thesis/creature-1"));
@@ -89,7 +89,7 @@ class ResidentSimulatorTest {
 
     @Test
     void aProcessThatSaysTooMuchCostsTheNextEvaluationNothing() throws InterruptedException {
-        try (Simulator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             simulator.evaluate(FakeSimulator.request(1, "fault/two-lines"));
             Thread.sleep(100);
 
@@ -108,7 +108,7 @@ class ResidentSimulatorTest {
     @Test
     void aMissingDeviceIsToldOf() {
         ExecutionSettings onGpu = FakeSimulator.execution(folder, PATIENCE).withBackend(Backend.CUDA);
-        try (Simulator simulator = new ResidentSimulator(onGpu)) {
+        try (Evaluator simulator = new ResidentSimulator(onGpu)) {
             assertThatThrownBy(() -> simulator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
                     .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
                     .hasMessage("no such device here");
@@ -125,7 +125,7 @@ class ResidentSimulatorTest {
     @Test
     void aProgramThatCannotStartIsNoFaultOfTheRequest() throws IOException {
         Path program = Files.writeString(folder.resolve("program"), "not a program");
-        try (Simulator simulator = new ResidentSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
+        try (Evaluator simulator = new ResidentSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
             assertThatThrownBy(() -> simulator.evaluate(FakeSimulator.request(1, "a")))
                     .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
                     .hasMessageStartingWith("cannot start " + program);
@@ -134,7 +134,7 @@ class ResidentSimulatorTest {
 
     @Test
     void failuresLeakNeitherProcessesNorFileHandles() throws InterruptedException, IOException {
-        try (Simulator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             simulator.evaluate(FakeSimulator.request(0, "fault/half"));
             long before = openFiles();
             for (int i = 1; i <= 30; i++) {

@@ -27,10 +27,8 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -67,7 +65,7 @@ class EvolutionRunTest {
     private int run(String name, EvolutionSettings settings, ExecutionSettings how) throws InterruptedException {
         ToySimulator simulator = new ToySimulator();
         try (RunFolder run = RunFolder.create(folder.resolve(name), settings);
-                Evaluator inner = new WorkerPool(simulator, 2);
+                Evaluator inner = new FakePool(simulator, 2);
                 Evaluator evaluator = how.cache() == null ? inner
                         : new CachedEvaluator(inner, new EvaluationCache(how.cache()), how)) {
             new EvolutionRun(run).run(how, evaluator);
@@ -149,7 +147,7 @@ class EvolutionRunTest {
             }
         };
         try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             new EvolutionRun(run).run(execution, evaluator, recorder);
         }
 
@@ -169,7 +167,7 @@ class EvolutionRunTest {
         Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(states.get(2)));
         Files.delete(folder.resolve("run/digests.json"));  // else it is noticed
         try (RunFolder again = RunFolder.open(folder.resolve("run"));
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);
         }
         assertThat(folder.resolve("run/savings.json")).hasContent(whole);
@@ -192,19 +190,9 @@ class EvolutionRunTest {
     @CsvSource({"4.0, 4.0, 240, false", "4.0, 3.9833, 239, true", "0.11, 0.1166667, 7, false", "0.11, 0.1, 6, true", "0.108, 0.1, 6, false"})
     void onlyWhatWasNotSimulatedWholeEndedEarly(double duration, double simulated, int frames, boolean early) throws InterruptedException {
         ToySimulator toy = new ToySimulator();
-        Simulator stopped = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
-                return toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
-            }
-
-            @Override
-            public void close() {
-                toy.close();
-            }
-        };
+        FakePool.Simulation stopped = request -> toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
         try (RunFolder run = RunFolder.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
-                Evaluator evaluator = new WorkerPool(stopped, 2)) {
+                Evaluator evaluator = new FakePool(stopped, 2)) {
             new EvolutionRun(run).run(execution, evaluator);
         }
 
@@ -271,7 +259,7 @@ class EvolutionRunTest {
                 .hasMessageStartingWith(folder.resolve("run") + " is damaged: it has no vacuum.jsonl");
         Files.delete(folder.resolve("run/digests.json"));
         try (RunFolder again = RunFolder.open(folder.resolve("run"));
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);
         }
         assertThat(before).endsWith(Files.readString(folder.resolve("run/vacuum.jsonl")));

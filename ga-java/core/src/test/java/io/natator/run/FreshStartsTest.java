@@ -15,9 +15,9 @@ import io.natator.config.Json;
 import io.natator.config.Judge;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.ToySimulator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -40,9 +40,9 @@ class FreshStartsTest {
     private final List<SimulationRequest> asked = new ArrayList<>();
 
     /** The toy swimmer, who takes down what it is asked. */
-    private final class Recorder implements Simulator {
+    private final class Recorder implements FakePool.Simulation {
 
-        private final Simulator toy = new ToySimulator();
+        private final FakePool.Simulation toy = new ToySimulator();
         private final Predicate<SimulationRequest> refused;
         private final RequestRejectedException refusal;
 
@@ -61,11 +61,6 @@ class FreshStartsTest {
             }
             return toy.evaluate(request);
         }
-
-        @Override
-        public void close() {
-            toy.close();
-        }
     }
 
     private BestGait best(int starts, Judge judge, Recorder simulator) throws InterruptedException {
@@ -73,7 +68,7 @@ class FreshStartsTest {
                 .withStarts(starts, judge);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                WorkerPool pool = new WorkerPool(simulator, 2)) {
+                Evaluator pool = new FakePool(simulator, 2)) {
             BestGait best = new EvolutionRun(run).run(how, pool).best();
             assertThat(Json.read(folder.resolve("run/best.json"), BestGait.class, "best")).isEqualTo(best);
             return best;

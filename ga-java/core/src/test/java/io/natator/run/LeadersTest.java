@@ -11,9 +11,9 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Judge;
 import io.natator.evolution.ToySimulator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
@@ -30,20 +30,15 @@ class LeadersTest {
     private Path folder;
 
     /** The toy swimmer, who touches a wall after 1 s of 4 if it is quick. */
-    private static final class Hurried implements Simulator {
+    private static final class Hurried implements FakePool.Simulation {
 
-        private final Simulator toy = new ToySimulator();
+        private final FakePool.Simulation toy = new ToySimulator();
 
         @Override
         public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
             SimulationResult one = toy.evaluate(request);
             return one.distance() < 0.2 ? one : new SimulationResult(one.id(), one.status(), one.distance(), "touched-plane", 1.0,
                     60, one.scheme(), one.precision(), one.hash(), null, null);
-        }
-
-        @Override
-        public void close() {
-            toy.close();
         }
     }
 
@@ -54,7 +49,7 @@ class LeadersTest {
                 .withStarts(starts, Judge.MEAN).withSeed(seed);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                WorkerPool pool = new WorkerPool(new Hurried(), 2)) {
+                Evaluator pool = new FakePool(new Hurried(), 2)) {
             new EvolutionRun(run).run(how, pool);
         }
         StoredRun run = StoredRun.in(folder.resolve("run"));

@@ -4,10 +4,9 @@ import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.process.BatchSimulator;
+import io.natator.process.Evaluator;
 import io.natator.process.ProcessSimulator;
 import io.natator.process.ProgramInfo;
-import io.natator.process.ResidentSimulator;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -30,8 +29,7 @@ final class ExecutorSimulator {
 
     private final Path program;
     private final ExecutionSettings settings;
-    private final ResidentSimulator resident;
-    private final BatchSimulator batches;
+    private final Evaluator simulator;
     /** Samples that came out as they should. */
     private final Set<String> done = ConcurrentHashMap.newKeySet();
     private ProgramInfo info;
@@ -48,9 +46,9 @@ final class ExecutorSimulator {
         this.program = key.program;
         boolean alone = key.backend == Backend.CPU;
         this.settings = ExecutionSettings.of(key.program).withMode(alone ? SimulatorMode.RESIDENT : SimulatorMode.BATCH)
-                .withBackend(key.backend).withDevices(List.of(key.device)).withWorkers(1).withTimeout(Duration.ofMillis(key.timeout));
-        this.resident = alone ? new ResidentSimulator(settings) : null;
-        this.batches = alone ? null : new BatchSimulator(settings);
+                .withBackend(key.backend).withDevices(List.of(key.device))
+                .withWorkers(Runtime.getRuntime().availableProcessors()).withTimeout(Duration.ofMillis(key.timeout));
+        this.simulator = Evaluator.open(settings);
     }
 
     /**
@@ -138,18 +136,18 @@ final class ExecutorSimulator {
             here.add(located(request));
         }
         try {
-            if (batches != null) {
-                batches.evaluateAll(here, results::add);
+            if (settings.inBatches()) {
+                simulator.evaluateAll(here, results::add);
             } else {
                 for (SimulationRequest request : here) {
-                    results.add(resident.evaluate(request));
+                    results.add(simulator.evaluate(request));
                 }
             }
         } catch (RequestRejectedException e) {
             if (!e.isBadInput()) {
                 throw new UnfitExecutorException(e.getMessage(), e);
             }
-            results.add(refused(batches == null ? here.get(results.size()).id() : null, e.getMessage()));
+            results.add(refused(settings.inBatches() ? null : here.get(results.size()).id(), e.getMessage()));
         }
         if (results.stream().anyMatch(result -> result.status() == SimulationResult.Status.FAILED)) {
             check(mission, true);
