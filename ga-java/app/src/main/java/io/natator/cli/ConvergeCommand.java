@@ -52,7 +52,7 @@ final class ConvergeCommand implements Callable<Integer> {
 
     @Section(Topic.COMPUTING)
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: " + OwnDefaults.HERE + ".")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: the run's.")
     private Backend backend;
 
     @Mixin

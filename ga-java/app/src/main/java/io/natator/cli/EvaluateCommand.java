@@ -87,7 +87,7 @@ final class EvaluateCommand implements Callable<Integer> {
             throws InterruptedException {
         Path file = Path.of(gait.get(0));
         Path run = file.getParent() == null ? Path.of(".") : file.getParent();
-        if (!file.endsWith("best.json") || !StoredRun.exists(run) || StoredRun.isOnIslands(run)) {
+        if (!file.endsWith("best.json") || !StoredRun.exists(run)) {
             return;
         }
         EvolutionSettings settings = StoredRun.settings(run);

@@ -8,6 +8,7 @@ import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
+import io.natator.file.OutputFile;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
@@ -94,7 +95,7 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize * MEGABYTE >= 1) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
-        ReplayHtml.check(output);
+        OutputFile.check(output);
         if (!force && Files.exists(output)) {
             throw new InvalidInputException("output file " + output + " is already there; choose another by --output, or replace it by --force");
         }

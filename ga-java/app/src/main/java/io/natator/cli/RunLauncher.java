@@ -27,7 +27,7 @@ final class RunLauncher {
      * @param stopAfter seconds, or null
      */
     void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
-        String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder.directory());
+        String how = "continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder.directory());
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             try (Evaluator evaluator = EvolutionRun.open(limited);

@@ -95,7 +95,8 @@ final class ShowCommand implements Callable<Integer> {
     /** On one line, what makes a run another one. */
     static String settings(EvolutionSettings settings) {
         StringBuilder text = new StringBuilder(settings.problem().scene());
-        text.append(", ").append(OptimizerName.of(settings));
+        text.append(", ").append(EnumNames.of(settings.search().optimizer()))
+                .append(settings.search().optimizer() == OptimizerKind.JGAP ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
         text.append(", population ").append(settings.search().population());
         if (settings.budget().generations() != Budget.NO_LIMIT) {
             text.append(", ").append(Numbers.count(settings.budget().generations(), "generation"));
@@ -122,7 +123,7 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private String progress(StoredRun run) {
-        String how = "; continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder);
+        String how = "; continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder);
         if (run.state() == null) {
             return begun(run.recorded()) + how;
         }

@@ -10,23 +10,18 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
-import io.natator.process.FakeSimulator;
 import io.natator.protocol.SimulationResult.Status;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 /** Runs whose bodies are evolved, with a simulator that swims by a formula: best at a length of 1.25. */
-class EvolveBodiesTest {
+class EvolveBodiesTest extends FakeSimulatorTest {
 
     private static final List<String> RESULTS =
             List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
@@ -34,24 +29,9 @@ class EvolveBodiesTest {
     private static final Gait GAIT = new Gait(1.5, List.of(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             List.of(0.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3));
 
-    @TempDir
-    private Path folder;
-    private Path simulator;
-    private final StringWriter out = new StringWriter();
-    private final StringWriter err = new StringWriter();
-
-    @BeforeEach
-    void fake() {
-        simulator = FakeSimulator.in(folder);
-    }
-
-    private int natator(String... arguments) {
-        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments);
-    }
-
-    private int evolve(String name, String... more) {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path", simulator.toString(), "--no-cache",
-                "--output-dir", folder.resolve(name).toString()));
+    @Override
+    int evolve(String name, String... more) {
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve(name).toString()));
         arguments.addAll(List.of(more));
         for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"), List.of("--generations", "2"))) {
             if (!arguments.contains(usual.get(0))) {
@@ -137,7 +117,7 @@ class EvolveBodiesTest {
         List<String> lines = Files.readAllLines(folder.resolve("batch/evaluations.jsonl"));
         String half = lines.get(13).substring(0, 40);
         Files.writeString(killed.resolve("evaluations.jsonl"), String.join("\n", lines.subList(0, 13)) + "\n" + half);
-        assertThat(natator("resume", "--simulator-path", simulator.toString(), "--no-cache", killed.toString())).isZero();
+        assertThat(natator("resume", killed.toString())).isZero();
         assertSame("killed", "process");
     }
 
@@ -147,7 +127,7 @@ class EvolveBodiesTest {
         BestGait best = StoredRun.best(folder.resolve("run"));
         out.getBuffer().setLength(0);
 
-        assertThat(natator("evaluate", "--simulator-path", simulator.toString(), "--scene", "pool/eel", "--duration", "2", "--gait",
+        assertThat(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait",
                 folder.resolve("run/best.json").toString())).as(err.toString()).isZero();
 
         JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class, "result");

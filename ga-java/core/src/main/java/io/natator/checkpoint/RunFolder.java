@@ -11,6 +11,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
@@ -93,7 +94,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             }
             if (isOccupied(directory)) {
                 throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
-                        + "--output-dir, or continue the run in it by --resume " + directory);
+                        + "--output-dir, or continue the run in it by natator resume");
             }
         } catch (IOException e) {
             throw OutputFolder.cannotBeMade(directory, e);
@@ -297,7 +298,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Writes every generation's figures. */
     public void writeTable(EvolutionState state) {
-        AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
+        AtomicFile.write(directory.resolve(GENERATIONS), GenerationSummary.csv(state.history()));
     }
 
     /** Writes the best gait. */

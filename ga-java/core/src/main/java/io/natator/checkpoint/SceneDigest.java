@@ -26,7 +26,6 @@ public final class SceneDigest {
      * @return SHA-256 in hexadecimal digits
      * @throws InvalidInputException                         if the simulator does not know the scene
      * @throws io.natator.protocol.RequestRejectedException if it cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {
         try {
@@ -57,7 +56,6 @@ public final class SceneDigest {
      * The same, by a digest that is worked out only of a run that can tell.
      *
      * @param simulator the native program
-     * @throws InterruptedException if the calling thread is interrupted
      */
     static void check(Path directory, EvolutionSettings settings, Path simulator) throws InterruptedException {
         StoredRun.Begun begun = StoredRun.begun(directory);
@@ -84,7 +82,6 @@ public final class SceneDigest {
      *
      * @param directory of the run
      * @param simulator the native program
-     * @throws InterruptedException if the calling thread is interrupted
      */
     public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
         StoredRun.Begun begun = StoredRun.begun(directory);

@@ -43,8 +43,6 @@ import org.slf4j.LoggerFactory;
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
         Recorded recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
-    /** What a run on islands, of an earlier version, has in place of settings: it is a folder of several runs. */
-    private static final String ISLANDS = "islands.json";
     private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
     /** What has been said of damaged files: a page, for one, reads them again and again. */
     private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
@@ -95,7 +93,6 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      *
      * @param simulator the native program
      * @throws InvalidInputException that says what was changed
-     * @throws InterruptedException  if the calling thread is interrupted
      */
     public void checkUnchanged(Path simulator) throws InterruptedException {
         String edited = RunDamage.editedSettings(directory, settings);
@@ -130,8 +127,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /**
      * The settings of the run in a folder.
      *
-     * @throws InvalidInputException if it is not that of a run, or of one on islands; if the settings are damaged, or any file of it is no
-     *                               regular one
+     * @throws InvalidInputException if it is not that of a run, if the settings are damaged, or any file of it is no regular one
      */
     public static EvolutionSettings settings(Path directory) {
         RunFolder.checkRegular(directory);
@@ -140,10 +136,6 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         }
         if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
-        }
-        if (isOnIslands(directory)) {
-            throw new InvalidInputException(directory + " was evolved on islands by an earlier version, which this one cannot read; "
-                    + "expected the folder of a run by itself");
         }
         return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
     }
@@ -180,20 +172,9 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         }
     }
 
-    /** Whether there is a run in this folder, if only one on islands. */
+    /** Whether there is a run in this folder. */
     public static boolean exists(Path directory) {
-        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG)) || Files.isRegularFile(directory.resolve(ISLANDS));
-    }
-
-    /**
-     * Whether the run in this folder exchanged gaits with others, or the folder is that of all of them. Only earlier versions made such runs,
-     * and only those can read them.
-     *
-     * @throws InvalidInputException if the settings are damaged
-     */
-    public static boolean isOnIslands(Path directory) {
-        return Files.isRegularFile(directory.resolve(ISLANDS))
-                || exists(directory) && Json.read(directory.resolve(RunFolder.CONFIG), JsonNode.class, "settings").has("migration");
+        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG));
     }
 
     /**

@@ -42,7 +42,6 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      *
      * @throws InvalidInputException    if it says something else
      * @throws RequestRejectedException if it cannot be run
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public static ProgramInfo of(Path simulator) throws InterruptedException {
         try {

@@ -51,7 +51,6 @@ public final class EvolutionRun {
      * The execution with a time limit that suits the scene, if it has none.
      *
      * @throws io.natator.base.InvalidInputException if the simulator does not know the scene
-     * @throws InterruptedException                    if the calling thread is interrupted
      */
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
             throws InterruptedException {
@@ -76,7 +75,6 @@ public final class EvolutionRun {
      *
      * @param execution with a time limit
      * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
         Evaluator evaluator = Evaluator.open(execution);

@@ -12,7 +12,6 @@ import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.protocol.Perturbation;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
@@ -64,18 +63,16 @@ class CachedEvaluatorTest {
                 new SimulationRequest(4, "thesis/creature-1", GAIT, 2.0, null, null),
                 new SimulationRequest(5, "thesis/creature-1", GAIT, null, Scheme.CONSERVING, null),
                 new SimulationRequest(6, "thesis/creature-1", GAIT, null, null, patch),
-                new SimulationRequest(7, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 1)),
-                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 2)),
-                new SimulationRequest(9, "thesis/creature-1", GAIT, null, null, null).withStart(1),
-                new SimulationRequest(10, "thesis/creature-1", GAIT, null, null, null).withStart(2));
+                new SimulationRequest(7, "thesis/creature-1", GAIT, null, null, null, 1),
+                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, 2));
 
         SimulationRequest[] all = different.toArray(SimulationRequest[]::new);
-        assertThat(simulated(execution, all)).isEqualTo(10);
+        assertThat(simulated(execution, all)).isEqualTo(8);
         assertThat(simulated(execution, all)).isZero();
         assertThat(simulated(execution, all[0].withId(99L))).isZero();
-        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(10);
+        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(8);
         Files.writeString(execution.simulator(), "# another build\n", StandardOpenOption.APPEND);
-        assertThat(simulated(execution, all)).isEqualTo(10);
+        assertThat(simulated(execution, all)).isEqualTo(8);
     }
 
     @Test

@@ -9,8 +9,6 @@ import com.fasterxml.jackson.databind.JsonSerializable;
 import com.fasterxml.jackson.databind.SerializerProvider;
 import com.fasterxml.jackson.databind.jsontype.TypeSerializer;
 import com.fasterxml.jackson.databind.node.POJONode;
-import io.natator.config.Backend;
-import io.natator.config.ExecutionSettings;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -104,25 +102,6 @@ class BatchSimulatorTest {
         }
     }
 
-    @Test
-    void aMissingDeviceIsToldOf() {
-        try (Evaluator evaluator = new BatchSimulator(
-                FakeSimulator.execution(folder, PATIENCE).withBackend(Backend.CUDA))) {
-            assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
-                    .isInstanceOf(RequestRejectedException.class).hasMessage("no such device here");
-        }
-    }
-
-    @Test
-    void aProgramThatCannotStartIsToldOf() {
-        ExecutionSettings execution = FakeSimulator.execution(folder, PATIENCE);
-        assertThat(execution.simulator().toFile().setExecutable(false, false)).isTrue();
-        try (Evaluator evaluator = new BatchSimulator(execution)) {
-            assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
-                    .isInstanceOf(RequestRejectedException.class).hasMessageStartingWith("cannot start ");
-        }
-    }
-
     /** Whoever asks then, or later, would wait for ever. */
     @Test
     void whatEndsTheThreadThatComputesIsToldToAll() {
@@ -143,26 +122,6 @@ class BatchSimulatorTest {
                         .hasMessage("no room for a line");
             }
         }
-    }
-
-    @Test
-    void closingFreesWhoWaits() throws InterruptedException {
-        Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE));
-        List<Exception> outcomes = new ArrayList<>();
-        Thread caller = new Thread(() -> {
-            try {
-                evaluator.evaluate(FakeSimulator.request(1, "fault/hang"));
-            } catch (InterruptedException e) {
-                outcomes.add(e);
-            }
-        });
-        caller.start();
-        Processes.awaitChild();
-
-        evaluator.close();
-        caller.join();
-
-        assertThat(outcomes).hasSize(1);
     }
 
     @Test

@@ -8,11 +8,19 @@ import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 
 /**
- * Divides evaluations into parts, of which Spark does one at a time in each of its slots: as {@link PartSize} says where it is
- * known how long such evaluations take.
+ * Divides evaluations into parts, of which Spark does one at a time in each of its slots. A part costs the driver some milliseconds
+ * whatever is in it, so parts are large; but what an executor does not finish is lost, and at the end of a generation all wait
+ * for the last part. So a part takes half of what is left for each slot (guided self-scheduling, Polychronopoulos and Kuck
+ * 1987), and at most {@value #LONGEST} s, by the time that such evaluations took before.
  */
 final class Parts {
 
+    /** Time of the longest parts, s. */
+    static final double LONGEST = 2;
+    /** Time below which a part is not made shorter, s: ten times what it costs. */
+    static final double SHORTEST = 0.05;
+    /** Of what is left, a part has one in so many for each slot. */
+    private static final int SHARES = 2;
     /** Parts for each slot at most while it is not known how long evaluations take. */
     private static final int UNKNOWN = 256;
     /** A time that a clock can tell from none, s. */
@@ -50,7 +58,7 @@ final class Parts {
         for (int first = 0; first < requests.size();) {
             List<Object> kind = kind(requests.get(first));
             Double each = seconds.get(kind);
-            int most = each == null ? evenly : PartSize.of(left, each, slots);
+            int most = each == null ? evenly : size(left, each, slots);
             int end = first + 1;
             while (end < requests.size() && end - first < most && kind(requests.get(end)).equals(kind)) {
                 end++;
@@ -60,6 +68,17 @@ final class Parts {
             first = end;
         }
         return parts;
+    }
+
+    /**
+     * Evaluations of the next part, at least 1.
+     *
+     * @param left time that all evaluations take which are in no part yet, s
+     * @param each time that one takes, s, above 0
+     */
+    static int size(double left, double each, int slots) {
+        double time = Math.max(SHORTEST, Math.min(LONGEST, left / (SHARES * slots)));
+        return (int) Math.max(1, Math.min(time / each, Integer.MAX_VALUE));
     }
 
     /** Parts of equal size, as many as are done at the same time. */

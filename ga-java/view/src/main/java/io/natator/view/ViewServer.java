@@ -12,7 +12,6 @@ import io.javalin.http.NotFoundResponse;
 import io.javalin.util.JavalinBindException;
 import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.StoredRun;
-import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
@@ -73,7 +72,6 @@ public final class ViewServer implements AutoCloseable {
      * @throws InvalidInputException    if a folder is not that of a run
      * @throws RequestRejectedException if the simulator cannot be run
      * @throws UncheckedIOException     if it cannot listen there
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public ViewServer(ViewSettings settings) throws InterruptedException {
         this.settings = settings;
