@@ -13,8 +13,7 @@
  * <p>Up the socket go the commands of {@code sim-native/protocol/stream.md}, each a text; first, to start the simulator,
  * {@code {"do":"start","scene":…,"overrides":…,"gait":…,"options":{"paused":false}}}. Down come {@code FRAM} bodies as
  * binary messages, and texts {@code {"type":…,"body":…}}: {@code SCEN}, {@code ANSW} and {@code STOP} as the simulator
- * sends them; {@code ANALYSIS}, {@code LiveKinematics.Analysis}, about once a second while it moves; and
- * {@code LOST} with {@code reason} and {@code restarted} when the simulator has died. If it was restarted, it is on the
+ * sends them, and {@code LOST} with {@code reason} and {@code restarted} when the simulator has died. If it was restarted, it is on the
  * same scene again, from the start and without credit; else {@code start} is to come again.
  */
 package io.natator.view;
