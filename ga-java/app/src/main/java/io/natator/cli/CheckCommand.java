@@ -4,7 +4,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.checkpoint.SwimSample;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
@@ -58,7 +58,7 @@ final class CheckCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Limits.checkSeveralStarts("--starts", starts);
-        StoredRun run = StoredRun.in(folder);
+        RunReader run = RunReader.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(

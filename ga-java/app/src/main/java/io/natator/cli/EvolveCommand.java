@@ -1,8 +1,8 @@
 package io.natator.cli;
 
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
@@ -103,13 +103,13 @@ final class EvolveCommand implements Callable<Integer> {
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.problem().scene());
-        RunFolder folder = RunFolder.create(directory, settings);
+        RunWriter folder = RunWriter.create(directory, settings);
         try (folder) {
             preview.printAnyway(directory, spec.commandLine().getOut());
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         } catch (InvalidInputException | RequestRejectedException e) {
             // What is refused with the first evaluation leaves no folder that would be in the way of the corrected command.
-            RunFolder.deleteUnlessBegun(directory);
+            RunWriter.deleteUnlessBegun(directory);
             throw e;
         }
         return ExitCode.OK;
@@ -121,7 +121,7 @@ final class EvolveCommand implements Callable<Integer> {
         if (outputDir == null || dryRun) {
             throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out" : "--seeds goes with --output-dir; give both");
         }
-        if (StoredRun.exists(outputDir)) {
+        if (RunReader.exists(outputDir)) {
             throw new InvalidInputException("output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
         }
         int atOnce = runsAtOnce != null ? runsAtOnce

@@ -6,7 +6,7 @@ import io.natator.base.MergePatch;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.file.OutputFile;
 import io.natator.replay.Replay;
@@ -127,7 +127,7 @@ final class PageCommand implements Callable<Integer> {
         if (first.run() == null) {
             throw new InvalidInputException("--best is " + best + "; expected 1 with " + source + ", which is no run folder");
         }
-        StoredRun run = StoredRun.in(first.run());
+        RunReader run = RunReader.in(first.run());
         List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));

@@ -2,9 +2,9 @@ package io.natator.cli;
 
 import io.natator.base.Numbers;
 import io.natator.checkpoint.CompactRun;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SceneDigest;
-import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -61,12 +61,12 @@ final class ResumeCommand implements Callable<Integer> {
         if (stopAfter != null) {
             Limits.checkSeconds("--stop-after", stopAfter);
         }
-        EvolutionSettings settings = StoredRun.settings(directory);
+        EvolutionSettings settings = RunReader.settings(directory);
         Backend before = settings.budget().backend();
         // Asks the simulator, so that where there is none nothing is changed.
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(before)), settings);
         SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
-        RunFolder folder = RunFolder.open(directory);
+        RunWriter folder = RunWriter.open(directory);
         if (generations != null) {
             changeGenerations(folder, generations);
         }
@@ -74,13 +74,13 @@ final class ResumeCommand implements Callable<Integer> {
             changeBackend(folder, before, execution.backend());
         }
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
-        if (compact && StoredRun.isFinished(directory) && !CompactRun.isCompact(directory)) {
+        if (compact && RunReader.isFinished(directory) && !CompactRun.isCompact(directory)) {
             CompactRun.compact(directory);
         }
         return ExitCode.OK;
     }
 
-    private static void changeGenerations(RunFolder folder, int generations) {
+    private static void changeGenerations(RunWriter folder, int generations) {
         EvolutionState state = folder.checkpoint();
         int done = state == null ? 0 : state.generation();
         folder.refuse(generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
@@ -93,8 +93,8 @@ final class ResumeCommand implements Callable<Integer> {
     }
 
     /** What is finished keeps the backend that it was computed on. */
-    private void changeBackend(RunFolder folder, Backend before, Backend after) {
-        boolean isFinished = StoredRun.isFinished(directory);
+    private void changeBackend(RunWriter folder, Backend before, Backend after) {
+        boolean isFinished = RunReader.isFinished(directory);
         if (!isFinished) {
             folder.changeBackend(after);
         }

@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
@@ -26,7 +26,7 @@ final class RunLauncher {
      * @param folder    closed afterwards
      * @param stopAfter seconds, or null
      */
-    void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
+    void run(RunWriter folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
         String how = "continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder.directory());
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());

@@ -3,13 +3,13 @@ package io.natator.cli;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
+import io.natator.config.Aggregate;
 import io.natator.config.BodyEvolution;
 import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
-import io.natator.config.Judge;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
@@ -50,7 +50,7 @@ final class SearchOptions {
 
     @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean", description = "What the runs of a gait are worth: "
             + "mean, median (from 3 starts) or lower-quartile (from 4). Default: ${DEFAULT-VALUE}.")
-    private Judge judge;
+    private Aggregate judge;
 
     @Option(names = "--evolve", paramLabel = "WHAT", defaultValue = "gait", description = "gait, body or both: of a creature "
             + "that is given by a profile, its length, sections, joints, stiffness and muscle strength too, with the scene's volume "

@@ -1,7 +1,7 @@
 package io.natator.cli;
 
 import io.natator.base.Numbers;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
@@ -89,7 +89,7 @@ final class SeedRuns implements RunQueue.Watcher {
     }
 
     @Override
-    public synchronized void finished(RunFolder run, EvolutionRun.Outcome outcome) {
+    public synchronized void finished(RunWriter run, EvolutionRun.Outcome outcome) {
         Individual best = outcome.state().best();
         say(run.directory() + "  best " + Numbers.fixed(best == null ? 0 : best.result().score(), 4));
     }

@@ -5,7 +5,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
@@ -90,7 +90,7 @@ final class ViewCommand implements Callable<Integer> {
         }
         Path program = simulator.path();
         if (!runs.isEmpty()) {
-            EachOnce.checkFolders("--run", runs);
+            RejectRepeated.checkFolders("--run", runs);
         }
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
         Path shown = shownRun();
@@ -121,7 +121,7 @@ final class ViewCommand implements Callable<Integer> {
     /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
     private Path shownRun() {
         for (Path folder : runs) {
-            if (choice.admits(SceneOptions.scene("scene of " + folder, StoredRun.settings(folder).problem().scene()))) {
+            if (choice.admits(SceneOptions.scene("scene of " + folder, RunReader.settings(folder).problem().scene()))) {
                 return folder;
             }
         }
@@ -137,7 +137,7 @@ final class ViewCommand implements Callable<Integer> {
     private InitialScene start(String scene, Path run, Path program) throws InterruptedException {
         Swimmer given = gait == null ? null : GaitFile.read(gait);
         if (run != null) {
-            return start(StoredRun.settings(run), given, StoredRun.best(run), program);
+            return start(RunReader.settings(run), given, RunReader.best(run), program);
         }
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
         ObjectNode overrides =

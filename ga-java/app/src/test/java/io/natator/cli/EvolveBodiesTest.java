@@ -6,7 +6,7 @@ import static org.assertj.core.api.Assertions.within;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
@@ -55,7 +55,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     void aBestHasItsBodyBesideItsGait() {
         assertThat(evolve("run", "--evolve", "both", "--encoding", "sparse")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         BestGait best = run.best();
         assertThat(run.settings().problem().evolve().body().particles()).isEqualTo(142);
         assertThat(best.swimmer()).isEqualTo(run.settings().problem().genome().decode(best.genes()));
@@ -69,7 +69,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     void everyBodyHasItsOwnLength() {
         assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
             double length = run.settings().problem().bodyLength(run.settings().problem().genome().decode(one.genes()).body());
             assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
@@ -80,7 +80,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     void bodiesAloneGetBetterWithTheSameGait() throws IOException {
         assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.evaluations()).allSatisfy(one -> assertThat(one.gait()).isEqualTo(GAIT));
         double first = run.bestUntil(0).score();
         assertThat(run.best().selected()).isGreaterThan(first);
@@ -91,14 +91,14 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
         assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString()).isZero();
 
-        List<EvaluationRecord> refused = StoredRun.recorded(folder.resolve("run")).rows().stream()
+        List<EvaluationRecord> refused = RunReader.recorded(folder.resolve("run")).rows().stream()
                 .filter(one -> one.result().status() == Status.REFUSED).toList();
         assertThat(refused).hasSizeBetween(1, 9).allSatisfy(one -> {
             assertThat(one.genes().get(16)).isBetween(1.8, 2.0);
             assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
             assertThat(one.result().fitness()).isZero();
         });
-        assertThat(StoredRun.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
+        assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
         natator("show", folder.resolve("run").toString());
         assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ", "does not fit into the tank",
                 "early stop  0.0 % of the time: 0 of " + (20 - refused.size()) + " evaluations ended early, as if 0 had not");
@@ -124,7 +124,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     @Test
     void aFileOfTheBestSwimsItsBody() throws IOException {
         assertThat(evolve("run", "--evolve", "both")).isZero();
-        BestGait best = StoredRun.best(folder.resolve("run"));
+        BestGait best = RunReader.best(folder.resolve("run"));
         out.getBuffer().setLength(0);
 
         assertThat(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait",
@@ -137,7 +137,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         out.getBuffer().setLength(0);
         assertThat(natator("show", folder.resolve("run").toString(), "--generation", "0")).as(err.toString()).isZero();
         Swimmer first = GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString()));
-        assertThat(first).isEqualTo(StoredRun.in(folder.resolve("run")).bestUntil(0).swimmer());
+        assertThat(first).isEqualTo(RunReader.in(folder.resolve("run")).bestUntil(0).swimmer());
         assertThat(first.body().path("creature").has("profile")).isTrue();
         assertThat(natator("show", folder.resolve("run").toString(), "--generation", "99")).isEqualTo(2);
         assertThat(err.toString()).contains("--generation is 99; expected one that ").contains(" has finished, 0 to ");

@@ -6,7 +6,7 @@ import static org.assertj.core.api.Assumptions.assumeThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.process.ProgramInfo;
 import java.io.IOException;
@@ -219,9 +219,9 @@ class RealSimulatorTest extends CommandTest {
             assertThat(folder.resolve("second").resolve(file))
                     .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
         }
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("second"));
         assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isPositive();
-        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
+        assertThat(RunReader.statistics(folder.resolve("without")).fromCache()).isZero();
     }
 
     @ParameterizedTest

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
@@ -112,7 +112,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     /** What reading a run warns of meanwhile. */
     private static List<String> warnings(Runnable commands) {
-        Logger logger = (Logger) LoggerFactory.getLogger(StoredRun.class);
+        Logger logger = (Logger) LoggerFactory.getLogger(RunReader.class);
         ListAppender<ILoggingEvent> seen = new ListAppender<>();
         seen.start();
         logger.addAppender(seen);

@@ -27,7 +27,7 @@ public final class Evolution {
     private final Genome genome;
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
-    private final Recorded recorded;
+    private final RecordedEvaluations recorded;
 
     private int generation;
     private long evaluations;
@@ -48,7 +48,7 @@ public final class Evolution {
      * @param recorded  simulations that an interrupted run had finished, but for the first where it has dropped them; none for a new run
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            Recorded recorded) {
+            RecordedEvaluations recorded) {
         this.settings = settings;
         this.genome = settings.problem().genome();
         this.evaluator = evaluator;
@@ -96,15 +96,15 @@ public final class Evolution {
         List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
         if (settings.search().starts() > 1) {
-            Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
+            Reevaluation again = new Reevaluation(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
                     before == null || before.refused() == null ? List.of() : before.refused());
-            champions = race.run();
+            champions = again.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.search().starts()) {
-                champions = race.useUp((int) budgetLeft());
+                champions = again.useUp((int) budgetLeft());
             }
-            population = bred.stream().map(race::known).toList();
-            best = race.winner();
-            refused = race.refused();
+            population = bred.stream().map(again::known).toList();
+            best = again.winner();
+            refused = again.refused();
         } else {
             for (Individual individual : bred) {
                 if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
@@ -144,7 +144,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (List<Double> genes : genomes) {
             for (int k = 0; k < starts; k++) {
-                runs.add(new Run(genes, starts == 1 ? null : Starts.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(genes, starts == 1 ? null : StartSeeds.of(settings.search().seed(), generation, k)));
             }
         }
         return runs;
@@ -171,7 +171,7 @@ public final class Evolution {
         List<SimulationResult> results = new ArrayList<>();
         for (EvaluationRecord one : earlier) {
             if (starts > 1 && one.start() != null && IntStream.range(0, starts)
-                    .noneMatch(k -> one.start() == Starts.of(settings.search().seed(), one.generation(), k))) {
+                    .noneMatch(k -> one.start() == StartSeeds.of(settings.search().seed(), one.generation(), k))) {
                 continue;
             }
             if (results.size() % starts == 0) {
@@ -186,7 +186,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (Individual one : individuals) {
             for (int k = first; k < first + starts; k++) {
-                runs.add(new Run(one.genes(), Starts.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(one.genes(), StartSeeds.of(settings.search().seed(), generation, k)));
             }
         }
         List<SimulationResult> results = simulate(runs.subList(0, (int) Math.min(runs.size(), budgetLeft())));

@@ -5,9 +5,9 @@ import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Environment;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SceneDigest;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.Evolution;
@@ -29,7 +29,7 @@ import java.util.List;
 /** Carries out the evolution of a run folder from wherever it stands to its end. */
 public final class EvolutionRun {
 
-    private final RunFolder folder;
+    private final RunWriter folder;
     private final EvolutionSettings settings;
 
     /**
@@ -42,7 +42,7 @@ public final class EvolutionRun {
     }
 
     /** A run whose folder stays open. */
-    public EvolutionRun(RunFolder folder) {
+    public EvolutionRun(RunWriter folder) {
         this.folder = folder;
         this.settings = folder.settings();
     }
@@ -104,7 +104,7 @@ public final class EvolutionRun {
             throws InterruptedException {
         String digest = SceneDigest.of(settings, execution.simulator());
         SceneDigest.check(folder.directory(), settings, digest);
-        if (!StoredRun.isFinished(folder.directory())) {
+        if (!RunReader.isFinished(folder.directory())) {
             folder.write(Environment.present(execution, digest, settings));
         }
         // Runs that share an evaluator count for themselves what they find in its cache.
@@ -128,7 +128,7 @@ public final class EvolutionRun {
 
     /** Writes what came of the run, its winner examined. */
     private Outcome outcome(EvolutionState state, Evaluator evaluator, SceneInfo scene, Path simulator) throws InterruptedException {
-        BestGait known = StoredRun.best(folder.directory());
+        BestGait known = RunReader.best(folder.directory());
         if (known != null && state.best() != null && known.isExamined(state.best())) {
             folder.writeTable(state);
             return new Outcome(state, known);

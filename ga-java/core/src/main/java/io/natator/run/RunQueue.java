@@ -1,6 +1,6 @@
 package io.natator.run;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
@@ -42,7 +42,7 @@ public final class RunQueue {
         void evaluated();
 
         /** A run has reached its end; its folder is still open. */
-        void finished(RunFolder run, EvolutionRun.Outcome outcome);
+        void finished(RunWriter run, EvolutionRun.Outcome outcome);
 
         /** An own listener for a run that is about to begin or to continue. */
         EvolutionListener forRun();
@@ -94,7 +94,7 @@ public final class RunQueue {
 
     private static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher)
             throws InterruptedException {
-        try (RunFolder folder = run.open()) {
+        try (RunWriter folder = run.open()) {
             long before = folder.recorded().end();
             EvolutionListener counter = new EvolutionListener() {
                 @Override

@@ -30,7 +30,7 @@ class EvolutionTest {
     private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
             EvolutionListener... listeners) {
         try (Evaluator pool = new FakePool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), new Recorded(0, List.of())).run(null);
+            return new Evolution(settings, pool, List.of(listeners), new RecordedEvaluations(0, List.of())).run(null);
         }
     }
 

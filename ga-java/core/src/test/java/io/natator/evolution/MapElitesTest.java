@@ -5,10 +5,10 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.base.InvalidInputException;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
@@ -80,7 +80,7 @@ class MapElitesTest {
     /** Of several starts a gait is of the kind of all its runs together, those in races too. */
     @Test
     void kindsAreByAllRuns() {
-        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Judge.MEAN));
+        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Aggregate.MEAN));
         EvolutionState end = recorder.states.get(4);
 
         assertThat(end.champions()).isNotEmpty().allSatisfy(one -> {
@@ -100,7 +100,7 @@ class MapElitesTest {
                     null, null, null);
         try (Evaluator pool = new FakePool(flex, 1)) {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
-                    new Recorded(0, List.of()));
+                    new RecordedEvaluations(0, List.of()));
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
                     .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
         }

@@ -4,11 +4,11 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.checkpoint.JudgedGaits;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.fitness.FitnessEvaluator;
@@ -73,22 +73,22 @@ class UnstableGaitsTest {
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new Recorded(0, List.of()))
+            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new RecordedEvaluations(0, List.of()))
                     .run(null);
         }
         return recorder;
     }
 
     private static Stream<Arguments> ways() {
-        return Stream.of(OptimizerKind.values()).flatMap(optimizer -> Stream.of(Judge.values())
-                .filter(judge -> judge == Judge.MEAN || optimizer != OptimizerKind.NSGA2)
+        return Stream.of(OptimizerKind.values()).flatMap(optimizer -> Stream.of(Aggregate.values())
+                .filter(judge -> judge == Aggregate.MEAN || optimizer != OptimizerKind.NSGA2)
                 .flatMap(judge -> Stream.of(2, 3, 7).map(oneOf -> Arguments.of(optimizer, judge, oneOf))));
     }
 
     /** By whatever optimizer and judge: one broken run is enough. */
     @ParameterizedTest
     @MethodSource("ways")
-    void noOtherRunsWinForAGaitThatWasUnstable(OptimizerKind optimizer, Judge judge, int oneOf) {
+    void noOtherRunsWinForAGaitThatWasUnstable(OptimizerKind optimizer, Aggregate judge, int oneOf) {
         EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
                 .withSize(20, 4).withSeed(6).withStarts(4, judge));
         ToyEvolution.Recorder recorder = run(settings, oneOf);
@@ -123,7 +123,7 @@ class UnstableGaitsTest {
     @ValueSource(ints = {1, 4})
     void aRunTellsWhichLawsItsEvaluationsBroke(int starts) throws JsonProcessingException {
         ToyEvolution.Recorder recorder = run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 3)
-                .withSeed(2).withStarts(starts, Judge.MEAN), starts);
+                .withSeed(2).withStarts(starts, Aggregate.MEAN), starts);
 
         EvolutionState end = recorder.states.get(3);
         TreeMap<String, Integer> laws = new TreeMap<>();

@@ -4,12 +4,12 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.checkpoint.Leader;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Judge;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
@@ -46,13 +46,13 @@ class LeadersTest {
     @CsvSource({"1, 1", "1, 2", "3, 1", "3, 2", "4, 3"})
     void theLastLeaderIsTheWinner(int starts, long seed) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 8)
-                .withStarts(starts, Judge.MEAN).withSeed(seed);
+                .withStarts(starts, Aggregate.MEAN).withSeed(seed);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
+        try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
                 Evaluator pool = new FakePool(new Hurried(), 2)) {
             new EvolutionRun(run).run(how, pool);
         }
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
 
         List<Leader> leaders = run.leaders();
 

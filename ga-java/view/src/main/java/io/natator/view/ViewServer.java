@@ -11,7 +11,7 @@ import io.javalin.http.HttpStatus;
 import io.javalin.http.NotFoundResponse;
 import io.javalin.util.JavalinBindException;
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
@@ -78,7 +78,7 @@ public final class ViewServer implements AutoCloseable {
         hosts = new AllowedHosts(settings.host());
         page = APP.text("index.html");
         headers = new SecurityHeaders(page);
-        setup = Json.line(SetupAnswer.of(ProgramInfo.of(settings.simulator()), settings));
+        setup = Json.line(SetupResponse.of(ProgramInfo.of(settings.simulator()), settings));
         sockets = new StreamSockets(settings.simulator(), files(settings));
         saved = new SavedFiles(files(settings), scene -> sockets.sessions().forEach(session -> session.saved(scene)));
         javalin = Javalin.create(this::configure);
@@ -122,8 +122,8 @@ public final class ViewServer implements AutoCloseable {
     private static Set<String> files(ViewSettings settings) {
         Set<String> files = new HashSet<>();
         addFiles(files, settings.start().scene(), settings.start().overrides());
-        settings.runs().stream().map(StoredRun::settings)
-                .forEach(run -> addFiles(files, run.problem().scene(), RunAnswer.overrides(run)));
+        settings.runs().stream().map(RunReader::settings)
+                .forEach(run -> addFiles(files, run.problem().scene(), RunResponse.overrides(run)));
         return files;
     }
 
@@ -197,7 +197,7 @@ public final class ViewServer implements AutoCloseable {
         }
     }
 
-    private RunAnswer run(String id) {
+    private RunResponse run(String id) {
         int number;
         try {
             number = Integer.parseInt(id);
@@ -207,7 +207,7 @@ public final class ViewServer implements AutoCloseable {
         if (number < 0 || number >= settings.runs().size()) {
             throw new NotFoundResponse("no such run");
         }
-        return RunAnswer.of(number, StoredRun.in(settings.runs().get(number)));
+        return RunResponse.of(number, RunReader.in(settings.runs().get(number)));
     }
 
     /** Whether machines other than this one can reach it. */

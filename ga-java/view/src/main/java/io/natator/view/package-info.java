@@ -5,8 +5,8 @@
  * <caption>What is served</caption>
  * <tr><td>{@code /}, {@code /app/NAME}<td>the page and its modules
  * <tr><td>{@code /three/NAME}, {@code /three/addons/NAME}<td>three.js, from its WebJar
- * <tr><td>{@code /api/setup}<td>{@code SetupAnswer}
- * <tr><td>{@code /api/runs/ID}<td>{@code RunAnswer}
+ * <tr><td>{@code /api/setup}<td>{@code SetupResponse}
+ * <tr><td>{@code /api/runs/ID}<td>{@code RunResponse}
  * <tr><td>{@code /stream}<td>a WebSocket, which is one simulator
  * </table>
  *

@@ -39,7 +39,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
-class RunFolderTest {
+class RunWriterTest {
 
     @TempDir
     private Path temporary;
@@ -56,7 +56,7 @@ class RunFolderTest {
     }
 
     /** Runs, or continues, what is in the folder. */
-    private static ToySimulator evolve(RunFolder folder, EvolutionListener... more) {
+    private static ToySimulator evolve(RunWriter folder, EvolutionListener... more) {
         List<EvolutionListener> listeners = new ArrayList<>(List.of(folder));
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
@@ -73,7 +73,7 @@ class RunFolderTest {
     @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "savings.json", "check.json", "evaluations.jsonl", "timings.csv"})
     @Timeout(value = 10, unit = TimeUnit.MINUTES, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
     void aPipeInPlaceOfAFileIsRefused(String name) throws IOException, InterruptedException {
-        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
         assertThat(new ProcessBuilder("mkfifo", run.resolve(name).toString()).start().waitFor()).isZero();
 
         assertRefused(run.resolve(name) + " is not a regular file");
@@ -84,7 +84,7 @@ class RunFolderTest {
     @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "best.json", "environment.json", "savings.json", "evaluations.jsonl",
         "generations.csv", "timings.csv", "plots/fitness.png"})
     void aFolderAndALinkThatLeadsNowhereInPlaceOfAFileAreRefused(String name) throws IOException {
-        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
         Path file = run.resolve(name);
         Files.createDirectories(file);
         assertRefused(file + " is a folder; expected a file");
@@ -94,33 +94,33 @@ class RunFolderTest {
     }
 
     private void assertRefused(String message) {
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
-        assertThatThrownBy(() -> StoredRun.in(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
+        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
+        assertThatThrownBy(() -> RunReader.in(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
     }
 
     @Test
     void aFileThatIsTooLargeIsRefused() throws IOException {
-        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
         try (RandomAccessFile large = new RandomAccessFile(run.resolve("checkpoint.json").toFile(), "rw")) {
             large.setLength(3L << 30);
         }
 
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessage("checkpoint " + run.resolve("checkpoint.json") + " cannot be read: larger than 1073741824 bytes");
     }
 
     @Test
     void onlyAFolderWithoutAnEvaluationIsRemoved() throws IOException {
-        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
-        RunFolder.deleteUnlessBegun(run);
+        RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
+        RunWriter.deleteUnlessBegun(run);
         assertThat(run).doesNotExist();
 
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
         Map<String, String> before = lastingFiles(run);
-        RunFolder.deleteUnlessBegun(run);
+        RunWriter.deleteUnlessBegun(run);
         assertThat(lastingFiles(run)).isEqualTo(before);
         Files.delete(run.resolve("checkpoint.json"));
-        RunFolder.deleteUnlessBegun(run);
+        RunWriter.deleteUnlessBegun(run);
         assertThat(run.resolve("evaluations.jsonl")).isNotEmptyFile();
     }
 
@@ -137,7 +137,7 @@ class RunFolderTest {
 
     @Test
     void holdsAllThatARunIsMadeOf() throws IOException {
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
 
         assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json", "digests.json", "digests.txt",
                 "evaluations.jsonl", "generations.csv");
@@ -157,7 +157,7 @@ class RunFolderTest {
     void aKilledRunContinuesAsIfNothingHadHappened(OperatorSet operators) throws IOException {
         List<Path> snapshots = new ArrayList<>();
         Random random = new Random(5);
-        evolve(RunFolder.create(run, settings(operators)), new EvolutionListener() {
+        evolve(RunWriter.create(run, settings(operators)), new EvolutionListener() {
             @Override
             public void evaluated(EvaluationRecord evaluation) {
                 if (random.nextInt(8) == 0) {
@@ -175,7 +175,7 @@ class RunFolderTest {
         assertThat(snapshots).hasSizeGreaterThan(10);
         for (Path snapshot : snapshots) {
             tear(snapshot, random);
-            evolve(RunFolder.open(snapshot));
+            evolve(RunWriter.open(snapshot));
 
             assertThat(lastingFiles(snapshot)).isEqualTo(whole);
         }
@@ -211,11 +211,11 @@ class RunFolderTest {
 
     @Test
     void finishedEvaluationsAreNotRepeated() throws IOException {
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
         long all = Files.readAllLines(run.resolve("evaluations.jsonl")).size();
         Files.delete(run.resolve("checkpoint.json"));
 
-        ToySimulator second = evolve(RunFolder.open(run));
+        ToySimulator second = evolve(RunWriter.open(run));
 
         assertThat(second.calls()).isZero();
         assertThat(Files.readAllLines(run.resolve("evaluations.jsonl"))).hasSize((int) all);
@@ -223,10 +223,10 @@ class RunFolderTest {
 
     @Test
     void aFinishedRunStaysAsItIs() throws IOException {
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
         Map<String, String> before = lastingFiles(run);
 
-        assertThat(evolve(RunFolder.open(run)).calls()).isZero();
+        assertThat(evolve(RunWriter.open(run)).calls()).isZero();
         assertThat(lastingFiles(run)).isEqualTo(before);
     }
 
@@ -235,9 +235,9 @@ class RunFolderTest {
         Files.createDirectories(run);
         Files.writeString(run.resolve("thesis.tex"), "years of work");
 
-        assertThatThrownBy(() -> RunFolder.create(run, settings(OperatorSet.CORRECTED)))
+        assertThatThrownBy(() -> RunWriter.create(run, settings(OperatorSet.CORRECTED)))
                 .isInstanceOf(InvalidInputException.class).hasMessageContaining("is not empty");
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("is not a run folder");
         try (Stream<Path> files = Files.list(run)) {
             assertThat(files).hasSize(1);
@@ -248,21 +248,21 @@ class RunFolderTest {
     void aFileIsNoFolder() throws IOException {
         Files.writeString(run, "a file");
 
-        assertThatThrownBy(() -> RunFolder.create(run, settings(OperatorSet.CORRECTED)))
+        assertThatThrownBy(() -> RunWriter.create(run, settings(OperatorSet.CORRECTED)))
                 .isInstanceOf(InvalidInputException.class).hasMessageContaining("cannot be made");
     }
 
     /** Root may write anywhere, so the folder is one in which nobody can. */
     @Test
     void aFolderThatCannotBeWrittenIsTold() {
-        assertThatThrownBy(() -> RunFolder.create(Path.of("/proc/self/fdinfo"), settings(OperatorSet.CORRECTED)))
+        assertThatThrownBy(() -> RunWriter.create(Path.of("/proc/self/fdinfo"), settings(OperatorSet.CORRECTED)))
                 .isInstanceOf(InvalidInputException.class).hasMessageContaining("output folder /proc/self/fdinfo");
     }
 
     @Test
     void aGenerationThatFailedIsSimulatedAnew() throws IOException {
-        evolve(RunFolder.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
-        RunFolder broken = RunFolder.create(run, settings(OperatorSet.CORRECTED));
+        evolve(RunWriter.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
+        RunWriter broken = RunWriter.create(run, settings(OperatorSet.CORRECTED));
         ToySimulator toy = new ToySimulator();
         try (broken; Evaluator pool = new FakePool(request -> request.id() < 15 ? toy.evaluate(request)
                 : SimulationResult.failed(request.id(), "no memory"), 2)) {
@@ -271,42 +271,42 @@ class RunFolderTest {
                     .hasMessageContaining("simulations failed, the first: no memory");
         }
 
-        evolve(RunFolder.open(run));
+        evolve(RunWriter.open(run));
 
         assertThat(lastingFiles(run)).isEqualTo(lastingFiles(temporary.resolve("whole")));
     }
 
     @Test
     void twoRunsCannotShareAFolder() {
-        try (RunFolder first = RunFolder.create(run, settings(OperatorSet.CORRECTED))) {
+        try (RunWriter first = RunWriter.create(run, settings(OperatorSet.CORRECTED))) {
             assertThat(first.checkpoint()).isNull();
-            assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+            assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                     .hasMessageContaining("is in use");
         }
     }
 
     @Test
     void damageIsToldOf() throws IOException {
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
         Files.writeString(run.resolve("checkpoint.json"), "{\"generation\":1");
 
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("checkpoint").hasMessageContaining("line 1");
     }
 
     @Test
     void lostEvaluationsAreToldOf() throws IOException {
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
         Files.writeString(run.resolve("evaluations.jsonl"), "");
 
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("evaluations.jsonl has 0 whole lines");
     }
 
     /** A run after some generation, as a kill leaves it. */
     private Path killed(int generation) throws IOException {
         List<Path> snapshots = new ArrayList<>();
-        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)), new EvolutionListener() {
+        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)), new EvolutionListener() {
             @Override
             public void evaluated(EvaluationRecord evaluation) {
                 if (evaluation.generation() == generation) {
@@ -337,11 +337,11 @@ class RunFolderTest {
         Path folder = killed(2);
         edit(folder.resolve(name), from, to);
 
-        assertThatThrownBy(() -> RunFolder.open(folder)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(folder)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining(message).hasMessageContaining("; expected it as the run wrote it").hasMessageNotContaining("\n");
         Files.delete(folder.resolve("digests.json"));
         Files.delete(folder.resolve("digests.txt"));
-        RunFolder.open(folder).close();
+        RunWriter.open(folder).close();
     }
 
     /** Whichever file is removed or cut anywhere: it is told, or the outcome is the same. */
@@ -363,7 +363,7 @@ class RunFolderTest {
                     Files.writeString(copy.resolve(name), files.get(name).substring(0, (int) (share * files.get(name).length())));
                 }
                 try {
-                    evolve(RunFolder.open(copy));
+                    evolve(RunWriter.open(copy));
                 } catch (InvalidInputException e) {
                     assertThat(e.getMessage()).contains(copy.toString()).doesNotContain("\n");
                     continue;
@@ -385,10 +385,10 @@ class RunFolderTest {
         Map<String, String> whole = lastingFiles(run);
         Files.delete(folder.resolve("digests.json"));
         Files.delete(folder.resolve("digests.txt"));
-        evolve(RunFolder.open(folder));
+        evolve(RunWriter.open(folder));
         assertThat(lastingFiles(folder)).isEqualTo(whole);
 
         edit(folder.resolve("evaluations.jsonl"), "\"distance\":[-0-9.eE]+", "\"distance\":-1.0");
-        assertThatThrownBy(() -> RunFolder.open(folder)).hasMessageContaining("evaluations.jsonl, line 1 was edited");
+        assertThatThrownBy(() -> RunWriter.open(folder)).hasMessageContaining("evaluations.jsonl, line 1 was edited");
     }
 }

@@ -13,7 +13,7 @@ import java.util.concurrent.ConcurrentHashMap;
  * for the last part. So a part takes half of what is left for each slot (guided self-scheduling, Polychronopoulos and Kuck
  * 1987), and at most {@value #LONGEST} s, by the time that such evaluations took before.
  */
-final class Parts {
+final class Partitioner {
 
     /** Time of the longest parts, s. */
     static final double LONGEST = 2;

@@ -18,10 +18,10 @@ import java.util.function.Function;
  * @param greater comparative used in reports, such as "further than"
  * @param value   its value of a swim
  */
-record Rewarded(String name, String greater, Function<SimulationResult, Double> value) {
+record Metric(String name, String greater, Function<SimulationResult, Double> value) {
 
     private static final Function<SimulationResult, Double> SCORE = SimulationResult::score;
-    private static final Rewarded DISTANCE = new Rewarded("distance", "further than", SimulationResult::distanceOrZero);
+    private static final Metric DISTANCE = new Metric("distance", "further than", SimulationResult::distanceOrZero);
 
     /**
      * What all runs were evolved for, or distance where that differs.
@@ -29,15 +29,15 @@ record Rewarded(String name, String greater, Function<SimulationResult, Double> 
      * @param runs  their settings
      * @param swims of each, by genes
      */
-    static Rewarded of(List<EvolutionSettings> runs, List<Map<List<Double>, List<SimulationResult>>> swims) {
-        Set<Rewarded> all = new HashSet<>();
+    static Metric of(List<EvolutionSettings> runs, List<Map<List<Double>, List<SimulationResult>>> swims) {
+        Set<Metric> all = new HashSet<>();
         for (int i = 0; i < runs.size(); i++) {
             all.add(of(runs.get(i), swims.get(i).values()));
         }
         return all.size() == 1 ? all.iterator().next() : DISTANCE;
     }
 
-    private static Rewarded of(EvolutionSettings run, Collection<List<SimulationResult>> swims) {
+    private static Metric of(EvolutionSettings run, Collection<List<SimulationResult>> swims) {
         if (run.problem().objectives() != null) {
             return worth("worth by " + WeightedObjective.text(WeightedObjective.leading(run.problem().objectives())));
         }
@@ -47,7 +47,7 @@ record Rewarded(String name, String greater, Function<SimulationResult, Double> 
         return run.problem().fitness() == FitnessKind.NET ? worth("distance less the drift in vacuum") : DISTANCE;
     }
 
-    private static Rewarded worth(String name) {
-        return new Rewarded(name, "better than", SCORE);
+    private static Metric worth(String name) {
+        return new Metric(name, "better than", SCORE);
     }
 }

@@ -16,7 +16,7 @@ import java.util.Set;
  * stays among them by luck; the other half where a choice is close, by standard errors: around the border of the best,
  * and around the first place.
  */
-final class Race {
+final class Reevaluation {
 
     private final EvolutionSettings settings;
     private final Repeater repeater;
@@ -41,13 +41,13 @@ final class Race {
     }
 
     /**
-     * A race in a generation.
+     * In a generation.
      *
      * @param population its individuals
      * @param champions  of the generation before
      * @param refused    genes of those that were unstable in some of their runs
      */
-    Race(EvolutionSettings settings, Repeater repeater, List<Individual> population, List<Individual> champions,
+    Reevaluation(EvolutionSettings settings, Repeater repeater, List<Individual> population, List<Individual> champions,
             Collection<List<Double>> refused) {
         this.settings = settings;
         this.repeater = repeater;
@@ -96,7 +96,7 @@ final class Race {
     Individual winner() {
         List<Individual> champions = first(ranked());
         return champions.isEmpty() ? null
-                : champions.get(Surest.of(champions.stream().map(Individual::estimate).toList()));
+                : champions.get(LowerConfidenceBound.of(champions.stream().map(Individual::estimate).toList()));
     }
 
     /** Genes of those that were unstable in some of their runs, up to now; null without any. */

@@ -4,7 +4,7 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 import java.util.List;
 
 /** What a gait is worth whose runs from several starts came out differently. */
-public enum Judge {
+public enum Aggregate {
     /** The mean of all runs. */
     @JsonProperty("mean")
     MEAN(1),
@@ -17,7 +17,7 @@ public enum Judge {
 
     private final int leastRuns;
 
-    Judge(int leastRuns) {
+    Aggregate(int leastRuns) {
         this.leastRuns = leastRuns;
     }
 

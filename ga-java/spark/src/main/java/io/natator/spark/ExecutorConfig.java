@@ -16,11 +16,11 @@ import io.natator.protocol.SimulationRequest;
  * @param hash           of its end, or null if that is to be found out
  * @param gpu            name of the kind of GPU, or null likewise
  */
-record Mission(String program, String sha256, String instructionSet, Backend backend, int device, long timeout,
+record ExecutorConfig(String program, String sha256, String instructionSet, Backend backend, int device, long timeout,
         SimulationRequest sample, String hash, String gpu) {
 
     /** This mission for executors whose GPU is of that kind and swims like that. */
-    Mission like(String newHash, String newGpu) {
-        return new Mission(program, sha256, instructionSet, backend, device, timeout, sample, newHash, newGpu);
+    ExecutorConfig like(String newHash, String newGpu) {
+        return new ExecutorConfig(program, sha256, instructionSet, backend, device, timeout, sample, newHash, newGpu);
     }
 }

@@ -1,15 +1,15 @@
 package io.natator.evolution;
 
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import java.util.List;
 
 /**
  * Picks the candidate with the highest mean minus one standard error, to limit selection bias: the greatest of many means of few
  * runs is mostly luck.
  */
-public final class Surest {
+public final class LowerConfidenceBound {
 
-    private Surest() {
+    private LowerConfidenceBound() {
     }
 
     /**
@@ -20,16 +20,16 @@ public final class Surest {
      */
     public static int of(List<Estimate> best) {
         double deviation = deviation(best);
-        int surest = -1;
+        int pick = -1;
         for (int i = 0; i < best.size(); i++) {
-            if (surest < 0 || sure(best.get(i), deviation) > sure(best.get(surest), deviation)) {
-                surest = i;
+            if (pick < 0 || bound(best.get(i), deviation) > bound(best.get(pick), deviation)) {
+                pick = i;
             }
         }
-        return surest;
+        return pick;
     }
 
-    private static double sure(Estimate one, double deviation) {
+    private static double bound(Estimate one, double deviation) {
         return one.score() - deviation / Math.sqrt(one.runs().size());
     }
 
@@ -38,7 +38,7 @@ public final class Surest {
         double squares = 0;
         int freedom = 0;
         for (Estimate one : estimates) {
-            double mean = Judge.MEAN.of(one.runs());
+            double mean = Aggregate.MEAN.of(one.runs());
             squares += one.runs().stream().mapToDouble(run -> (run - mean) * (run - mean)).sum();
             freedom += one.runs().size() - 1;
         }

@@ -8,10 +8,10 @@ import java.util.List;
  * @param first id of the first of them; more than 0 where those before were dropped since they are not needed to go on
  * @param rows  those with the ids {@code first}, {@code first} + 1, …
  */
-public record Recorded(long first, List<EvaluationRecord> rows) {
+public record RecordedEvaluations(long first, List<EvaluationRecord> rows) {
 
     /** Copies the list. */
-    public Recorded {
+    public RecordedEvaluations {
         rows = List.copyOf(rows);
     }
 

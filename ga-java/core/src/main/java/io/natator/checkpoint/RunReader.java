@@ -13,7 +13,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.evolution.ParetoRanking;
-import io.natator.evolution.Recorded;
+import io.natator.evolution.RecordedEvaluations;
 import io.natator.file.JsonLines;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -40,15 +40,15 @@ import org.slf4j.LoggerFactory;
  * @param statistics  what it did not have to simulate, or null if that was not recorded
  * @param vacuum      best gaits that were run in vacuum
  */
-public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
-        Recorded recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
+public record RunReader(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
+        RecordedEvaluations recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
-    private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
+    private static final Logger LOG = LoggerFactory.getLogger(RunReader.class);
     /** What has been said of damaged files: a page, for one, reads them again and again. */
     private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
 
     /** Copies the list. */
-    public StoredRun {
+    public RunReader {
         vacuum = List.copyOf(vacuum);
     }
 
@@ -57,11 +57,11 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      *
      * @throws InvalidInputException if it is not that of a run, or a file in it is damaged
      */
-    public static StoredRun in(Path directory) {
+    public static RunReader in(Path directory) {
         EvolutionSettings settings = settings(directory);
         EvolutionState state = state(directory);
-        return new StoredRun(directory, settings, state, best(directory, settings, state), recorded(directory),
-                readable(directory, RunFolder.SAVINGS, EvaluationStatistics.class), vacuumRecords(directory));
+        return new RunReader(directory, settings, state, best(directory, settings, state), recorded(directory),
+                readable(directory, RunWriter.SAVINGS, EvaluationStatistics.class), vacuumRecords(directory));
     }
 
     private static void warn(String warning) {
@@ -130,14 +130,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      * @throws InvalidInputException if it is not that of a run, if the settings are damaged, or any file of it is no regular one
      */
     public static EvolutionSettings settings(Path directory) {
-        RunFolder.checkRegular(directory);
+        RunWriter.checkRegular(directory);
         if (Files.isDirectory(directory) && !Files.isExecutable(directory)) {
             throw new InvalidInputException(directory + " cannot be read: permission denied");
         }
         if (!exists(directory)) {
-            throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
+            throw new InvalidInputException(directory + " is not a run folder: it has no " + RunWriter.CONFIG);
         }
-        return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
+        return Json.read(directory.resolve(RunWriter.CONFIG), EvolutionSettings.class, "settings");
     }
 
     /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
@@ -148,7 +148,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** By what the run has computed as yet; null if it has not begun, or that is damaged. */
     static Begun begun(Path directory) {
-        return readable(directory, RunFolder.ENVIRONMENT, Begun.class);
+        return readable(directory, RunWriter.ENVIRONMENT, Begun.class);
     }
 
     /** What {@code environment.json} tells of the experiment; null what an earlier version did not write. */
@@ -174,7 +174,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** Whether there is a run in this folder. */
     public static boolean exists(Path directory) {
-        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG));
+        return Files.isRegularFile(directory.resolve(RunWriter.CONFIG));
     }
 
     /**
@@ -186,7 +186,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         if (!exists(directory)) {
             return false;
         }
-        EvolutionState state = optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+        EvolutionState state = optional(directory, RunWriter.CHECKPOINT, EvolutionState.class);
         if (state == null || !state.isLastOf(settings(directory))) {
             return false;
         }
@@ -195,14 +195,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** The evaluations of the run in a folder; of one that was made small, those since. */
-    public static Recorded recorded(Path directory) {
-        List<EvaluationRecord> rows = JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
-        return new Recorded(CompactRun.dropped(directory, rows), rows);
+    public static RecordedEvaluations recorded(Path directory) {
+        List<EvaluationRecord> rows = JsonLines.read(directory.resolve(RunWriter.EVALUATIONS), EvaluationRecord.class);
+        return new RecordedEvaluations(CompactRun.dropped(directory, rows), rows);
     }
 
     /** The state after the last finished generation of the run in a folder, or null. */
     public static EvolutionState state(Path directory) {
-        return optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+        return optional(directory, RunWriter.CHECKPOINT, EvolutionState.class);
     }
 
     /** The best gait so far of the run in a folder, or null. */
@@ -213,12 +213,12 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /** As written, else as it follows from the checkpoint, then without what it does in vacuum. */
     private static BestGait best(Path directory, EvolutionSettings settings, EvolutionState state) {
         try {
-            BestGait written = optional(directory, RunFolder.BEST, BestGait.class);
+            BestGait written = optional(directory, RunWriter.BEST, BestGait.class);
             if (written != null) {
                 return written;
             }
         } catch (InvalidInputException e) {
-            warn(e.getMessage() + "; taken from " + RunFolder.CHECKPOINT + " instead");
+            warn(e.getMessage() + "; taken from " + RunWriter.CHECKPOINT + " instead");
         }
         if (state == null || state.best() == null) {
             return null;
@@ -232,12 +232,12 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
     public static EvaluationStatistics statistics(Path directory) {
-        return optional(directory, RunFolder.SAVINGS, EvaluationStatistics.class);
+        return optional(directory, RunWriter.SAVINGS, EvaluationStatistics.class);
     }
 
     /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */
     public static List<VacuumRecord> vacuumRecords(Path directory) {
-        return JsonLines.read(directory.resolve(RunFolder.VACUUM), VacuumRecord.class);
+        return JsonLines.read(directory.resolve(RunWriter.VACUUM), VacuumRecord.class);
     }
 
     /** A JSON file of its folder as it stands; null if it is not there. */

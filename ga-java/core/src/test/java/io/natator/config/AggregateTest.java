@@ -11,18 +11,18 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
 
-class JudgeTest {
+class AggregateTest {
 
     /** Reference: numpy.quantile, whose default is type 7 of Hyndman and Fan. */
     @ParameterizedTest
     @CsvSource({"MEAN, 2.25", "MEDIAN, 1.5", "LOWER_QUARTILE, 0.25"})
-    void isThatOfTheRuns(Judge judge, double worth) {
+    void isThatOfTheRuns(Aggregate judge, double worth) {
         assertThat(judge.of(List.of(8.0, 1.0, -2.0, 2.0))).isCloseTo(worth, within(1e-12));
     }
 
     @ParameterizedTest
-    @EnumSource(Judge.class)
-    void ofOneRunIsThatRun(Judge judge) {
+    @EnumSource(Aggregate.class)
+    void ofOneRunIsThatRun(Aggregate judge) {
         assertThat(judge.of(List.of(0.7))).isEqualTo(0.7);
     }
 
@@ -31,7 +31,7 @@ class JudgeTest {
         "MEAN, 1001, 'starts is 1001; expected a whole number from 1 to 1000'",
         "MEDIAN, 2, 'starts is 2; expected at least 3 with --judge median'",
         "LOWER_QUARTILE, 3, 'starts is 3; expected at least 4 with --judge lower-quartile'"})
-    void needsEnoughStarts(Judge judge, int starts, String message) {
+    void needsEnoughStarts(Aggregate judge, int starts, String message) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2);
         assertThatThrownBy(() -> settings.withStarts(starts, judge)).isInstanceOf(InvalidInputException.class)
                 .hasMessage(message);

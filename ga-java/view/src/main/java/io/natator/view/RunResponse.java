@@ -5,7 +5,7 @@ import io.natator.base.MergePatch;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
@@ -37,9 +37,9 @@ import java.util.Map;
  * @param front       gaits by several objectives, or null if it has one
  * @param bodies      of the scene and of some generations, or null if it evolves gaits alone
  */
-record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
+record RunResponse(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
         List<Generation> generations, List<Best> bests, Verdict verdict, Map<String, String> facts,
-        MapAnswer map, FrontAnswer front, List<BodyOutline> bodies) {
+        MapResponse map, FrontResponse front, List<BodyOutline> bodies) {
 
     /**
      * A generation.
@@ -61,7 +61,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     record Best(int generation, double fitness, Gait gait, ObjectNode overrides) {
 
         static Best of(Generation generation, double fitness, EvolutionSettings settings, Swimmer swimmer) {
-            return new Best(generation.generation, fitness, swimmer.gait(), RunAnswer.overrides(settings, swimmer));
+            return new Best(generation.generation, fitness, swimmer.gait(), RunResponse.overrides(settings, swimmer));
         }
     }
 
@@ -70,14 +70,14 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
      *
      * @throws io.natator.base.InvalidInputException if a file in it is damaged
      */
-    static RunAnswer of(int id, StoredRun run) {
+    static RunResponse of(int id, RunReader run) {
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
         List<Best> bests = bests(run, generations);
-        return new RunAnswer(id, name(run.directory()), settings.problem().scene(), overrides(settings), settings.search().optimizer(),
+        return new RunResponse(id, name(run.directory()), settings.problem().scene(), overrides(settings), settings.search().optimizer(),
                 settings.search().seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
-                run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapAnswer.of(run),
-                FrontAnswer.of(run), BodyOutline.of(run, bests));
+                run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapResponse.of(run),
+                FrontResponse.of(run), BodyOutline.of(run, bests));
     }
 
     /** What the page calls a run: its folder, without where that is. */
@@ -96,7 +96,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
                 : InitialScene.patch(MergePatch.both(settings.problem().overrides(), swimmer.body()), settings.problem().scheme());
     }
 
-    private static List<Generation> generations(StoredRun run) {
+    private static List<Generation> generations(RunReader run) {
         List<Generation> generations = new ArrayList<>();
         double bestEver = Double.NEGATIVE_INFINITY;
         for (GenerationSummary one : run.state() == null ? List.<GenerationSummary>of() : run.state().history()) {
@@ -107,7 +107,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     }
 
     /** Of several starts, the gait that was the best so far at a generation's end. */
-    private static List<Best> champions(StoredRun run, List<Generation> generations) {
+    private static List<Best> champions(RunReader run, List<Generation> generations) {
         Map<Integer, JudgedGait> bests = run.bestsByGeneration();
         return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
             JudgedGait best = bests.get(one.generation());
@@ -119,7 +119,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
      * The best of a generation may be older than it; it is found by its distance, which has all its digits. A folder that
      * was made compact knows only the best of all.
      */
-    private static List<Best> bests(StoredRun run, List<Generation> generations) {
+    private static List<Best> bests(RunReader run, List<Generation> generations) {
         if (run.settings().search().starts() > 1) {
             return champions(run, generations);
         }

@@ -3,7 +3,7 @@ package io.natator.view;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
@@ -23,7 +23,7 @@ import java.util.stream.IntStream;
  * @param costs ends of the rows by cost of transport, in mass times length by seconds squared
  * @param elites the kinds that were found
  */
-record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elite> elites) {
+record MapResponse(String worth, List<Double> beats, List<Double> costs, List<Elite> elites) {
 
     /**
      * The best gait of a kind.
@@ -34,14 +34,14 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
      * @param runs   how many these are
      * @param beats  for a body length, measured
      * @param cost   of transport, measured
-     * @param overrides that give the run's scene this body too, as in {@link RunAnswer.Best}
+     * @param overrides that give the run's scene this body too, as in {@link RunResponse.Best}
      */
     record Elite(int column, int row, double worth, int runs, double beats, double cost, Gait gait,
             ObjectNode overrides) {
     }
 
     /** Of a run; null without a map, or while it is empty. */
-    static MapAnswer of(StoredRun run) {
+    static MapResponse of(RunReader run) {
         EliteMap map = run.elites();
         if (map == null || map.moving().isEmpty()) {
             return null;
@@ -54,9 +54,9 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
             Swimmer swimmer = genome.decode(one.genes());
             return new Elite(entry.getKey().beats() - beats.getMin(), entry.getKey().cost() - costs.getMin(), one.score(),
                     one.runs(), one.effort().beatsPerLength(), one.effort().costOfTransport(), swimmer.gait(),
-                    RunAnswer.overrides(run.settings(), swimmer));
+                    RunResponse.overrides(run.settings(), swimmer));
         }).toList();
-        return new MapAnswer(worth(run.settings()), edges(beats), edges(costs), elites);
+        return new MapResponse(worth(run.settings()), edges(beats), edges(costs), elites);
     }
 
     private static List<Double> edges(IntSummaryStatistics cells) {

@@ -4,12 +4,12 @@ package io.natator.evolution;
  * Numbers of the simulator's starts. All gaits of a generation begin from the same ones, so that they are compared
  * under the same conditions; every generation has its own.
  */
-public final class Starts {
+public final class StartSeeds {
 
     /** The simulator takes 31 bits; the uppermost tells the fresh ones. */
     private static final int BITS = 30;
 
-    private Starts() {
+    private StartSeeds() {
     }
 
     /**

@@ -3,7 +3,7 @@ package io.natator.view;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Objective;
 import io.natator.encoding.Gait;
@@ -20,7 +20,7 @@ import java.util.Set;
  * @param goals  what its objectives are, as they are read: work, not less work
  * @param points each gait of the last generation once; the front first, the best by the first objective first
  */
-record FrontAnswer(List<Goal> goals, List<Point> points) {
+record FrontResponse(List<Goal> goals, List<Point> points) {
 
     /**
      * An objective.
@@ -50,13 +50,13 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
      * @param values by the goals
      * @param isBest whether no other is better in all
      * @param runs   that they are means of
-     * @param overrides that give the run's scene this body too, as in {@link RunAnswer.Best}
+     * @param overrides that give the run's scene this body too, as in {@link RunResponse.Best}
      */
     record Point(List<Double> values, boolean isBest, int runs, Gait gait, ObjectNode overrides) {
     }
 
     /** Of a run; null with a single objective, or while nothing is measured. */
-    static FrontAnswer of(StoredRun run) {
+    static FrontResponse of(RunReader run) {
         List<Individual> front = run.front();
         if (front.isEmpty()) {
             return null;
@@ -74,7 +74,7 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
                 points.add(point(one, false, goals, run.settings(), genome));
             }
         }
-        return new FrontAnswer(goals, points);
+        return new FrontResponse(goals, points);
     }
 
     private static Point point(Individual one, boolean isBest, List<Goal> goals, EvolutionSettings settings,
@@ -84,6 +84,6 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
             values.add(goals.get(i).isLess() ? 0.0 - one.objectives().get(i) : one.objectives().get(i));
         }
         Swimmer swimmer = genome.decode(one.genes());
-        return new Point(values, isBest, one.runs(), swimmer.gait(), RunAnswer.overrides(settings, swimmer));
+        return new Point(values, isBest, one.runs(), swimmer.gait(), RunResponse.overrides(settings, swimmer));
     }
 }

@@ -9,5 +9,5 @@ import java.util.List;
  * @param seconds that it took there
  * @param results of its requests, in their order; up to the first that the program refused
  */
-record Answer(double seconds, List<SimulationResult> results) {
+record PartitionResponse(double seconds, List<SimulationResult> results) {
 }

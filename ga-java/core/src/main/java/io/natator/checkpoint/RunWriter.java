@@ -12,7 +12,7 @@ import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
-import io.natator.evolution.Recorded;
+import io.natator.evolution.RecordedEvaluations;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
 import io.natator.file.OutputFolder;
@@ -31,7 +31,7 @@ import java.util.stream.Stream;
  * {@code generations.csv} and {@code best.json} follow from the checkpoint. All of these are the same for the same
  * settings and simulator; {@code environment.json} and {@code timings.csv} say where and how fast it ran.
  */
-public final class RunFolder implements EvolutionListener, AutoCloseable {
+public final class RunWriter implements EvolutionListener, AutoCloseable {
 
     static final String CONFIG = "config.json";
     static final String CHECKPOINT = "checkpoint.json";
@@ -62,7 +62,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private final RunDigests digests;
     private final GenerationTimes timings;
 
-    private RunFolder(Path directory, EvolutionSettings settings) {
+    private RunWriter(Path directory, EvolutionSettings settings) {
         this.directory = directory;
         this.settings = settings;
         this.genome = settings.problem().genome();
@@ -84,7 +84,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      *
      * @throws InvalidInputException if there is something in it already, or it cannot be made
      */
-    public static RunFolder create(Path directory, EvolutionSettings settings) {
+    public static RunWriter create(Path directory, EvolutionSettings settings) {
         try {
             OutputFolder.make(directory);
             AtomicFile.deleteUnfinished(directory.resolve(CONFIG));  // of a kill before the file was whole
@@ -104,7 +104,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         } catch (UncheckedIOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
         }
-        return new RunFolder(directory, settings);
+        return new RunWriter(directory, settings);
     }
 
     /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
@@ -153,8 +153,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      *
      * @throws InvalidInputException if it is not one, is damaged, or is in use; or if its settings are not those that it was begun with
      */
-    public static RunFolder open(Path directory) {
-        RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
+    public static RunWriter open(Path directory) {
+        RunWriter folder = new RunWriter(directory, RunReader.settings(directory));
         folder.refuse(RunDamage.editedSettings(directory, folder.settings));
         folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
@@ -240,8 +240,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /** Simulations that were recorded when the folder was opened. */
-    public Recorded recorded() {
-        return new Recorded(dropped, log.rows());
+    public RecordedEvaluations recorded() {
+        return new RecordedEvaluations(dropped, log.rows());
     }
 
     /** Writes where and how the run is carried out. */

@@ -9,9 +9,9 @@ import java.util.Set;
 import java.util.function.Function;
 
 /** Refuses what an option names twice. */
-final class EachOnce {
+final class RejectRepeated {
 
-    private EachOnce() {
+    private RejectRepeated() {
     }
 
     /**
@@ -33,7 +33,7 @@ final class EachOnce {
 
     /** The same of folders, by whatever path; one that is not there is for others to refuse. */
     static void checkFolders(String option, List<Path> folders) {
-        List<Path> places = folders.stream().map(EachOnce::real).toList();
+        List<Path> places = folders.stream().map(RejectRepeated::real).toList();
         check(option, places, one -> folders.get(places.indexOf(one)).toString());
     }
 

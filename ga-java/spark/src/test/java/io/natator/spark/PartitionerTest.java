@@ -17,7 +17,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-class PartsTest {
+class PartitionerTest {
 
     private static final Gait GAIT = new Gait(1.5, List.of(0.1, 0.2), List.of(0.0, 0.3));
     private static final JsonNode VACUUM = JsonNodeFactory.instance.objectNode().set("fluid", JsonNodeFactory.instance.nullNode());
@@ -31,8 +31,8 @@ class PartsTest {
     }
 
     /** Parts by evaluations that have taken so many seconds each. */
-    private static Parts known(double seconds) {
-        Parts parts = new Parts();
+    private static Partitioner known(double seconds) {
+        Partitioner parts = new Partitioner();
         parts.took(requests(1), seconds);
         return parts;
     }
@@ -47,19 +47,19 @@ class PartsTest {
         for (int i = 0; i < 2000; i++) {
             List<SimulationRequest> all = requests(random.nextInt(1, 400));
             int slots = random.nextInt(1, 300);
-            Parts parts = random.nextInt(4) == 0 ? new Parts() : known(Math.pow(10, random.nextDouble(-4, 2)));
+            Partitioner parts = random.nextInt(4) == 0 ? new Partitioner() : known(Math.pow(10, random.nextDouble(-4, 2)));
 
             assertThat(parts.of(all, slots)).noneMatch(Collection::isEmpty);
             assertThat(parts.of(all, slots).stream().flatMap(List::stream).toList()).isEqualTo(all);
-            assertThat(Parts.evenly(all, slots).stream().flatMap(List::stream).toList()).isEqualTo(all);
-            assertThat(Parts.evenly(all, slots)).hasSize(Math.min(slots, all.size()));
+            assertThat(Partitioner.evenly(all, slots).stream().flatMap(List::stream).toList()).isEqualTo(all);
+            assertThat(Partitioner.evenly(all, slots)).hasSize(Math.min(slots, all.size()));
         }
     }
 
     @Test
     void whatTakesUnknownTimeIsOneEach() {
-        assertThat(sizes(new Parts().of(requests(150), 2))).hasSize(150).containsOnly(1);
-        assertThat(new Parts().of(requests(100_000), 2)).hasSizeLessThanOrEqualTo(512);
+        assertThat(sizes(new Partitioner().of(requests(150), 2))).hasSize(150).containsOnly(1);
+        assertThat(new Partitioner().of(requests(100_000), 2)).hasSizeLessThanOrEqualTo(512);
     }
 
     /** An evaluation of the thesis takes 0.36 s: 2 s are five. */
@@ -87,7 +87,7 @@ class PartsTest {
 
     @Test
     void kindsAreNotMixed() {
-        Parts parts = known(0.1);
+        Partitioner parts = known(0.1);
         parts.took(List.of(request(0, VACUUM)), 0.001);
         List<SimulationRequest> all = new ArrayList<>(requests(30));
         all.addAll(LongStream.range(30, 60).mapToObj(id -> request(id, VACUUM)).toList());

@@ -10,9 +10,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /** Tells of executors that are lost or unfit, of each reason in one line, and remembers why the last one was unfit. */
-final class ExecutorNews extends SparkListener {
+final class ExecutorLog extends SparkListener {
 
-    private static final Logger LOG = LoggerFactory.getLogger(ExecutorNews.class);
+    private static final Logger LOG = LoggerFactory.getLogger(ExecutorLog.class);
 
     private final Set<String> told = ConcurrentHashMap.newKeySet();
     private final Set<String> lost = ConcurrentHashMap.newKeySet();

@@ -19,7 +19,7 @@ import java.util.stream.IntStream;
  * @param runs    that can be looked at
  * @param gaits   known gaits by the scene that they are for
  */
-record SetupAnswer(String version, List<String> scenes, List<Scheme> schemes, InitialScene start, List<Run> runs,
+record SetupResponse(String version, List<String> scenes, List<Scheme> schemes, InitialScene start, List<Run> runs,
         Map<String, Gait> gaits) {
 
     /** A run folder: its place on the command line, from 0, and the folder's name. */
@@ -27,10 +27,10 @@ record SetupAnswer(String version, List<String> scenes, List<Scheme> schemes, In
     }
 
     /** The answer of a server with these settings. */
-    static SetupAnswer of(ProgramInfo program, ViewSettings settings) {
+    static SetupResponse of(ProgramInfo program, ViewSettings settings) {
         List<Run> runs = IntStream.range(0, settings.runs().size())
-                .mapToObj(id -> new Run(id, RunAnswer.name(settings.runs().get(id)))).toList();
-        return new SetupAnswer(program.version(), program.scenes(), List.of(Scheme.values()), settings.start(), runs,
+                .mapToObj(id -> new Run(id, RunResponse.name(settings.runs().get(id)))).toList();
+        return new SetupResponse(program.version(), program.scenes(), List.of(Scheme.values()), settings.start(), runs,
                 gaits(program.scenes(), settings.known()));
     }
 
