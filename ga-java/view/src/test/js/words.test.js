@@ -1,17 +1,9 @@
-/** What the page says: stops, likenesses, axes. */
+/** What the page says: stops, axes. */
 
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {likeness} from '#page/livecharts.js';
 import {stopText} from '#page/protocol.js';
 import {axis, axisText, niceStep} from '#page/scaling.js';
-
-test('a motion is named after a fish only if it is like one', () => {
-  const modes = [{name: 'anguilliform', e: 0.31}, {name: 'thunniform', e: 0.12}];
-
-  assert.equal(likeness({nearest: null, modes}), 'like none');
-  assert.equal(likeness({nearest: 'thunniform', modes}), 'e 0.12');
-});
 
 test('an unstable swim tells the law that it broke', () => {
   assert.equal(stopText({reason: 'unstable', time: 1.5, particle: 7, stage: 'frame', law: 'tank'}),

@@ -1,6 +1,6 @@
 package io.natator;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -81,7 +81,7 @@ public final class Natator {
      */
     public EvolutionRun.Outcome evolve(EvolutionSettings settings, Path directory, EvolutionListener... listeners)
             throws InterruptedException {
-        return run(RunFolder.create(directory, settings), listeners);
+        return run(RunWriter.create(directory, settings), listeners);
     }
 
     /**
@@ -91,10 +91,10 @@ public final class Natator {
      * @param listeners told of the course from there on
      */
     public EvolutionRun.Outcome resume(Path directory, EvolutionListener... listeners) throws InterruptedException {
-        return run(RunFolder.open(directory), listeners);
+        return run(RunWriter.open(directory), listeners);
     }
 
-    private EvolutionRun.Outcome run(RunFolder folder, EvolutionListener... listeners) throws InterruptedException {
+    private EvolutionRun.Outcome run(RunWriter folder, EvolutionListener... listeners) throws InterruptedException {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(
                     execution.withBackend(folder.settings().budget().backend()), folder.settings());

@@ -1,7 +1,7 @@
 package io.natator.cli;
 
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.compare.RunComparison;
 import io.natator.config.Backend;
@@ -75,11 +75,11 @@ final class CompareCommand implements Callable<Integer> {
         if (json == null ? rankStarts != null : starts == 0) {
             throw new InvalidInputException(json == null ? "--rank-starts goes with --json; give both" : "--json goes without --starts 0; leave one of them out");
         }
-        List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
-        EachOnce.checkFolders("RUN", folders);
+        List<RunReader> runs = folders.stream().map(RunReader::in).toList();
+        RejectRepeated.checkFolders("RUN", folders);
         if (starts > 0) {
             Path simulator = executionOptions.execution(Backend.CPU).simulator();
-            for (StoredRun run : runs) {
+            for (RunReader run : runs) {
                 run.checkUnchanged(simulator);
             }
         }
@@ -91,7 +91,7 @@ final class CompareCommand implements Callable<Integer> {
         printBests(runs, out);
         out.flush();
         if (starts > 0) {
-            runAgain(runs.stream().map(StoredRun::settings).toList(), out);
+            runAgain(runs.stream().map(RunReader::settings).toList(), out);
             out.flush();
         }
         return ExitCode.OK;
@@ -115,8 +115,8 @@ final class CompareCommand implements Callable<Integer> {
         comparison.lines().forEach(out::println);
     }
 
-    private static void printCurves(List<StoredRun> runs, PrintWriter out) {
-        List<double[]> curves = runs.stream().map(StoredRun::bestWorth).toList();
+    private static void printCurves(List<RunReader> runs, PrintWriter out) {
+        List<double[]> curves = runs.stream().map(RunReader::bestWorth).toList();
         int common = curves.stream().mapToInt(curve -> curve.length).min().orElse(0);
         out.print("evaluations");
         for (int i = 1; i <= runs.size(); i++) {
@@ -134,7 +134,7 @@ final class CompareCommand implements Callable<Integer> {
     }
 
     /** Runs that are not so long, or have no gait as yet, have no number there. */
-    private static void printRow(int place, List<StoredRun> runs, List<double[]> curves, PrintWriter out) {
+    private static void printRow(int place, List<RunReader> runs, List<double[]> curves, PrintWriter out) {
         out.printf("%11d", place);
         for (int i = 0; i < runs.size(); i++) {
             double[] curve = curves.get(i);
@@ -144,7 +144,7 @@ final class CompareCommand implements Callable<Integer> {
         out.println();
     }
 
-    private static void printBests(List<StoredRun> runs, PrintWriter out) {
+    private static void printBests(List<RunReader> runs, PrintWriter out) {
         for (int i = 0; i < runs.size(); i++) {
             var best = runs.get(i).best();
             if (best == null) {

@@ -4,7 +4,7 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.Convergence;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -52,7 +52,7 @@ final class ConvergeCommand implements Callable<Integer> {
 
     @Section(Topic.COMPUTING)
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: " + OwnDefaults.HERE + ".")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: the run's.")
     private Backend backend;
 
     @Mixin
@@ -64,16 +64,16 @@ final class ConvergeCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Limits.checkSeveralStarts("--starts", starts);
-        EachOnce.check("--levels", levels, one -> one);
+        RejectRepeated.check("--levels", levels, one -> one);
         List<FinerLevel> finer = levels.stream().map(FinerLevel::of).toList();
-        StoredRun run = StoredRun.in(folder);
+        RunReader run = RunReader.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
                 .withBackend(backend != null ? backend : settings.budget().backend()), settings);
         run.checkUnchanged(execution.simulator());
         JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
-                Convergence.runs(run.directory()), new Told());
+                Convergence.runs(run.directory()), new ProgressListener());
         PrintWriter out = spec.commandLine().getOut();
         try {
             out.println(ConvergenceText.of(Convergence.write(run.directory(), swimmer, answer)));
@@ -85,7 +85,7 @@ final class ConvergeCommand implements Callable<Integer> {
     }
 
     /** The table is a result, the runs are progress. */
-    private final class Told implements ConvergeProgram.Listener {
+    private final class ProgressListener implements ConvergeProgram.Listener {
 
         @Override
         public void ran(String run) {

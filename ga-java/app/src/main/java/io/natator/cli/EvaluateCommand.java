@@ -6,7 +6,7 @@ import io.natator.base.MergePatch;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
@@ -87,11 +87,11 @@ final class EvaluateCommand implements Callable<Integer> {
             throws InterruptedException {
         Path file = Path.of(gait.get(0));
         Path run = file.getParent() == null ? Path.of(".") : file.getParent();
-        if (!file.endsWith("best.json") || !StoredRun.exists(run) || StoredRun.isOnIslands(run)) {
+        if (!file.endsWith("best.json") || !RunReader.exists(run)) {
             return;
         }
-        EvolutionSettings settings = StoredRun.settings(run);
-        BestGait stored = StoredRun.best(run);
+        EvolutionSettings settings = RunReader.settings(run);
+        BestGait stored = RunReader.best(run);
         if (stored != null && SimulationRequest.of(0, settings, stored.swimmer()).equals(request)) {
             String difference = new Reproduction(run, stored, execution.simulator(), execution.backend(),
                     execution.device()).difference(result);

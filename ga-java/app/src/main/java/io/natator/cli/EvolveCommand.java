@@ -1,8 +1,8 @@
 package io.natator.cli;
 
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
@@ -10,30 +10,25 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
 import io.natator.config.Preset;
+import io.natator.config.SimulatorMode;
 import io.natator.file.OutputFolder;
 import io.natator.process.SceneInfo;
 import io.natator.protocol.RefusedSceneException;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.run.EvolutionRun;
-import io.natator.run.PlannedRun;
-import io.natator.run.RunQueue;
 import java.io.IOException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.List;
 import java.util.concurrent.Callable;
-import java.util.stream.LongStream;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
-import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-/** {@code natator evolve}: evolves a creature, or continues an interrupted run. */
+/** {@code natator evolve}: evolves a creature. */
 @Command(name = "evolve", mixinStandardHelpOptions = true,
         description = {"Evolves the gait of a creature, its body, or both.",
             "Prints the best; keeps everything in a run folder."},
@@ -46,10 +41,8 @@ import picocli.CommandLine.Spec;
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
-    /** Options that do not change what a run computes, so that they may be given when it is continued. */
-    private static final List<String> WITH_RESUME =
-            List.of("--resume", "--stop-after", "--simulator", "--backend", "--device", "--workers", "--timeout",
-                    "--simulator-path", "--simulator-command", "--master", "--no-cache");
+    private static final int AT_ONCE = 2;
+    private static final int AT_ONCE_SHARED = 32;
 
     @Spec
     private CommandSpec spec;
@@ -67,13 +60,7 @@ final class EvolveCommand implements Callable<Integer> {
     private SceneChoice choice;
 
     @Mixin
-    private SizeOptions sizeOptions;
-
-    @Mixin
     private SearchOptions searchOptions;
-
-    @Mixin
-    private BodyOptions bodyOptions;
 
     @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
@@ -89,20 +76,20 @@ final class EvolveCommand implements Callable<Integer> {
             + "DIR/seed-S. The same command continues.")
     private Integer seeds;
 
-    @Mixin
-    private QueueOptions queueOptions;
+    @Section(Topic.COMPUTING)
+    @Option(names = "--runs-at-once", paramLabel = "N", description = "With --seeds: runs under way at the same time; their "
+            + "generations share a batch. Default: " + AT_ONCE_SHARED + " with --simulator batch or spark, else "
+            + AT_ONCE + ".")
+    private Integer runsAtOnce;
 
-    @Section(Topic.OTHER)
-    @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
-    private Path resume;
+    @Section(Topic.EXTENT)
+    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
+    private Double stopAfter;
 
     @Override
     public Integer call() throws InterruptedException {
-        Double stopAfter = queueOptions.stopAfter();
-        if (resume != null) {
-            refuseSettings();
-            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, null, spec);
-            return ExitCode.OK;
+        if (stopAfter != null) {
+            Limits.checkSeconds("--stop-after", stopAfter);
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
@@ -116,66 +103,46 @@ final class EvolveCommand implements Callable<Integer> {
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.problem().scene());
-        RunFolder folder = RunFolder.create(directory, settings);
+        RunWriter folder = RunWriter.create(directory, settings);
         try (folder) {
             preview.printAnyway(directory, spec.commandLine().getOut());
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         } catch (InvalidInputException | RequestRejectedException e) {
             // What is refused with the first evaluation leaves no folder that would be in the way of the corrected command.
-            RunFolder.deleteUnlessBegun(directory);
+            RunWriter.deleteUnlessBegun(directory);
             throw e;
         }
         return ExitCode.OK;
     }
 
-    /** With all seeds, as far as they are not finished; their generations share a batch. */
+    /** With all seeds, as far as they are not finished. */
     private int evolveAll(EvolutionSettings settings, ExecutionSettings execution) throws InterruptedException {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         if (outputDir == null || dryRun) {
             throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out" : "--seeds goes with --output-dir; give both");
         }
-        if (StoredRun.exists(outputDir)) {
+        if (RunReader.exists(outputDir)) {
             throw new InvalidInputException("output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
         }
-        List<PlannedRun> runs = LongStream.range(settings.search().seed(), settings.search().seed() + seeds)
-                .mapToObj(seed -> new PlannedRun(settings.withSeed(seed), outputDir.resolve("seed-" + seed))).toList();
-        runs.forEach(PlannedRun::check);
-        long finished = runs.stream().filter(PlannedRun::isFinished).count();
-        boolean all = queueOptions.carryOut(new RunQueue(runs, execution.simulator())::run, EvolutionRun.withTimeLimit(execution, settings),
-                runs.size(), (int) finished, seeds * ProgressEstimate.evaluations(settings), runs.stream().mapToLong(PlannedRun::recorded).sum(),
-                spec.commandLine().getErr());
-        spec.commandLine().getOut().println((all ? runs.size() : runs.stream().filter(PlannedRun::isFinished).count()) + " of " + runs.size()
-                + " runs finished in " + outputDir + (all ? "" : "; the same command continues"));
+        int atOnce = runsAtOnce != null ? runsAtOnce
+                : execution.mode() == SimulatorMode.BATCH || execution.mode() == SimulatorMode.SPARK ? AT_ONCE_SHARED : AT_ONCE;
+        Limits.checkCount("--runs-at-once", atOnce, Limits.AT_ONCE);
+        SeedRuns runs = new SeedRuns(settings, seeds, outputDir, spec.commandLine().getErr());
+        runs.run(EvolutionRun.withTimeLimit(execution, settings), atOnce, stopAfter);
+        spec.commandLine().getOut().println(runs.finished() + " of " + seeds + " runs finished in " + outputDir
+                + (runs.finished() == seeds ? "" : "; the same command continues"));
         return ExitCode.OK;
     }
 
-    static void checkStopAfter(Double seconds) {
-        if (seconds != null) {
-            Limits.checkSeconds("--stop-after", seconds);
-        }
-    }
-
-    private void refuseSettings() {
-        for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
-            if (!WITH_RESUME.contains(option.longestName())) {
-                throw new ParameterException(spec.commandLine(), option.longestName()
-                        + " cannot be given with --resume: the run keeps its settings");
-            }
-        }
-    }
-
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
-        Preset preset = sizeOptions.preset();
+        Preset preset = searchOptions.preset();
         String sceneName = choice.scene(spec, preset);
         EncodingKind encoding = searchOptions.encoding(sceneName);
         int actuators = actuators(sceneName, encoding, execution.simulator());
-        EvolutionSettings settings = sizeOptions.in(EvolutionSettings.of(sceneName, encoding, actuators))
-                .withBackend(execution.backend());
-        return searchOptions.in(settings)
-                .withScene(sceneOptions.scheme(),
-                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
-                        sceneOptions.overrides())
-                .withEvolve(bodyOptions.evolution(sceneName, sceneOptions.overrides(), execution.simulator()));
+        return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
+                sceneOptions.overrides(), execution.simulator())
+                .withScene(sceneOptions.scheme(), sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                        sceneOptions.overrides());
     }
 
     private int actuators(String sceneName, EncodingKind kind, Path simulator) throws InterruptedException {

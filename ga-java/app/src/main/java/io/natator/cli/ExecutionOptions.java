@@ -35,7 +35,8 @@ final class ExecutionOptions {
     private String master;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: " + OwnDefaults.HERE + ".")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: the run's, of a new one "
+                    + "or a single swim cpu; of compare, that of all runs, else cpu.")
     private Backend backend;
 
     @Option(names = "--device", paramLabel = "N",
@@ -53,11 +54,6 @@ final class ExecutionOptions {
 
     @Mixin
     private SimulatorOption simulator;
-
-    /** The backend that was asked for, or null. */
-    Backend backend() {
-        return backend;
-    }
 
     /**
      * The settings, with a null time limit if none was given.

@@ -26,6 +26,11 @@ public final class Main implements Callable<Integer> {
     private Main() {
     }
 
+    /** How this program was called, for the commands that it suggests: as typed, which its launcher passes on. */
+    static String asCalled() {
+        return System.getProperty("natator.command", "natator");
+    }
+
     /** Without a command: what there is. */
     @Override
     public Integer call() {
@@ -73,7 +78,6 @@ public final class Main implements Callable<Integer> {
         EnumNames.install(command);
         NumberValues.install(command);
         FileNames.install(command);
-        OwnDefaults.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);
         OneLineErrors.installJava(command);

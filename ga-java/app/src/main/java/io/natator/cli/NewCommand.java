@@ -73,7 +73,7 @@ final class NewCommand implements Callable<Integer> {
         if (Files.exists(file)) {
             throw new InvalidInputException(occupied(file));
         }
-        StartingFile start = start(new StartingFiles(simulator.path()), file);
+        StartingFiles.StartingFile start = start(new StartingFiles(simulator.path()), file);
         write(file, Json.document(start.content()));
         PrintWriter out = spec.commandLine().getOut();
         out.println(file + ": a " + EnumNames.of(kind) + " to begin with. Next:");
@@ -81,7 +81,7 @@ final class NewCommand implements Callable<Integer> {
         return ExitCode.OK;
     }
 
-    private StartingFile start(StartingFiles files, Path file) throws InterruptedException {
+    private StartingFiles.StartingFile start(StartingFiles files, Path file) throws InterruptedException {
         try {
             return switch (kind) {
                 case SCENE -> files.scene(name, like, file);

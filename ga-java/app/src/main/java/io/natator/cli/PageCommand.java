@@ -6,8 +6,9 @@ import io.natator.base.MergePatch;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
+import io.natator.file.OutputFile;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
@@ -94,7 +95,7 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize * MEGABYTE >= 1) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
-        ReplayHtml.check(output);
+        OutputFile.check(output);
         if (!force && Files.exists(output)) {
             throw new InvalidInputException("output file " + output + " is already there; choose another by --output, or replace it by --force");
         }
@@ -126,7 +127,7 @@ final class PageCommand implements Callable<Integer> {
         if (first.run() == null) {
             throw new InvalidInputException("--best is " + best + "; expected 1 with " + source + ", which is no run folder");
         }
-        StoredRun run = StoredRun.in(first.run());
+        RunReader run = RunReader.in(first.run());
         List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));

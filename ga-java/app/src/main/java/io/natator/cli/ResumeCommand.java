@@ -2,13 +2,14 @@ package io.natator.cli;
 
 import io.natator.base.Numbers;
 import io.natator.checkpoint.CompactRun;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SceneDigest;
-import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Limits;
 import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
 import java.nio.file.Path;
@@ -53,44 +54,33 @@ final class ResumeCommand implements Callable<Integer> {
     private boolean compact;
 
     @Parameters(paramLabel = "RUN", description = "Run folder.")
-    private Path folder;
+    private Path directory;
 
     @Override
     public Integer call() throws InterruptedException {
-        resume(folder, executionOptions, cacheOptions, stopAfter, generations, spec);
-        if (compact && StoredRun.isFinished(folder) && !CompactRun.isCompact(folder)) {
-            CompactRun.compact(folder);
+        if (stopAfter != null) {
+            Limits.checkSeconds("--stop-after", stopAfter);
+        }
+        EvolutionSettings settings = RunReader.settings(directory);
+        Backend before = settings.budget().backend();
+        // Asks the simulator, so that where there is none nothing is changed.
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(before)), settings);
+        SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
+        RunWriter folder = RunWriter.open(directory);
+        if (generations != null) {
+            changeGenerations(folder, generations);
+        }
+        if (execution.backend() != before) {
+            changeBackend(folder, before, execution.backend());
+        }
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        if (compact && RunReader.isFinished(directory) && !CompactRun.isCompact(directory)) {
+            CompactRun.compact(directory);
         }
         return ExitCode.OK;
     }
 
-    /**
-     * Continues a run.
-     *
-     * @param stopAfter   seconds, or null
-     * @param generations that it is to have from here on, or null
-     */
-    static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter, Integer generations,
-            CommandSpec spec) throws InterruptedException {
-        EvolveCommand.checkStopAfter(stopAfter);
-        EvolutionSettings settings = StoredRun.settings(directory);
-        Backend before = settings.budget().backend();
-        // Asks the simulator, so that where there is none nothing is changed.
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
-        SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
-        RunFolder folder = RunFolder.open(directory);
-        if (generations != null) {
-            changeGenerations(folder, generations);
-        }
-        boolean isFinished = StoredRun.isFinished(directory);
-        if (isChanged(before, isFinished, options)) {
-            folder.changeBackend(options.backend());
-        }
-        tell(before, isFinished, options, spec);
-        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
-    }
-
-    private static void changeGenerations(RunFolder folder, int generations) {
+    private static void changeGenerations(RunWriter folder, int generations) {
         EvolutionState state = folder.checkpoint();
         int done = state == null ? 0 : state.generation();
         folder.refuse(generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
@@ -102,22 +92,15 @@ final class ResumeCommand implements Callable<Integer> {
         }
     }
 
-    /** Whether the run goes on on another backend; what is finished keeps the one that it was computed on. */
-    private static boolean isChanged(Backend before, boolean isFinished, ExecutionOptions options) {
-        return isOther(before, options) && !isFinished;
-    }
-
-    private static boolean isOther(Backend before, ExecutionOptions options) {
-        return options.backend() != null && options.backend() != before;
-    }
-
-    /** Tells of another backend that is asked for. */
-    private static void tell(Backend before, boolean isFinished, ExecutionOptions options, CommandSpec spec) {
-        if (isOther(before, options)) {
-            spec.commandLine().getErr().println(isFinished
-                    ? "finished on backend " + before.argument() + "; nothing is left to compute on " + options.backend().argument()
-                    : "backend was " + before.argument() + ", is now " + options.backend().argument()
-                            + ": last digits, and with them gaits, will differ from those of a run that kept it");
+    /** What is finished keeps the backend that it was computed on. */
+    private void changeBackend(RunWriter folder, Backend before, Backend after) {
+        boolean isFinished = RunReader.isFinished(directory);
+        if (!isFinished) {
+            folder.changeBackend(after);
         }
+        spec.commandLine().getErr().println(isFinished
+                ? "finished on backend " + before.argument() + "; nothing is left to compute on " + after.argument()
+                : "backend was " + before.argument() + ", is now " + after.argument()
+                        + ": last digits, and with them gaits, will differ from those of a run that kept it");
     }
 }

@@ -6,7 +6,7 @@ import io.natator.body.BodyText;
 import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
@@ -33,7 +33,7 @@ final class RunDocument {
     private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "holds", Measure.Outcome.FAILS,
             "does not", Measure.Outcome.NOT_MEASURED, "not measured");
 
-    private final StoredRun run;
+    private final RunReader run;
     private final BestGait best;
 
     /**
@@ -41,7 +41,7 @@ final class RunDocument {
      *
      * @throws InvalidInputException if it has no best gait or no checkpoint yet
      */
-    RunDocument(StoredRun run) {
+    RunDocument(RunReader run) {
         this.run = run;
         this.best = run.requiredBest();
         if (run.state() == null) {

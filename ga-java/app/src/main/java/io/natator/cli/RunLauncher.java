@@ -1,6 +1,6 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
@@ -8,8 +8,6 @@ import io.natator.file.ShellWord;
 import io.natator.process.Evaluator;
 import io.natator.run.EvolutionRun;
 import java.io.PrintWriter;
-import java.util.ArrayList;
-import java.util.List;
 
 /** Runs the evolution of a folder for the command line: progress, an early stop, the report. */
 final class RunLauncher {
@@ -28,38 +26,28 @@ final class RunLauncher {
      * @param folder    closed afterwards
      * @param stopAfter seconds, or null
      */
-    void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
+    void run(RunWriter folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
+        String how = "continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder.directory());
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
-            String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder.directory());
             try (Evaluator evaluator = EvolutionRun.open(limited);
-                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
-                            () -> say("interrupted; " + how))) {
-                evolve(folder, limited, evaluator, shutdown, how);
+                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; " + how))) {
+                EvolutionRun.Outcome outcome;
+                try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(), err,
+                        System.console() != null ? System.err : null)) {
+                    outcome = new EvolutionRun(folder).run(limited, evaluator, limited.inBatches()
+                            ? new EvolutionListener[] {progress, shutdown.beforeLateGenerations()} : new EvolutionListener[] {progress});
+                } catch (EvolutionStoppedException | InterruptedException e) {
+                    if (shutdown.isTimeUp()) {
+                        say("time is up; " + how);
+                    }
+                    return;
+                }
+                new RunReport(out).print(folder.settings(), outcome.state(), outcome.best(), folder.directory());
+                out.println("  run folder  " + folder.directory());
+                out.flush();
             }
         }
-    }
-
-    private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, ShutdownHandler shutdown,
-            String how)
-            throws InterruptedException {
-        EvolutionRun.Outcome outcome;
-        try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(), err,
-                System.console() != null ? System.err : null)) {
-            List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
-            if (execution.inBatches()) {
-                listeners.add(shutdown.beforeLateGenerations());
-            }
-            outcome = new EvolutionRun(folder).run(execution, evaluator, listeners.toArray(EvolutionListener[]::new));
-        } catch (EvolutionStoppedException | InterruptedException e) {
-            if (shutdown.isTimeUp()) {
-                say("time is up; " + how);
-            }
-            return;
-        }
-        new RunReport(out).print(folder.settings(), outcome.state(), outcome.best(), folder.directory());
-        out.println("  run folder  " + folder.directory());
-        out.flush();
     }
 
     private void say(String line) {

@@ -7,6 +7,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.GeneRange;
 import io.natator.evolution.EvolutionFailedException;
+import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.run.EvolutionRun;
@@ -67,7 +68,7 @@ final class RunPreview {
             throws InterruptedException {
         int together = execution.trials(settings.search().population());
         try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
-            double whole = new EvaluationTime(settings, EvolutionRun.telling(settings, evaluator, scene)).of(together, duration);
+            double whole = new EvaluationTime(settings, FitnessEvaluator.of(evaluator, settings, scene)).of(together, duration);
             out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d %s %.2f s%n",
                     ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),
                     together, together == 1 ? "takes" : "take", whole);

@@ -77,8 +77,8 @@ final class RunReport {
         }
         printRefusals(state);
         printFailures(state, folder);
-        line("watch it", ProgramName.asCalled() + " view --run " + ShellWord.of(folder));
-        line("share it", ProgramName.asCalled() + " page " + ShellWord.of(folder));
+        line("watch it", Main.asCalled() + " view --run " + ShellWord.of(folder));
+        line("share it", Main.asCalled() + " page " + ShellWord.of(folder));
     }
 
     private void printVacuum(SimulationResult vacuum) {
@@ -104,7 +104,7 @@ final class RunReport {
         int failed = state.history().stream().mapToInt(GenerationSummary::failed).sum();
         if (failed > 0) {
             line("failed", failed + " of " + Numbers.count(state.evaluations(), "evaluation") + " gave no answer, so the same seed may "
-                    + "find another gait elsewhere; why: " + ProgramName.asCalled() + " show " + ShellWord.of(folder));
+                    + "find another gait elsewhere; why: " + Main.asCalled() + " show " + ShellWord.of(folder));
         }
     }
 

@@ -15,7 +15,7 @@ import picocli.CommandLine.Option;
 class SceneChanges {
 
     @Option(names = "--scheme", paramLabel = "SCHEME",
-            description = "How to solve: flex, conserving or lattice. Default: " + OwnDefaults.HERE + "the scene's.")
+            description = "How to solve: flex, conserving or lattice. Default: the run's, else the scene's.")
     private Scheme scheme;
 
     @Option(names = "--overrides", paramLabel = "JSON|FILE",

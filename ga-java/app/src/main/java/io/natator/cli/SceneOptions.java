@@ -11,7 +11,8 @@ import picocli.CommandLine.Option;
 final class SceneOptions extends SceneChanges {
 
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time, to the nearest frame. Default: " + OwnDefaults.HERE + "the scene's (4 for the thesis scenes).")
+            description = "Simulated time, to the nearest frame. Default: the run's or the preset's, else the scene's "
+                    + "(4 for the thesis scenes).")
     private Double duration;
 
     Double duration() {

@@ -4,7 +4,7 @@ import io.natator.base.Numbers;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Budget;
@@ -17,7 +17,7 @@ import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
-import io.natator.evolution.Recorded;
+import io.natator.evolution.RecordedEvaluations;
 import io.natator.file.ShellWord;
 import io.natator.protocol.SimulationResult;
 import io.natator.verdict.ControlVerdict;
@@ -57,12 +57,12 @@ final class ShowCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         WholeOutput.print(spec.commandLine(), generation == null ? this::print
-                : out -> out.println(Json.line(SwimSource.bestUntil(generation, StoredRun.in(folder))).strip()));
+                : out -> out.println(Json.line(SwimSource.bestUntil(generation, RunReader.in(folder))).strip()));
         return ExitCode.OK;
     }
 
     private void print(PrintWriter out) {
-        StoredRun run = StoredRun.in(folder);
+        RunReader run = RunReader.in(folder);
         RunDocument document = json ? new RunDocument(run) : null;
         OneLineErrors.warn(spec.commandLine(), run.damage());
         if (document != null) {
@@ -95,7 +95,8 @@ final class ShowCommand implements Callable<Integer> {
     /** On one line, what makes a run another one. */
     static String settings(EvolutionSettings settings) {
         StringBuilder text = new StringBuilder(settings.problem().scene());
-        text.append(", ").append(OptimizerName.of(settings));
+        text.append(", ").append(EnumNames.of(settings.search().optimizer()))
+                .append(settings.search().optimizer() == OptimizerKind.JGAP ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
         text.append(", population ").append(settings.search().population());
         if (settings.budget().generations() != Budget.NO_LIMIT) {
             text.append(", ").append(Numbers.count(settings.budget().generations(), "generation"));
@@ -121,8 +122,8 @@ final class ShowCommand implements Callable<Integer> {
         return text.toString();
     }
 
-    private String progress(StoredRun run) {
-        String how = "; continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder);
+    private String progress(RunReader run) {
+        String how = "; continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder);
         if (run.state() == null) {
             return begun(run.recorded()) + how;
         }
@@ -135,14 +136,14 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     /** Of a run without a checkpoint: that it has none yet, or has lost it. */
-    private static String begun(Recorded recorded) {
+    private static String begun(RecordedEvaluations recorded) {
         long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
         return recorded.end() > first ? "no checkpoint.json, " + Numbers.count(recorded.end(), "evaluation") + " of several generations"
                 : "no generation finished, " + Numbers.count(first, "evaluation") + " of the first";
     }
 
     /** What no other gait is better than in all objectives. */
-    private static void printFront(StoredRun run, PrintWriter out) {
+    private static void printFront(RunReader run, PrintWriter out) {
         List<Individual> front = run.front();
         if (front.isEmpty()) {
             return;
@@ -156,7 +157,7 @@ final class ShowCommand implements Callable<Integer> {
         }
     }
 
-    private static void printSavings(StoredRun run, PrintWriter out) {
+    private static void printSavings(RunReader run, PrintWriter out) {
         EvaluationStatistics statistics = run.statistics();
         if (statistics != null) {
             out.println("not simulated");

@@ -44,6 +44,15 @@ final class StartingFiles {
     private final Path simulator;
     private final ProgramInfo program;
 
+    /**
+     * A file to begin with.
+     *
+     * @param content what it holds
+     * @param next    commands to try with it
+     */
+    record StartingFile(ObjectNode content, List<String> next) {
+    }
+
     /** Water, and where in it a body's rear end is put. */
     private record Place(String water, JsonNode rearCentre) {
     }
@@ -80,12 +89,12 @@ final class StartingFiles {
             }
         }
         String gait = file.resolveSibling(name + "-gait") + ".json";
-        String view = ProgramName.asCalled() + " view --scene " + ShellWord.of(file);
+        String view = Main.asCalled() + " view --scene " + ShellWord.of(file);
         ObjectNode creature = JsonNodeFactory.instance.objectNode().set("creature", scene.get("creature"));
         return new StartingFile(scene,
                 SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
                 ? List.of("natator-sim info " + ShellWord.of(file), view)
-                : List.of(ProgramName.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file) + output(name, gait),
+                : List.of(Main.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file) + output(name, gait),
                         view + " --gait " + ShellWord.of(gait)));
     }
 
@@ -111,7 +120,7 @@ final class StartingFiles {
         String gait = file.resolveSibling(name + "-gait") + ".json";
         return new StartingFile(creature, List.of(
                 "natator-sim info " + put + " --gait-template > " + ShellWord.of(gait),
-                ProgramName.asCalled() + " view --scene " + put + " --gait " + ShellWord.of(gait)));
+                Main.asCalled() + " view --scene " + put + " --gait " + ShellWord.of(gait)));
     }
 
     /**
@@ -127,7 +136,7 @@ final class StartingFiles {
         gait.setAll(parsed(SceneInfo.gaitTemplate(SceneOptions.scene(LIKE, scene), simulator)));
         return new StartingFile(gait, List.of(
                 "natator-sim run " + ShellWord.of(scene) + " --gait " + ShellWord.of(file) + " --duration 2",
-                ProgramName.asCalled() + " view --scene " + ShellWord.of(scene) + " --gait " + ShellWord.of(file)));
+                Main.asCalled() + " view --scene " + ShellWord.of(scene) + " --gait " + ShellWord.of(file)));
     }
 
     /** With what an editor finds its schema by. */

@@ -7,7 +7,7 @@ import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
@@ -46,8 +46,8 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
     static SwimSource of(String source, Path gait) {
         Swimmer given = gait == null ? null : GaitFile.read(gait);
         Path folder = Path.of(source);
-        if (StoredRun.exists(folder)) {
-            StoredRun run = StoredRun.in(folder);
+        if (RunReader.exists(folder)) {
+            RunReader run = RunReader.in(folder);
             return of(run, given != null ? given : best(run), given == null ? run.best() : null);
         }
         if (source.endsWith(".json") && !Files.isRegularFile(Path.of(source))) {
@@ -62,14 +62,14 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
      *
      * @param best what the run has stored of it, or null
      */
-    static SwimSource of(StoredRun run, Swimmer swimmer, BestGait best) {
+    static SwimSource of(RunReader run, Swimmer swimmer, BestGait best) {
         EvolutionSettings settings = run.settings();
         return new SwimSource(run.directory(), SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
                 MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(), settings.problem().scheme(),
                 settings.problem().duration(), best);
     }
 
-    private static Swimmer best(StoredRun run) {
+    private static Swimmer best(RunReader run) {
         if (run.best() == null) {
             throw new InvalidInputException(run.whyNoBest() + "; or give a gait by --gait");
         }
@@ -81,7 +81,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
      *
      * @throws InvalidInputException if the run has not finished that one, or no longer knows it
      */
-    static Swimmer bestUntil(int generation, StoredRun run) {
+    static Swimmer bestUntil(int generation, RunReader run) {
         int last = run.state() == null ? -1 : run.state().generation();
         if (generation < 0 || generation > last) {
             throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()

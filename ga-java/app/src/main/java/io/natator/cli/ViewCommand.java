@@ -5,7 +5,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
@@ -20,10 +20,14 @@ import io.natator.view.ViewSettings;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.UncheckedIOException;
+import java.lang.ProcessBuilder.Redirect;
+import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.Callable;
 import java.util.concurrent.CountDownLatch;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -39,6 +43,8 @@ import picocli.CommandLine.Spec;
             "  natator view --creature 2",
             "  natator view --run runs/one --run runs/two"})
 final class ViewCommand implements Callable<Integer> {
+
+    private static final Logger LOG = LoggerFactory.getLogger(ViewCommand.class);
 
     @Spec
     private CommandSpec spec;
@@ -84,7 +90,7 @@ final class ViewCommand implements Callable<Integer> {
         }
         Path program = simulator.path();
         if (!runs.isEmpty()) {
-            EachOnce.checkFolders("--run", runs);
+            RejectRepeated.checkFolders("--run", runs);
         }
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
         Path shown = shownRun();
@@ -92,7 +98,6 @@ final class ViewCommand implements Callable<Integer> {
                 ThesisGaits::in, runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
-        BackgroundCheck check = null;
         ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> { });
         try (ViewServer server = new ViewServer(settings)) {
             if (server.isOpenToOthers()) {
@@ -104,16 +109,10 @@ final class ViewCommand implements Callable<Integer> {
             out.println(server.address());
             out.flush();
             if (!noBrowser) {
-                Browser.open(server.address());
-            }
-            if (shown != null && isRepeated()) {
-                check = new BackgroundCheck(shown, program, spec.commandLine().getErr());
+                open(server.address());
             }
             told.await();
         } finally {
-            if (check != null) {
-                check.close();
-            }
             shutdown.close();
         }
         return ExitCode.OK;
@@ -122,7 +121,7 @@ final class ViewCommand implements Callable<Integer> {
     /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
     private Path shownRun() {
         for (Path folder : runs) {
-            if (choice.admits(SceneOptions.scene("scene of " + folder, StoredRun.settings(folder).problem().scene()))) {
+            if (choice.admits(SceneOptions.scene("scene of " + folder, RunReader.settings(folder).problem().scene()))) {
                 return folder;
             }
         }
@@ -138,7 +137,7 @@ final class ViewCommand implements Callable<Integer> {
     private InitialScene start(String scene, Path run, Path program) throws InterruptedException {
         Swimmer given = gait == null ? null : GaitFile.read(gait);
         if (run != null) {
-            return start(StoredRun.settings(run), given, StoredRun.best(run), program);
+            return start(RunReader.settings(run), given, RunReader.best(run), program);
         }
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
         ObjectNode overrides =
@@ -165,9 +164,17 @@ final class ViewCommand implements Callable<Integer> {
         }
     }
 
-    /** Whether a run's best gait swims in just the scene in which it was found. */
-    private boolean isRepeated() {
-        return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null;
+    /** Opens an address in the user's browser, where there is a screen and a browser; else the user has to. */
+    private static void open(URI address) {
+        boolean mac = System.getProperty("os.name").startsWith("Mac");
+        if (mac || System.getenv("DISPLAY") != null || System.getenv("WAYLAND_DISPLAY") != null) {
+            try {
+                new ProcessBuilder(mac ? "open" : "xdg-open", address.toString())
+                        .redirectOutput(Redirect.DISCARD).redirectError(Redirect.DISCARD).start();
+            } catch (IOException e) {
+                LOG.debug("no browser opened", e);
+            }
+        }
     }
 
     private InitialScene start(EvolutionSettings run, Swimmer given, BestGait best, Path program)

@@ -2,8 +2,10 @@ package io.natator.compare;
 
 import io.natator.base.Numbers;
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.IntStream;
 
 /**
  * Two of several samples beside each other.
@@ -37,7 +39,7 @@ public record PairTest(String first, String second, MedianInterval difference, R
                         RankTest.of(one, other), Double.NaN, false));
             }
         }
-        double[] corrected = Holm.corrected(pairs.stream().mapToDouble(pair -> pair.test.p()).toArray());
+        double[] corrected = corrected(pairs.stream().mapToDouble(pair -> pair.test.p()).toArray());
         List<PairTest> all = new ArrayList<>();
         for (int i = 0; i < corrected.length; i++) {
             PairTest pair = pairs.get(i);
@@ -47,14 +49,26 @@ public record PairTest(String first, String second, MedianInterval difference, R
         return all;
     }
 
+    /**
+     * Values of p, corrected for several tests at once (Holm 1979): the chance that any of them finds what is not there stays the level.
+     *
+     * @return for each, in the same order, what to compare with the level
+     */
+    static double[] corrected(double... p) {
+        List<Integer> rising = IntStream.range(0, p.length).boxed().sorted(Comparator.comparingDouble(i -> p[i])).toList();
+        double[] corrected = new double[p.length];
+        double greatest = 0;
+        for (int rank = 0; rank < p.length; rank++) {
+            int i = rising.get(rank);
+            greatest = Math.max(greatest, Math.min(1, (p.length - rank) * p[i]));
+            corrected[i] = greatest;
+        }
+        return corrected;
+    }
+
     /** Whether test and interval both say that the samples differ. */
     public boolean isSeen() {
         return p < LEVEL && difference.excludesZero();
-    }
-
-    /** In words, no more than test and interval support, of samples of distances. */
-    public String verdict() {
-        return verdict("further than");
     }
 
     /**

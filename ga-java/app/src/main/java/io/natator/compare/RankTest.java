@@ -23,9 +23,4 @@ public record RankTest(double p, double a, double leastP) {
         double p = Double.isNaN(result.getPValue()) ? 1 : Math.min(1, result.getPValue());
         return new RankTest(p, a, Math.min(1, 2 / BinomialCoefficientDouble.value(first.length + second.length, first.length)));
     }
-
-    /** Cliff's delta (1993): the chance that a value of the first sample is greater, less the chance that it is smaller. */
-    public double cliffsDelta() {
-        return 2 * a - 1;
-    }
 }

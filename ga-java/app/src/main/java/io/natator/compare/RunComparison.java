@@ -3,8 +3,8 @@ package io.natator.compare;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.Numbers;
+import io.natator.checkpoint.RunReader;
 import io.natator.checkpoint.Spread;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.evolution.Individual;
@@ -82,7 +82,7 @@ public final class RunComparison {
             ArrayNode again = line.putArray("again");
             swims.get(i).forEach((genes, results) -> again.addObject().putPOJO("genes", genes).putPOJO("runs", scores(results)));
             if (rankStarts > 0) {
-                List<Individual> last = StoredRun.state(Path.of(run.run())).population().stream()
+                List<Individual> last = RunReader.state(Path.of(run.run())).population().stream()
                         .collect(Collectors.toMap(Individual::genes, one -> one, (one, same) -> one, LinkedHashMap::new)).values().stream().toList();
                 List<List<SimulationResult>> found = new FreshStarts(run.settings(), evaluator, simulator)
                         .each(last.stream().map(Individual::genes).toList(), rankStarts);
@@ -105,7 +105,7 @@ public final class RunComparison {
         List<String> lines = new ArrayList<>();
         List<List<Integer>> groups = groups();
         boolean byRun = groups.get(0).size() > 1;
-        Rewarded rewarded = Rewarded.of(runs.stream().map(RunSummary::settings).toList(), swims);
+        Metric metric = Metric.of(runs.stream().map(RunSummary::settings).toList(), swims);
         for (EqualBudget budget : EqualBudget.values()) {
             double place = budget.at(1, runs);
             if (Double.isNaN(place)) {
@@ -113,16 +113,16 @@ public final class RunComparison {
                 continue;
             }
             lines.add("at equal " + budget.label() + " (" + budget.text(place) + "), from " + starts
-                    + " fresh starts: median " + rewarded.name() + (byRun ? " of the runs' means" : "")
+                    + " fresh starts: median " + metric.name() + (byRun ? " of the runs' means" : "")
                     + " [95 % bootstrap interval]");
             Map<String, double[]> samples = new LinkedHashMap<>();
-            groups.forEach(group -> samples.put(name(group), sample(group, byRun, rewarded, budget, place)));
+            groups.forEach(group -> samples.put(name(group), sample(group, byRun, metric, budget, place)));
             int decimals = Numbers.worthDecimals(
                     samples.values().stream().flatMapToDouble(Arrays::stream).map(Math::abs).max().orElse(0));
             samples.forEach((name, sample) -> lines.add("   " + name + "  "
                     + (sample.length == 0 ? "no gait" : MedianInterval.of(sample).text(1, decimals))));
             PairTest.all(samples).forEach(pair -> lines.add("   " + pair.first() + " less " + pair.second() + "  "
-                    + pair.difference().text(1, decimals) + ": " + pair.verdict(rewarded.greater())));
+                    + pair.difference().text(1, decimals) + ": " + pair.verdict(metric.greater())));
         }
         return lines;
     }
@@ -146,12 +146,12 @@ public final class RunComparison {
                 + group.stream().map(i -> Integer.toString(i + 1)).collect(Collectors.joining("+"));
     }
 
-    private double[] sample(List<Integer> group, boolean byRun, Rewarded rewarded, EqualBudget budget, double place) {
+    private double[] sample(List<Integer> group, boolean byRun, Metric metric, EqualBudget budget, double place) {
         List<Double> sample = new ArrayList<>();
         for (int i : group) {
             List<Double> leader = runs.get(i).leader(budget, place);
             if (leader != null) {
-                List<Double> own = swims.get(i).get(leader).stream().map(rewarded.value()).toList();
+                List<Double> own = swims.get(i).get(leader).stream().map(metric.value()).toList();
                 sample.addAll(byRun ? List.of(Spread.of(own).mean()) : own);
             }
         }

@@ -5,7 +5,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Leader;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
 import java.nio.file.Path;
@@ -41,7 +41,7 @@ record RunSummary(String run, EvolutionSettings settings, JsonNode environment, 
 
     /** Of the run in a folder, finished or not. */
     static RunSummary of(Path directory) {
-        StoredRun run = StoredRun.in(directory);
+        RunReader run = RunReader.in(directory);
         List<Improvement> improvements = new ArrayList<>();
         List<Double> before = null;
         for (Leader one : run.leaders()) {

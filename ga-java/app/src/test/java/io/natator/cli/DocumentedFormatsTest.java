@@ -3,8 +3,9 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.ObjectMapper;
+import io.natator.config.Json;
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -21,18 +22,20 @@ class DocumentedFormatsTest {
     private static final Path ROOT = Path.of("../..").toAbsolutePath().normalize();
     private static final Pattern DEFAULT = Pattern.compile("Default: (.*?)\\.$");
 
-    private static JsonNode schema(String name) throws IOException {
-        return new ObjectMapper().readTree(Files.readString(ROOT.resolve("sim-native/protocol/" + name + ".schema.json")));
+    private static JsonNode schema(String name) {
+        return Json.read(ROOT.resolve("sim-native/protocol/" + name + ".schema.json"), JsonNode.class, "schema");
     }
 
     /** Rows of a page that begin with a key. */
-    private static List<String> rows(String page, String key) throws IOException {
+    private static List<String> rows(String page, String key) {
         try (Stream<String> lines = Files.lines(ROOT.resolve(page))) {
             return lines.filter(line -> line.matches("\\| [^|]*`" + Pattern.quote(key) + "`.*")).toList();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
         }
     }
 
-    private static void checkKeys(String page, JsonNode object) throws IOException {
+    private static void checkKeys(String page, JsonNode object) {
         for (Map.Entry<String, JsonNode> key : object.path("properties").properties()) {
             String text = key.getValue().path("description").asText();
             if (key.getKey().equals("$schema") || key.getValue().path("$ref").asText().endsWith("clothOnly")) {
@@ -48,7 +51,7 @@ class DocumentedFormatsTest {
     }
 
     @Test
-    void scenesAndGaits() throws IOException {
+    void scenesAndGaits() {
         String page = "sim-native/protocol/scenes.md";
         JsonNode scene = schema("scene");
         List<JsonNode> objects = new ArrayList<>(List.of(scene.at("/properties/settling"), scene.at("/properties/stopping"),
@@ -60,10 +63,10 @@ class DocumentedFormatsTest {
         for (String key : (Iterable<String>) () -> scene.path("properties").fieldNames()) {
             assertThat(key.equals("$schema") ? List.of(key) : rows(page, key)).as(key).isNotEmpty();
         }
-        for (String key : (Iterable<String>) () -> schemaOf("gait").path("properties").fieldNames()) {
+        for (String key : (Iterable<String>) () -> schema("gait").path("properties").fieldNames()) {
             assertThat(key.equals("$schema") ? List.of(key) : rows(page, key)).as(key).isNotEmpty();
         }
-        objects.add(schemaOf("gait"));
+        objects.add(schema("gait"));
         objects.forEach(object -> checkLists(page, scene, object));
     }
 
@@ -73,26 +76,10 @@ class DocumentedFormatsTest {
             String reference = key.getValue().path("$ref").asText("#").substring(1);
             JsonNode each = (reference.isEmpty() ? key.getValue() : schema.at(reference)).path("items");
             if (each.has("minimum")) {
-                assertThat(rowsOf(page, key.getKey())).as(key.getKey())
+                assertThat(rows(page, key.getKey())).as(key.getKey())
                         .anyMatch(row -> row.contains("each in [" + each.path("minimum") + ", " + each.path("maximum") + "]"));
             }
         });
-    }
-
-    private static List<String> rowsOf(String page, String key) {
-        try {
-            return rows(page, key);
-        } catch (IOException e) {
-            throw new IllegalStateException(e);
-        }
-    }
-
-    private static JsonNode schemaOf(String name) {
-        try {
-            return schema(name);
-        } catch (IOException e) {
-            throw new IllegalStateException(e);
-        }
     }
 
     @Test

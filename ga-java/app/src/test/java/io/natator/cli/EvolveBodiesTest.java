@@ -6,27 +6,22 @@ import static org.assertj.core.api.Assertions.within;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
-import io.natator.process.FakeSimulator;
 import io.natator.protocol.SimulationResult.Status;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 /** Runs whose bodies are evolved, with a simulator that swims by a formula: best at a length of 1.25. */
-class EvolveBodiesTest {
+class EvolveBodiesTest extends FakeSimulatorTest {
 
     private static final List<String> RESULTS =
             List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
@@ -34,24 +29,9 @@ class EvolveBodiesTest {
     private static final Gait GAIT = new Gait(1.5, List.of(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             List.of(0.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3));
 
-    @TempDir
-    private Path folder;
-    private Path simulator;
-    private final StringWriter out = new StringWriter();
-    private final StringWriter err = new StringWriter();
-
-    @BeforeEach
-    void fake() {
-        simulator = FakeSimulator.in(folder);
-    }
-
-    private int natator(String... arguments) {
-        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments);
-    }
-
-    private int evolve(String name, String... more) {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path", simulator.toString(), "--no-cache",
-                "--output-dir", folder.resolve(name).toString()));
+    @Override
+    int evolve(String name, String... more) {
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve(name).toString()));
         arguments.addAll(List.of(more));
         for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"), List.of("--generations", "2"))) {
             if (!arguments.contains(usual.get(0))) {
@@ -75,7 +55,7 @@ class EvolveBodiesTest {
     void aBestHasItsBodyBesideItsGait() {
         assertThat(evolve("run", "--evolve", "both", "--encoding", "sparse")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         BestGait best = run.best();
         assertThat(run.settings().problem().evolve().body().particles()).isEqualTo(142);
         assertThat(best.swimmer()).isEqualTo(run.settings().problem().genome().decode(best.genes()));
@@ -89,7 +69,7 @@ class EvolveBodiesTest {
     void everyBodyHasItsOwnLength() {
         assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
             double length = run.settings().problem().bodyLength(run.settings().problem().genome().decode(one.genes()).body());
             assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
@@ -100,7 +80,7 @@ class EvolveBodiesTest {
     void bodiesAloneGetBetterWithTheSameGait() throws IOException {
         assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString()).isZero();
 
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.evaluations()).allSatisfy(one -> assertThat(one.gait()).isEqualTo(GAIT));
         double first = run.bestUntil(0).score();
         assertThat(run.best().selected()).isGreaterThan(first);
@@ -111,14 +91,14 @@ class EvolveBodiesTest {
     void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
         assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString()).isZero();
 
-        List<EvaluationRecord> refused = StoredRun.recorded(folder.resolve("run")).rows().stream()
+        List<EvaluationRecord> refused = RunReader.recorded(folder.resolve("run")).rows().stream()
                 .filter(one -> one.result().status() == Status.REFUSED).toList();
         assertThat(refused).hasSizeBetween(1, 9).allSatisfy(one -> {
             assertThat(one.genes().get(16)).isBetween(1.8, 2.0);
             assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
             assertThat(one.result().fitness()).isZero();
         });
-        assertThat(StoredRun.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
+        assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
         natator("show", folder.resolve("run").toString());
         assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ", "does not fit into the tank",
                 "early stop  0.0 % of the time: 0 of " + (20 - refused.size()) + " evaluations ended early, as if 0 had not");
@@ -137,17 +117,17 @@ class EvolveBodiesTest {
         List<String> lines = Files.readAllLines(folder.resolve("batch/evaluations.jsonl"));
         String half = lines.get(13).substring(0, 40);
         Files.writeString(killed.resolve("evaluations.jsonl"), String.join("\n", lines.subList(0, 13)) + "\n" + half);
-        assertThat(natator("resume", "--simulator-path", simulator.toString(), "--no-cache", killed.toString())).isZero();
+        assertThat(natator("resume", killed.toString())).isZero();
         assertSame("killed", "process");
     }
 
     @Test
     void aFileOfTheBestSwimsItsBody() throws IOException {
         assertThat(evolve("run", "--evolve", "both")).isZero();
-        BestGait best = StoredRun.best(folder.resolve("run"));
+        BestGait best = RunReader.best(folder.resolve("run"));
         out.getBuffer().setLength(0);
 
-        assertThat(natator("evaluate", "--simulator-path", simulator.toString(), "--scene", "pool/eel", "--duration", "2", "--gait",
+        assertThat(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait",
                 folder.resolve("run/best.json").toString())).as(err.toString()).isZero();
 
         JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class, "result");
@@ -157,7 +137,7 @@ class EvolveBodiesTest {
         out.getBuffer().setLength(0);
         assertThat(natator("show", folder.resolve("run").toString(), "--generation", "0")).as(err.toString()).isZero();
         Swimmer first = GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString()));
-        assertThat(first).isEqualTo(StoredRun.in(folder.resolve("run")).bestUntil(0).swimmer());
+        assertThat(first).isEqualTo(RunReader.in(folder.resolve("run")).bestUntil(0).swimmer());
         assertThat(first.body().path("creature").has("profile")).isTrue();
         assertThat(natator("show", folder.resolve("run").toString(), "--generation", "99")).isEqualTo(2);
         assertThat(err.toString()).contains("--generation is 99; expected one that ").contains(" has finished, 0 to ");

@@ -107,7 +107,7 @@ class KilledRunTest {
         Files.delete(folder.resolve("slow"));
         Files.delete(folder.resolve("most"));
 
-        assertThat(start(command("evolve", "--no-cache", "--resume", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
 
         assertSame(run, whole);
     }

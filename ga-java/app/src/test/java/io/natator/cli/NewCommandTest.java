@@ -5,8 +5,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -14,35 +12,21 @@ import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 
 /** What {@code natator new} writes, the real simulator takes; and the commands that it says are commands. */
-class NewCommandTest {
+class NewCommandTest extends CommandTest {
 
-    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
     private static final String IN_VACUUM = "{\"fluid\":null,\"movingTank\":null,\"settling\":{\"updates\":0}}";
-
-    @TempDir
-    private Path folder;
-    private final StringWriter out = new StringWriter();
-    private final StringWriter err = new StringWriter();
-
-    private int natator(String command, String... arguments) {
-        List<String> all = new ArrayList<>(List.of(command, "--simulator-path", SIMULATOR.toString()));
-        all.addAll(List.of(arguments));
-        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true))
-                .execute(all.toArray(String[]::new));
-    }
 
     private Path written(String kind, String name, String... options) throws IOException {
         Path file = folder.resolve(name + ".json");
-        List<String> arguments = new ArrayList<>(List.of(kind, name, "-o", file.toString()));
+        List<String> arguments = new ArrayList<>(List.of("new", kind, name, "-o", file.toString()));
         arguments.addAll(List.of(options));
-        assertThat(natator("new", arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
         assertThat(file).exists();
         assertThat(out.toString().lines()).hasSize(3).first().asString().startsWith(file + ": a " + kind);
         return file;
@@ -54,7 +38,7 @@ class NewCommandTest {
         out.getBuffer().setLength(0);
         for (String command : said) {
             if (command.startsWith("natator new ")) {
-                assertThat(natator("new", command.substring("natator new ".length()).split(" "))).as(err.toString()).isZero();
+                assertThat(natator(command.substring("natator ".length()).split(" "))).as(err.toString()).isZero();
             } else if (command.startsWith("natator-sim ")) {
                 String cheap = command.replace(" --duration 2", " --duration 0.02 --overrides '" + IN_VACUUM + "'");
                 Process shell = new ProcessBuilder("sh", "-c", "'" + SIMULATOR.getParent() + "'/" + cheap)
@@ -151,7 +135,7 @@ class NewCommandTest {
         Path taken = Files.writeString(folder.resolve("taken.json"), "mine");
         String where = arguments.contains("--output") ? "" : " --output " + folder.resolve("x.json");
 
-        assertThat(natator("new", (arguments + where).replace("TAKEN", taken.toString())
+        assertThat(natator(("new " + arguments + where).replace("TAKEN", taken.toString())
                 .replace("FOLDER", folder.toString()).split(" "))).isIn(1, CommandLine.ExitCode.USAGE);
         assertThat(err.toString()).startsWith("natator new: ").contains(message).hasLineCount(1);
         assertThat(taken).content().isEqualTo("mine");

@@ -6,32 +6,14 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.Numbers;
 import io.natator.config.Json;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
-import picocli.CommandLine;
 
 /** {@code natator page} with the real simulator. */
-class PageCommandTest {
-
-    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
-
-    @TempDir
-    private Path folder;
-    private final StringWriter out = new StringWriter();
-    private final StringWriter err = new StringWriter();
-
-    private int natator(String... arguments) {
-        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
-        List<String> all = new ArrayList<>(List.of(arguments));
-        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
-        return command.execute(all.toArray(String[]::new));
-    }
+class PageCommandTest extends CommandTest {
 
     @Test
     void fourSecondsWithWaterAreBelowTenMegabytes() throws IOException {
@@ -68,18 +50,13 @@ class PageCommandTest {
                 run.toString())).as(err.toString()).isZero();
         err.getBuffer().setLength(0);
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
-        String[][] again = {
-            {"page", run.toString(), "--no-water", "--force", "--output", folder.resolve("page.html").toString()}};
-        for (String[] command : again) {
-            assertThat(natator(command)).as(err.toString()).isZero();
-        }
+        String[] again = {"page", run.toString(), "--no-water", "--force", "--output", folder.resolve("page.html").toString()};
+        assertThat(natator(again)).as(err.toString()).isZero();
         assertThat(err.toString()).as("today's program made it").isEmpty();
 
         String best = Files.readString(run.resolve("best.json"));
         Files.writeString(run.resolve("best.json"), best.replace("\"distance\" : " + swum, "\"distance\" : 0.5521"));
-        for (String[] command : again) {
-            assertThat(natator(command)).as(err.toString()).isZero();
-        }
+        assertThat(natator(again)).as(err.toString()).isZero();
         assertThat(err.toString().lines()).hasSize(1).allSatisfy(line -> assertThat(line).startsWith(
                 run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
     }

@@ -6,48 +6,24 @@ import static org.assertj.core.api.Assumptions.assumeThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.process.ProgramInfo;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
-import picocli.CommandLine;
 
 /** The whole way from the command line through the real simulator and back. */
-class RealSimulatorTest {
-
-    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+class RealSimulatorTest extends CommandTest {
 
     /** A tenth of the pool's particles. */
     private static final String SMALL = "bench/small-tank";
-
-    @TempDir
-    private Path folder;
-    private final StringWriter out = new StringWriter();
-    private final StringWriter err = new StringWriter();
-
-    @BeforeEach
-    void simulatorIsBuilt() {
-        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
-    }
-
-    private int natator(String... arguments) {
-        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
-        List<String> all = new ArrayList<>(List.of(arguments));
-        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
-        return command.execute(all.toArray(String[]::new));
-    }
 
     @Test
     void aTinyEvolution() throws IOException {
@@ -125,7 +101,7 @@ class RealSimulatorTest {
         assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
 
         out.getBuffer().setLength(0);
-        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(execute("show", run.toString())).isZero();
         assertThat(out.toString()).contains("  checked     ");
     }
 
@@ -161,8 +137,7 @@ class RealSimulatorTest {
         Path run = folder.resolve("run");
         assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations", "0", "--duration", "0.1",
                 "--output-dir", run.toString())).as(err.toString()).isZero();
-        out.getBuffer().setLength(0);
-        err.getBuffer().setLength(0);
+        forget();
 
         assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString()).isZero();
         assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", " at time step and spacing 0, from ");
@@ -170,8 +145,7 @@ class RealSimulatorTest {
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4).contains("\"profile\"");
 
         String found = out.toString();
-        out.getBuffer().setLength(0);
-        err.getBuffer().setLength(0);
+        forget();
         assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).isZero();
         assertThat(out.toString()).isEqualTo(found);
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4);
@@ -189,13 +163,13 @@ class RealSimulatorTest {
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
         out.getBuffer().setLength(0);
 
-        StringWriter first = new StringWriter();
-        assertThat(Main.commandLine().setOut(new PrintWriter(first, true)).execute("show", run.toString(), "--generation", "0")).isZero();
-        assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), first.toString())).body()).isNull();
-        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(natator("show", run.toString(), "--generation", "0")).isZero();
+        assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString())).body()).isNull();
+        forget();
+        assertThat(execute("show", run.toString())).isZero();
         assertThat(out.toString()).contains(line);
         out.getBuffer().setLength(0);
-        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", "--json", run.toString())).isZero();
+        assertThat(execute("show", "--json", run.toString())).isZero();
         assertThat(Json.parse(out.toString(), JsonNode.class).get(key)).isNotEmpty();
     }
 
@@ -245,9 +219,9 @@ class RealSimulatorTest {
             assertThat(folder.resolve("second").resolve(file))
                     .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
         }
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("second"));
         assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isPositive();
-        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
+        assertThat(RunReader.statistics(folder.resolve("without")).fromCache()).isZero();
     }
 
     @ParameterizedTest

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
@@ -112,7 +112,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     /** What reading a run warns of meanwhile. */
     private static List<String> warnings(Runnable commands) {
-        Logger logger = (Logger) LoggerFactory.getLogger(StoredRun.class);
+        Logger logger = (Logger) LoggerFactory.getLogger(RunReader.class);
         ListAppender<ILoggingEvent> seen = new ListAppender<>();
         seen.start();
         logger.addAppender(seen);
@@ -205,7 +205,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(evolve("run")).isZero();
         String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
 
-        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
+        assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
         assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
                 .isEqualTo(before);
     }
@@ -252,7 +252,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
             settings.withObject("/overrides/solver").put("substeps", 2).remove("gravity");
         });
         Map<String, String> before = files();
-        for (String[] command : new String[][] {{"resume", run, "--generations", "9"}, {"resume", run}, {"evolve", "--resume", run}}) {
+        for (String[] command : new String[][] {{"resume", run, "--generations", "9"}, {"resume", run}}) {
             err.getBuffer().setLength(0);
             assertThat(natator(command)).isEqualTo(2);
             assertThat(err.toString()).isEqualTo("natator " + command[0] + ": " + folder.resolve("run/config.json")
@@ -380,14 +380,5 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
         assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
         assertThat(file("run", "config.json") + file("run", "environment.json")).isEqualTo(before);
-    }
-
-    @Test
-    void resumingKeepsTheSettings() {
-        assertThat(evolve("run")).isZero();
-        err.getBuffer().setLength(0);
-
-        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--seed", "6")).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator evolve: --seed cannot be given with --resume");
     }
 }

@@ -2,25 +2,16 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
-import picocli.CommandLine;
 
 /** What is said of scenes and run folders that are not there, with the real simulator. */
-class UnknownSceneTest {
-
-    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
-
-    @TempDir
-    private Path folder;
+class UnknownSceneTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
@@ -37,10 +28,7 @@ class UnknownSceneTest {
         "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, "
             + "lake/eel or endless/eel?"})
     void onlyWhatIsNearIsNamed(String arguments, String message) {
-        StringWriter err = new StringWriter();
-        CommandLine command = Main.commandLine().setOut(new PrintWriter(new StringWriter())).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of(arguments.split(" ")));
-        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
         switch (all.get(0)) {
             case "page" -> all.addAll(1, List.of("--output", folder.resolve("new.html").toString()));
             case "view" -> all.addAll(1, List.of("--port", "0", "--no-browser"));
@@ -48,7 +36,7 @@ class UnknownSceneTest {
             default -> all.addAll(1, List.of("--output-dir", folder.resolve("new").toString()));
         }
 
-        assertThat(command.execute(all.toArray(String[]::new))).isEqualTo(2);
+        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
         assertThat(err).hasToString("natator " + all.get(0) + ": " + message + "\n");
         assertThat(folder).isEmptyDirectory();
     }
@@ -56,13 +44,10 @@ class UnknownSceneTest {
     @Test
     void aSceneThatIsThereIsRefusedInTheSimulatorsWords() throws Exception {
         Path file = Files.writeString(folder.resolve("scene.json"), "{\"base\": \"no/such\"}");
-        StringWriter err = new StringWriter();
-        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+        String page = folder.resolve("new.html").toString();
 
-        assertThat(command.execute("page", "--simulator-path", SIMULATOR.toString(), "--output",
-                folder.resolve("new.html").toString(), file.toString())).isEqualTo(2);
-        assertThat(command.execute("page", "--simulator-path", SIMULATOR.toString(), "--output",
-                folder.resolve("new.html").toString(), "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
+        assertThat(natator("page", "--output", page, file.toString())).isEqualTo(2);
+        assertThat(natator("page", "--output", page, "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(2).allSatisfy(line -> assertThat(line).doesNotContain("neither"));
         assertThat(err.toString()).contains("no/such", "substeps");
     }

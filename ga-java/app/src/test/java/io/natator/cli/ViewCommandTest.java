@@ -8,8 +8,6 @@ import io.natator.config.Json;
 import io.natator.process.FakeSimulator;
 import java.io.BufferedReader;
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.net.ServerSocket;
 import java.net.URI;
 import java.net.http.HttpClient;
@@ -26,19 +24,13 @@ import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
-import picocli.CommandLine;
 
 /** {@code natator view} from the command line to its end; the simulator is the real one. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
-class ViewCommandTest {
+class ViewCommandTest extends CommandTest {
 
-    private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
-
-    @TempDir
-    private Path folder;
     private Process program;
 
     @AfterEach
@@ -54,7 +46,7 @@ class ViewCommandTest {
     }
 
     private URI startAt(String host, String... arguments) throws IOException {
-        List<String> command = JavaCommand.of(Main.class, "view", "--simulator-path", SIMULATOR, "--port", "0", "--no-browser");
+        List<String> command = JavaCommand.of(Main.class, "view", "--simulator-path", SIMULATOR.toString(), "--port", "0", "--no-browser");
         command.addAll(List.of(arguments));
         program = new ProcessBuilder(command).redirectError(folder.resolve("errors").toFile()).start();
         BufferedReader out = program.inputReader();
@@ -221,10 +213,10 @@ class ViewCommandTest {
     void aGaitThatTheSimulatorRefusesIsRefused(String amplitude, String phase, String message) throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
         for (String command : List.of("view --no-browser --port 0 --scene", "page --output " + folder.resolve("page.html"))) {
-            StringWriter err = new StringWriter();
+            forget();
             List<String> all = new ArrayList<>(List.of(command.split(" ")));
-            all.addAll(List.of("thesis/creature-1", "--gait", gait.toString(), "--simulator-path", SIMULATOR));
-            assertThat(Main.commandLine().setErr(new PrintWriter(err, true)).execute(all.toArray(String[]::new))).isEqualTo(2);
+            all.addAll(List.of("thesis/creature-1", "--gait", gait.toString()));
+            assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
             assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait." + message + "\n");
         }
     }
@@ -244,15 +236,13 @@ class ViewCommandTest {
         "--overrides {\"solver\":{\"substep\":1}}|2|natator view: scene \"thesis/creature-1\": solver.substep: unknown key ",
         "--port TAKEN|1|natator view: cannot listen at port "})
     void whatIsWrongIsOneLine(String arguments, int status, String message) throws IOException {
-        StringWriter err = new StringWriter();
-        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
         try (ServerSocket taken = new ServerSocket(0)) {
-            List<String> all = new ArrayList<>(List.of("view", "--simulator-path", SIMULATOR, "--no-browser"));
+            List<String> all = new ArrayList<>(List.of("view", "--no-browser"));
             all.addAll(List.of(arguments.replace("TAKEN", "" + taken.getLocalPort()).split(" ")));
             if (!arguments.startsWith("--port")) {
                 all.addAll(List.of("--port", "0"));
             }
-            assertThat(command.execute(all.toArray(String[]::new))).as(err.toString()).isEqualTo(status);
+            assertThat(natator(all.toArray(String[]::new))).as(err.toString()).isEqualTo(status);
         }
         assertThat(err.toString()).startsWith(message);
         assertThat(err.toString().lines()).hasSize(1);

@@ -33,7 +33,6 @@ public final class CachedEvaluator implements Evaluator {
      *
      * @param execution how the evaluator works
      * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public CachedEvaluator(Evaluator evaluator, EvaluationCache cache, ExecutionSettings execution)
             throws InterruptedException {

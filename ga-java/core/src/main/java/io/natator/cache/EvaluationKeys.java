@@ -39,7 +39,6 @@ final class EvaluationKeys {
         key.put("gait", request.gait());
         key.put("duration", request.duration());
         key.put("scheme", request.scheme());
-        key.put("perturbation", request.perturbation());
         if (request.start() != null) {
             key.put("start", request.start());
         }

@@ -16,7 +16,7 @@ interface AboutWinner {
 
     /** What a file of a run folder tells of its winner; null if there is none, or it is about another swimmer. */
     static <T extends AboutWinner> T in(Path run, String name, Class<T> type, Swimmer best) {
-        T found = StoredRun.readable(run, name, type);
+        T found = RunReader.readable(run, name, type);
         return found == null || !new Swimmer(found.gait(), found.body()).equals(best) ? null : found;
     }
 }

@@ -17,7 +17,7 @@ import java.util.function.LongSupplier;
 public final class CompactRun {
 
     /** The checkpoint with its population, which a run of more generations goes on from. */
-    static final String WHOLE = RunFolder.CHECKPOINT + ".gz";
+    static final String WHOLE = RunWriter.CHECKPOINT + ".gz";
 
     private CompactRun() {
     }
@@ -29,22 +29,22 @@ public final class CompactRun {
      * @throws InvalidInputException if the run is not finished
      */
     public static void compact(Path directory) {
-        if (!StoredRun.isFinished(directory)) {
+        if (!RunReader.isFinished(directory)) {
             throw new InvalidInputException(directory + " is not a finished run");
         }
-        EvolutionState state = Json.read(directory.resolve(RunFolder.CHECKPOINT), EvolutionState.class, "checkpoint");
+        EvolutionState state = Json.read(directory.resolve(RunWriter.CHECKPOINT), EvolutionState.class, "checkpoint");
         RunDigests.renew(directory, () -> drop(directory, state));
     }
 
     private static void drop(Path directory, EvolutionState state) {
-        Path checkpoint = directory.resolve(RunFolder.CHECKPOINT);
+        Path checkpoint = directory.resolve(RunWriter.CHECKPOINT);
         try {
             if (!state.population().isEmpty()) {
                 CompressedJson.write(directory.resolve(WHOLE), state);
                 AtomicFile.write(checkpoint, Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
                         state.best(), state.history())));
             }
-            Files.deleteIfExists(directory.resolve(RunFolder.EVALUATIONS));
+            Files.deleteIfExists(directory.resolve(RunWriter.EVALUATIONS));
         } catch (IOException e) {
             throw new UncheckedIOException("cannot remove the evaluations of " + directory + ": " + e.getMessage(), e);
         }
@@ -52,7 +52,7 @@ public final class CompactRun {
 
     /** Whether a finished run was made small and has not gone on since. */
     public static boolean isCompact(Path directory) {
-        return !Files.exists(directory.resolve(RunFolder.EVALUATIONS));
+        return !Files.exists(directory.resolve(RunWriter.EVALUATIONS));
     }
 
     /**
@@ -66,7 +66,7 @@ public final class CompactRun {
 
     /** The same of a folder, with the evaluations that are recorded. */
     static Last last(Path directory, List<EvaluationRecord> recorded) {
-        EvolutionState state = StoredRun.state(directory);
+        EvolutionState state = RunReader.state(directory);
         boolean isWhole = state != null && !state.population().isEmpty();
         if (isWhole || !Files.exists(directory.resolve(WHOLE))) {
             return new Last(state, dropped(directory, recorded));

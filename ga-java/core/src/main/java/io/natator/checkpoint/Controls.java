@@ -63,7 +63,7 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
 
     /** Keeps them in a run folder. */
     public void write(Path run) {
-        AtomicFile.write(run.resolve(RunFolder.CONTROLS), Json.document(this));
+        AtomicFile.write(run.resolve(RunWriter.CONTROLS), Json.document(this));
     }
 
     /**
@@ -72,6 +72,6 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
      * @return null if there are none
      */
     public static Controls of(Path run, Swimmer best) {
-        return AboutWinner.in(run, RunFolder.CONTROLS, Controls.class, best);
+        return AboutWinner.in(run, RunWriter.CONTROLS, Controls.class, best);
     }
 }

@@ -70,13 +70,13 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
             content.set("body", swimmer.body());
         }
         Convergence convergence = Json.tree(content, Convergence.class);
-        AtomicFile.write(run.resolve(RunFolder.CONVERGENCE), Json.document(content));
+        AtomicFile.write(run.resolve(RunWriter.CONVERGENCE), Json.document(content));
         return convergence;
     }
 
     /** The file of a run folder that keeps each run of it. */
     public static Path runs(Path run) {
-        return run.resolve(RunFolder.CONVERGENCE_RUNS);
+        return run.resolve(RunWriter.CONVERGENCE_RUNS);
     }
 
     /**
@@ -85,6 +85,6 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
      * @return null if there is none
      */
     public static Convergence of(Path run, Swimmer best) {
-        return AboutWinner.in(run, RunFolder.CONVERGENCE, Convergence.class, best);
+        return AboutWinner.in(run, RunWriter.CONVERGENCE, Convergence.class, best);
     }
 }

@@ -46,7 +46,6 @@ public record Environment(String natator, String simulator, String simulatorSha2
      * @param settings    of the run, or null
      *
      * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Environment present(ExecutionSettings execution, String sceneSha256, EvolutionSettings settings)
             throws InterruptedException {

@@ -1,7 +1,7 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import java.util.List;
 import java.util.Objects;
 
@@ -19,7 +19,7 @@ import java.util.Objects;
  *                      fresh runs
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
+public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Aggregate judge, double selected,
         int selectedRuns, double again, Double selectionLoss) {
 
     /** Has to have the runs as the run simulates, and how they are judged. */
@@ -33,7 +33,7 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, J
      *
      * @param worths what each of the fresh runs is worth
      */
-    public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
+    public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Aggregate judge, double selected,
             int selectedRuns, List<Double> worths) {
         return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, judge.of(worths), loss(judge, selected, worths));
     }
@@ -43,7 +43,7 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, J
      *
      * @param worths what each of the fresh runs is worth
      */
-    public static Double loss(Judge judge, double selected, List<Double> worths) {
+    public static Double loss(Aggregate judge, double selected, List<Double> worths) {
         double error = Spread.of(worths).standardError(worths.size());
         return selected > error ? 1 - judge.of(worths) / selected : null;
     }

@@ -5,7 +5,7 @@ import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.Estimate;
 import io.natator.evolution.EvaluationRecord;
-import io.natator.evolution.Surest;
+import io.natator.evolution.LowerConfidenceBound;
 import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -88,7 +88,7 @@ public final class JudgedGaits {
     /** Whom the run would take for its winner, had it ended here; null without any. */
     JudgedGait best() {
         List<Runs> best = ranked.stream().limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();
-        return best.isEmpty() ? null : best.get(Surest.of(best.stream().map(one -> one.estimate).toList())).judged();
+        return best.isEmpty() ? null : best.get(LowerConfidenceBound.of(best.stream().map(one -> one.estimate).toList())).judged();
     }
 
     /** All that swam, the best first. */

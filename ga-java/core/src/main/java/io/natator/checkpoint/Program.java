@@ -41,7 +41,7 @@ public record Program(String version, String commit, String instructionSet, Back
      * @throws io.natator.base.InvalidInputException if {@code environment.json} is damaged
      */
     public static Program of(Path run) {
-        Path file = run.resolve(RunFolder.ENVIRONMENT);
+        Path file = run.resolve(RunWriter.ENVIRONMENT);
         return Files.exists(file) ? Json.read(file, Program.class, "environment") : null;
     }
 

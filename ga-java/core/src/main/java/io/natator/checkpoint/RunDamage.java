@@ -5,7 +5,7 @@ import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.SettingsChange;
 import io.natator.evolution.EvolutionState;
-import io.natator.evolution.Recorded;
+import io.natator.evolution.RecordedEvaluations;
 import java.nio.file.Path;
 import java.util.stream.Stream;
 
@@ -17,9 +17,9 @@ final class RunDamage {
 
     /** Which settings were edited since the run computed by them, in one line; null if none were, or none are recorded. */
     static String editedSettings(Path directory, EvolutionSettings settings) {
-        EvolutionSettings before = StoredRun.settingsBefore(directory);
+        EvolutionSettings before = RunReader.settingsBefore(directory);
         String change = before == null ? "" : SettingsChange.withinRun(before, settings);
-        return change.isEmpty() ? null : directory.resolve(RunFolder.CONFIG) + " was edited after the run was begun: " + change
+        return change.isEmpty() ? null : directory.resolve(RunWriter.CONFIG) + " was edited after the run was begun: " + change
                 + "; expected the settings that it was begun with, or a new run";
     }
 
@@ -29,18 +29,18 @@ final class RunDamage {
      */
     static String lostEvaluations(Path directory, EvolutionState checkpoint, long recorded) {
         if (checkpoint != null && checkpoint.evaluations() < 0) {
-            return directory + " is damaged: evaluations of " + RunFolder.CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
+            return directory + " is damaged: evaluations of " + RunWriter.CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
         }
-        return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + RunFolder.EVALUATIONS
-                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + RunFolder.CHECKPOINT;
+        return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + RunWriter.EVALUATIONS
+                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + RunWriter.CHECKPOINT;
     }
 
     /** Which evaluation stands where another should, in one line; null if none does. */
-    static String misplacedEvaluation(Path directory, Recorded recorded) {
+    static String misplacedEvaluation(Path directory, RecordedEvaluations recorded) {
         for (int i = 0; i < recorded.rows().size(); i++) {
             long id = recorded.rows().get(i).result().id();
             if (id != recorded.first() + i) {
-                return directory + " is damaged: " + RunFolder.EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
+                return directory + " is damaged: " + RunWriter.EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
                         + (recorded.first() + i);
             }
         }
@@ -57,7 +57,7 @@ final class RunDamage {
                     .forEach(one -> genome.decode(one.genes()));
             return null;
         } catch (IllegalArgumentException e) {
-            return directory + " is damaged: genes of " + RunFolder.CHECKPOINT + ": " + e.getMessage();
+            return directory + " is damaged: genes of " + RunWriter.CHECKPOINT + ": " + e.getMessage();
         }
     }
 }

@@ -34,7 +34,7 @@ final class RunDigests implements AutoCloseable {
     private static final int LINE_BYTES = DIGITS + 1;
     private static final String HINT = "; expected it as the run wrote it (without " + WHOLE + " and " + LINES + " it goes on as it is)";
     /** What follows from other files where it is not there, or cannot be read. */
-    private static final List<String> REMADE = List.of(RunFolder.CHECKPOINT, RunFolder.BEST, RunFolder.SAVINGS);
+    private static final List<String> REMADE = List.of(RunWriter.CHECKPOINT, RunWriter.BEST, RunWriter.SAVINGS);
 
     private final Path directory;
     private final Map<String, List<String>> whole;
@@ -132,7 +132,7 @@ final class RunDigests implements AutoCloseable {
      * @throws InvalidInputException if one was edited
      */
     void check(int recorded) {
-        try (BufferedReader log = Files.newBufferedReader(directory.resolve(RunFolder.EVALUATIONS), StandardCharsets.UTF_8)) {
+        try (BufferedReader log = Files.newBufferedReader(directory.resolve(RunWriter.EVALUATIONS), StandardCharsets.UTF_8)) {
             long known = lines.length() / LINE_BYTES;
             lines.seek(0);
             last = "";
@@ -145,12 +145,12 @@ final class RunDigests implements AutoCloseable {
                 }
                 lines.readFully(digest);
                 if (!(last + "\n").equals(new String(digest, StandardCharsets.ISO_8859_1))) {
-                    throw new InvalidInputException(directory.resolve(RunFolder.EVALUATIONS) + ", line " + (row + 1) + " was edited" + HINT);
+                    throw new InvalidInputException(directory.resolve(RunWriter.EVALUATIONS) + ", line " + (row + 1) + " was edited" + HINT);
                 }
             }
             lines.setLength(lines.getFilePointer());
         } catch (IOException e) {
-            throw new InvalidInputException("cannot read " + AtomicFile.reason(directory.resolve(RunFolder.EVALUATIONS), e), e);
+            throw new InvalidInputException("cannot read " + AtomicFile.reason(directory.resolve(RunWriter.EVALUATIONS), e), e);
         }
     }
 
@@ -180,7 +180,7 @@ final class RunDigests implements AutoCloseable {
         change.run();
         if (isKnown) {
             Map<String, List<String>> left = new TreeMap<>();
-            Stream.of(RunFolder.CHECKPOINT, CompactRun.WHOLE, RunFolder.BEST, RunFolder.SAVINGS, RunFolder.VACUUM)
+            Stream.of(RunWriter.CHECKPOINT, CompactRun.WHOLE, RunWriter.BEST, RunWriter.SAVINGS, RunWriter.VACUUM)
                     .filter(name -> Files.exists(directory.resolve(name)))
                     .forEach(name -> left.put(name, List.of(digest(directory.resolve(name)))));
             AtomicFile.write(directory.resolve(WHOLE), Json.document(left));

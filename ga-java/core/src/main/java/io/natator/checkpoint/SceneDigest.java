@@ -26,7 +26,6 @@ public final class SceneDigest {
      * @return SHA-256 in hexadecimal digits
      * @throws InvalidInputException                         if the simulator does not know the scene
      * @throws io.natator.protocol.RequestRejectedException if it cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {
         try {
@@ -47,7 +46,7 @@ public final class SceneDigest {
      * @throws InvalidInputException that says which scene
      */
     public static void check(Path directory, EvolutionSettings settings, String digest) {
-        StoredRun.Begun begun = StoredRun.begun(directory);
+        RunReader.Begun begun = RunReader.begun(directory);
         if (isWith(begun, settings)) {
             check(directory, begun, digest);
         }
@@ -57,16 +56,15 @@ public final class SceneDigest {
      * The same, by a digest that is worked out only of a run that can tell.
      *
      * @param simulator the native program
-     * @throws InterruptedException if the calling thread is interrupted
      */
     static void check(Path directory, EvolutionSettings settings, Path simulator) throws InterruptedException {
-        StoredRun.Begun begun = StoredRun.begun(directory);
+        RunReader.Begun begun = RunReader.begun(directory);
         if (isWith(begun, settings)) {
             check(directory, begun, of(settings, simulator));
         }
     }
 
-    private static void check(Path directory, StoredRun.Begun begun, String digest) {
+    private static void check(Path directory, RunReader.Begun begun, String digest) {
         if (!begun.sceneSha256().equals(digest)) {
             throw new InvalidInputException("scene " + begun.settings().problem().scene() + " was changed after " + directory
                     + " was begun; expected the scene that it was begun with, or a new run");
@@ -74,7 +72,7 @@ public final class SceneDigest {
     }
 
     /** Whether it is known what these settings' scene was when the run was begun. */
-    private static boolean isWith(StoredRun.Begun begun, EvolutionSettings settings) {
+    private static boolean isWith(RunReader.Begun begun, EvolutionSettings settings) {
         return isKnown(begun) && begun.settings().problem().scene().equals(settings.problem().scene())
                 && Objects.equals(begun.settings().problem().overrides(), settings.problem().overrides());
     }
@@ -84,14 +82,13 @@ public final class SceneDigest {
      *
      * @param directory of the run
      * @param simulator the native program
-     * @throws InterruptedException if the calling thread is interrupted
      */
     public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
-        StoredRun.Begun begun = StoredRun.begun(directory);
+        RunReader.Begun begun = RunReader.begun(directory);
         return isKnown(begun) && !begun.sceneSha256().equals(of(begun.settings(), simulator));
     }
 
-    private static boolean isKnown(StoredRun.Begun begun) {
+    private static boolean isKnown(RunReader.Begun begun) {
         return begun != null && begun.sceneSha256() != null && begun.settings() != null;
     }
 }

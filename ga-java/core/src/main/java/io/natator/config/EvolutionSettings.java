@@ -43,7 +43,7 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
         return SettingsFile.of(this);
     }
 
-    private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Judge judge,
+    private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Aggregate judge,
             List<WeightedObjective> objectives) {
         long weighted = objectives.stream().filter(one -> one.weight() != null).count();
         String names = objectives.stream().map(one -> one.objective().name().toLowerCase(Locale.ROOT))
@@ -60,7 +60,7 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
             throw new InvalidInputException("optimizer nsga2 is for several objectives without weights, not "
                     + (objectives.isEmpty() ? "none" : names) + "; expected --objectives distance,work for example");
         }
-        if (optimizer == OptimizerKind.NSGA2 && judge != Judge.MEAN) {
+        if (optimizer == OptimizerKind.NSGA2 && judge != Aggregate.MEAN) {
             throw new InvalidInputException("optimizer nsga2 judges by means; expected --judge mean");
         }
         if (optimizer != OptimizerKind.NSGA2 && objectives.size() > 1 && weighted == 0) {
@@ -103,7 +103,7 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
     }
 
     /** These settings with another number of starts of each gait. */
-    public EvolutionSettings withStarts(int newStarts, Judge newJudge) {
+    public EvolutionSettings withStarts(int newStarts, Aggregate newJudge) {
         return withSearch(search.with(to -> to.starts(newStarts).judge(newJudge)));
     }
 

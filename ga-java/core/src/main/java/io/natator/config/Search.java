@@ -18,7 +18,7 @@ import java.util.Locale;
  */
 @RecordBuilder
 public record Search(OptimizerKind optimizer, int population, long seed, OperatorSet operators, double gaussianDeviation,
-        Integer starts, Judge judge) implements SearchBuilder.With {
+        Integer starts, Aggregate judge) implements SearchBuilder.With {
 
     /** Elites of 150 selected chromosomes (thesis 2.6). */
     private static final double ELITE_SHARE = 30.0 / 150.0;
@@ -36,7 +36,7 @@ public record Search(OptimizerKind optimizer, int population, long seed, Operato
         Limits.require(gaussianDeviation > 0 && gaussianDeviation <= 1, "gaussian-deviation", gaussianDeviation,
                 "a number above 0 and up to 1");
         starts = starts == null ? 1 : starts;
-        judge = judge == null ? Judge.MEAN : judge;
+        judge = judge == null ? Aggregate.MEAN : judge;
         Limits.require(starts >= 1 && starts <= Limits.STARTS, "starts", starts, "a whole number from 1 to " + Limits.STARTS);
         Limits.require(starts >= judge.leastRuns(), "starts", starts,
                 "at least " + judge.leastRuns() + " with --judge " + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));

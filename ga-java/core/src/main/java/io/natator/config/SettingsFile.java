@@ -11,7 +11,7 @@ import java.util.List;
 record SettingsFile(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve) {
+        JsonNode overrides, Integer starts, Aggregate judge, List<WeightedObjective> objectives, BodyEvolution evolve) {
 
     static SettingsFile of(EvolutionSettings settings) {
         return SettingsFileBuilder.builder().scene(settings.problem().scene()).encoding(settings.problem().encoding())

@@ -32,16 +32,14 @@ final class CmaEs implements Optimizer {
 
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
-    private final GenerationEvaluator evaluator;
     /** All finished generations of the present search. */
     private final List<Individual> known = new ArrayList<>();
     /** Searches that have converged. */
     private int searches;
 
-    CmaEs(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    CmaEs(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
         this.ranges = ranges;
-        this.evaluator = evaluator;
     }
 
     @Override
@@ -54,11 +52,14 @@ final class CmaEs implements Optimizer {
     }
 
     @Override
-    public List<Individual> next(int generation, List<Individual> before) {
-        List<List<Double>> genomes = points().stream().map(this::genes).toList();
-        List<Individual> individuals = evaluator.evaluate(genomes);
-        known.addAll(individuals);
-        return individuals;
+    public List<List<Double>> propose(int generation, List<Individual> before) {
+        return points().stream().map(this::genes).toList();
+    }
+
+    @Override
+    public List<Individual> population(List<Individual> newborns) {
+        known.addAll(newborns);
+        return newborns;
     }
 
     /** The points of the next generation in [0, 1]^n; of a new search if the present one has converged. */

@@ -2,7 +2,7 @@ package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonInclude;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import io.natator.protocol.Effort;
 import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
@@ -33,12 +33,12 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
     }
 
     /** By these runs, at least one. */
-    static Estimate of(List<SimulationResult> results, Judge judge) {
+    static Estimate of(List<SimulationResult> results, Aggregate judge) {
         return new Estimate(0, List.of()).with(results, judge);
     }
 
     /** With more runs. */
-    Estimate with(List<SimulationResult> more, Judge judge) {
+    Estimate with(List<SimulationResult> more, Aggregate judge) {
         List<Double> all = new ArrayList<>(runs);
         more.forEach(one -> all.add(one.score()));
         int broken = (int) more.stream().filter(one -> one.status() == SimulationResult.Status.UNSTABLE).count()

@@ -27,7 +27,7 @@ public final class Evolution {
     private final Genome genome;
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
-    private final Recorded recorded;
+    private final RecordedEvaluations recorded;
 
     private int generation;
     private long evaluations;
@@ -48,7 +48,7 @@ public final class Evolution {
      * @param recorded  simulations that an interrupted run had finished, but for the first where it has dropped them; none for a new run
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            Recorded recorded) {
+            RecordedEvaluations recorded) {
         this.settings = settings;
         this.genome = settings.problem().genome();
         this.evaluator = evaluator;
@@ -70,7 +70,7 @@ public final class Evolution {
             throw new IllegalArgumentException(Numbers.count(recorded.end(), "simulation") + " recorded; expected the " + evaluations
                     + " up to where the evolution is to continue");
         }
-        try (Optimizer optimizer = Optimizer.of(settings, genome.genes(), this::evaluate)) {
+        try (Optimizer optimizer = Optimizer.of(settings, genome.genes())) {
             optimizer.recall(newborns(recorded.between(0, evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
@@ -78,7 +78,8 @@ public final class Evolution {
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
                 born.clear();
-                state = finish(state, optimizer.next(generation, parents));
+                List<List<Double>> newborn = begun(optimizer.propose(generation, parents));
+                state = finish(state, optimizer.population(newborns(newborn, simulate(runs(newborn)))));
             }
             return state;
         }
@@ -95,15 +96,15 @@ public final class Evolution {
         List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
         if (settings.search().starts() > 1) {
-            Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
+            Reevaluation again = new Reevaluation(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
                     before == null || before.refused() == null ? List.of() : before.refused());
-            champions = race.run();
+            champions = again.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.search().starts()) {
-                champions = race.useUp((int) budgetLeft());
+                champions = again.useUp((int) budgetLeft());
             }
-            population = bred.stream().map(race::known).toList();
-            best = race.winner();
-            refused = race.refused();
+            population = bred.stream().map(again::known).toList();
+            best = again.winner();
+            refused = again.refused();
         } else {
             for (Individual individual : bred) {
                 if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
@@ -127,20 +128,26 @@ public final class Evolution {
         return population.size() - found.size();
     }
 
-    /** New genomes as individuals: each run from all starts of the generation. */
-    private List<Individual> evaluate(List<List<Double>> proposed) {
+    /** What of a proposal can still be simulated, announced to the listeners. */
+    private List<List<Double>> begun(List<List<Double>> proposed) {
         int starts = settings.search().starts();
         List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
         born.addAll(genomes);
         int planned = (int) Math.min((long) genomes.size() * starts + settings.search().repeats(), budgetLeft());
         listeners.forEach(listener -> listener.generationStarted(generation, planned));
+        return genomes;
+    }
+
+    /** Of new genomes: each from all starts of the generation. */
+    private List<Run> runs(List<List<Double>> genomes) {
+        int starts = settings.search().starts();
         List<Run> runs = new ArrayList<>();
         for (List<Double> genes : genomes) {
             for (int k = 0; k < starts; k++) {
-                runs.add(new Run(genes, starts == 1 ? null : Starts.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(genes, starts == 1 ? null : StartSeeds.of(settings.search().seed(), generation, k)));
             }
         }
-        return newborns(genomes, simulate(runs));
+        return runs;
     }
 
     /** Individuals of several runs each, which stand one after another. */
@@ -164,7 +171,7 @@ public final class Evolution {
         List<SimulationResult> results = new ArrayList<>();
         for (EvaluationRecord one : earlier) {
             if (starts > 1 && one.start() != null && IntStream.range(0, starts)
-                    .noneMatch(k -> one.start() == Starts.of(settings.search().seed(), one.generation(), k))) {
+                    .noneMatch(k -> one.start() == StartSeeds.of(settings.search().seed(), one.generation(), k))) {
                 continue;
             }
             if (results.size() % starts == 0) {
@@ -179,7 +186,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (Individual one : individuals) {
             for (int k = first; k < first + starts; k++) {
-                runs.add(new Run(one.genes(), Starts.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(one.genes(), StartSeeds.of(settings.search().seed(), generation, k)));
             }
         }
         List<SimulationResult> results = simulate(runs.subList(0, (int) Math.min(runs.size(), budgetLeft())));
@@ -205,11 +212,11 @@ public final class Evolution {
                     .withStart(run.start()));
         }
         try {
-            evaluator.evaluateInOrder(requests, result -> {
+            evaluator.evaluateAll(requests, Evaluator.inOrder(requests, result -> {
                 Run run = runs.get(simulated.size() - before);
                 accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(), result,
                         run.start()));
-            });
+            }));
         } catch (InterruptedException e) {
             throw new EvolutionStoppedException("stopped in generation " + generation + " after "
                     + Numbers.count(evaluations, "evaluation"));

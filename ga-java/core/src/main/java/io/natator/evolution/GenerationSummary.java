@@ -8,6 +8,8 @@ import java.util.List;
 import java.util.Map;
 import java.util.SortedMap;
 import java.util.TreeMap;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 /**
  * Figures of one generation. Distances are in scene units, negative is backwards, and a chromosome whose evaluation was
@@ -88,6 +90,14 @@ public record GenerationSummary(int generation, double best, double mean, double
             all.merge(SimulationResult.Instability.FINITE, untold, Integer::sum);
         }
         return all;
+    }
+
+    /** One row per generation, as in {@code generations.csv}. Doubles have all their digits; nothing in it depends on time. */
+    public static String csv(List<GenerationSummary> history) {
+        StringBuilder csv = new StringBuilder("generation,best,mean,median,worst,population,evaluations,unstable,failed\n");
+        history.forEach(row -> csv.append(Stream.of(row.generation, row.best, row.mean, row.median, row.worst, row.population, row.evaluations,
+                row.unstable, row.failed).map(Object::toString).collect(Collectors.joining(",", "", "\n"))));
+        return csv.toString();
     }
 
     /** Chromosomes that were not newly simulated, or as far as that is known. */

@@ -3,8 +3,13 @@ package io.natator.evolution;
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.GeneRange;
 import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.LinkedHashSet;
 import java.util.List;
+import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.stream.Stream;
 import org.jgap.Chromosome;
 import org.jgap.Configuration;
 import org.jgap.DefaultFitnessEvaluator;
@@ -34,11 +39,15 @@ final class GeneticAlgorithm implements Optimizer {
     private final ThesisBreeder breeder;
     private final StockRandomGenerator random = new StockRandomGenerator();
     private final Configuration configuration;
+    /** The chromosomes of the generation, in their order. */
+    private List<IChromosome> bred = List.of();
+    /** Those of them that are evaluated, and their parents, by their genes. */
+    private final Map<List<Double>, Individual> known = new HashMap<>();
 
-    GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
         this.ranges = ranges;
-        this.breeder = new ThesisBreeder(settings, evaluator);
+        this.breeder = new ThesisBreeder(settings);
         this.configuration = new Configuration("natator-" + RUNS.incrementAndGet(), null);
         try {
             configure();
@@ -52,7 +61,7 @@ final class GeneticAlgorithm implements Optimizer {
         configuration.setRandomGenerator(random);
         configuration.setEventManager(new EventManager());
         configuration.setFitnessEvaluator(new DefaultFitnessEvaluator());
-        configuration.setFitnessFunction(new KnownFitness(breeder));
+        configuration.setFitnessFunction(new KnownFitness(known));
         configuration.setPopulationSize(settings.search().population());
         configuration.setKeepPopulationSizeConstant(false);
         configuration.setSampleChromosome(chromosome(ranges.stream().map(GeneRange::lower).toList()));
@@ -63,17 +72,42 @@ final class GeneticAlgorithm implements Optimizer {
         configuration.lockSettings();
     }
 
+    /** All whose genes are not those of a parent, each once: a child that crossover or mutation left unchanged is none of them. */
     @Override
-    public List<Individual> next(int generation, List<Individual> parents) {
+    public List<List<Double>> propose(int generation, List<Individual> parents) {
         random.setSeed(Seeds.of(settings.search().seed(), generation));
+        known.clear();
+        know(parents);
         try {
-            return individuals(generation == 0 ? first() : children(parents));
+            bred = List.of((generation == 0 ? first() : children(parents)).toChromosomes());
         } catch (InvalidConfigurationException e) {
             throw new IllegalStateException(e);
         }
+        Set<List<Double>> unknown = new LinkedHashSet<>();
+        bred.forEach(chromosome -> unknown.add(genesOf(chromosome)));
+        unknown.removeAll(known.keySet());
+        return List.copyOf(unknown);
     }
 
-    /** Random chromosomes, evaluated. */
+    /** All chromosomes, without what could no more be simulated, since the run has had its evaluations. */
+    @Override
+    public List<Individual> population(List<Individual> newborns) {
+        know(newborns);
+        List<Individual> individuals = new ArrayList<>();
+        for (IChromosome chromosome : bred) {
+            Individual evaluated = known.get(genesOf(chromosome));
+            if (evaluated != null) {
+                individuals.add(evaluated.withAge(chromosome.getAge()));
+            }
+        }
+        return individuals;
+    }
+
+    private void know(List<Individual> individuals) {
+        individuals.forEach(individual -> known.put(individual.genes(), individual));
+    }
+
+    /** Random chromosomes. */
     private Population first() throws InvalidConfigurationException {
         Population population = new Population(configuration, settings.search().population());
         for (int i = 0; i < settings.search().population(); i++) {
@@ -81,11 +115,10 @@ final class GeneticAlgorithm implements Optimizer {
             chromosome.increaseAge();
             population.addChromosome(chromosome);
         }
-        return breeder.evaluate(population, configuration);
+        return population;
     }
 
     private Population children(List<Individual> parents) throws InvalidConfigurationException {
-        breeder.know(parents);
         Population population = new Population(configuration, parents.size());
         for (Individual parent : parents) {
             IChromosome chromosome = chromosome(parent.genes());
@@ -105,12 +138,8 @@ final class GeneticAlgorithm implements Optimizer {
         return new Chromosome(configuration, genes);
     }
 
-    private List<Individual> individuals(Population population) {
-        List<Individual> individuals = new ArrayList<>();
-        for (IChromosome chromosome : population.toChromosomes()) {
-            individuals.add(breeder.evaluated(chromosome).withAge(chromosome.getAge()));
-        }
-        return individuals;
+    static List<Double> genesOf(IChromosome chromosome) {
+        return Stream.of(chromosome.getGenes()).map(gene -> (Double) gene.getAllele()).toList();
     }
 
     @Override
@@ -122,15 +151,15 @@ final class GeneticAlgorithm implements Optimizer {
     @SuppressWarnings("serial") // JGAP makes fitness functions serializable; this one never is serialized.
     private static final class KnownFitness extends FitnessFunction {
 
-        private final transient ThesisBreeder breeder;
+        private final transient Map<List<Double>, Individual> known;
 
-        KnownFitness(ThesisBreeder breeder) {
-            this.breeder = breeder;
+        KnownFitness(Map<List<Double>, Individual> known) {
+            this.known = known;
         }
 
         @Override
         protected double evaluate(IChromosome chromosome) {
-            return breeder.evaluated(chromosome).fitness();
+            return known.get(genesOf(chromosome)).fitness();
         }
     }
 }

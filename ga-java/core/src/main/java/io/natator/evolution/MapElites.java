@@ -20,28 +20,30 @@ final class MapElites implements Optimizer {
 
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
-    private final GenerationEvaluator evaluator;
+    private List<Individual> elites = List.of();
 
-    MapElites(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    MapElites(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
         this.ranges = ranges;
-        this.evaluator = evaluator;
     }
 
     @Override
-    public List<Individual> next(int generation, List<Individual> before) {
+    public List<List<Double>> propose(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
-        List<Individual> elites = new EliteMap(before).individuals();
+        elites = new EliteMap(before).individuals();
+        return elites.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(random);
+    }
+
+    @Override
+    public List<Individual> population(List<Individual> newborns) {
         List<Individual> all = new ArrayList<>();
         elites.forEach(elite -> all.add(elite.withAge(elite.age() + 1)));
-        List<Individual> newborns = evaluator.evaluate(elites.isEmpty()
-                ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(elites, random));
         all.addAll(newborns);
         List<Individual> next = new EliteMap(all).individuals();
         return next.isEmpty() ? newborns : next;
     }
 
-    private List<List<Double>> children(List<Individual> elites, SplittableRandom random) {
+    private List<List<Double>> children(SplittableRandom random) {
         List<List<Double>> genomes = new ArrayList<>();
         for (int i = 0; i < settings.search().population(); i++) {
             genomes.add(child(elites.get(random.nextInt(elites.size())).genes(),

@@ -27,33 +27,33 @@ final class Nsga2 implements Optimizer {
 
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
-    private final GenerationEvaluator evaluator;
     private final ParetoRanking ranking;
+    private List<DoubleSolution> parents = List.of();
 
-    Nsga2(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    Nsga2(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
         this.ranges = ranges;
-        this.evaluator = evaluator;
         this.ranking = new ParetoRanking(ranges);
     }
 
     @Override
-    public List<Individual> next(int generation, List<Individual> before) {
+    public List<List<Double>> propose(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
-        if (generation == 0) {
-            return evaluator.evaluate(RandomSearch.genomes(settings.search().population(), ranges, random));
-        }
         List<DoubleSolution> candidates = ranking.solutions(before);
-        List<DoubleSolution> parents = candidates.size() <= settings.search().population() ? candidates
+        parents = candidates.size() <= settings.search().population() ? candidates
                 : new RankingAndCrowdingSelection<DoubleSolution>(settings.search().population()).execute(candidates);
+        return parents.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(random);
+    }
+
+    @Override
+    public List<Individual> population(List<Individual> newborns) {
         List<Individual> population = new ArrayList<>();
         parents.forEach(parent -> population.add(ranking.individual(parent).withAge(ranking.individual(parent).age() + 1)));
-        population.addAll(evaluator.evaluate(parents.isEmpty()
-                ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(parents, random)));
+        population.addAll(newborns);
         return population;
     }
 
-    private List<List<Double>> children(List<DoubleSolution> parents, SplittableRandom random) {
+    private List<List<Double>> children(SplittableRandom random) {
         RandomGenerator<Double> numbers = random::nextDouble;
         SBXCrossover crossover =
                 new SBXCrossover(CROSSOVER_SHARE, INDEX, new RepairDoubleSolutionWithBoundValue(), numbers);
@@ -64,7 +64,7 @@ final class Nsga2 implements Optimizer {
         parents.forEach(parent -> known.add(ranking.individual(parent).genes()));
         List<List<Double>> genomes = new ArrayList<>();
         while (genomes.size() < settings.search().population()) {
-            List<DoubleSolution> pair = List.of(tournament(parents, better, random), tournament(parents, better, random));
+            List<DoubleSolution> pair = List.of(tournament(better, random), tournament(better, random));
             for (DoubleSolution child : crossover.execute(pair)) {
                 List<Double> genes = List.copyOf(mutation.execute(child).variables());
                 if (genomes.size() < settings.search().population() && known.add(genes)) {
@@ -76,8 +76,7 @@ final class Nsga2 implements Optimizer {
     }
 
     /** The better of two; the first of equals. */
-    private static DoubleSolution tournament(List<DoubleSolution> parents, Comparator<DoubleSolution> better,
-            SplittableRandom random) {
+    private DoubleSolution tournament(Comparator<DoubleSolution> better, SplittableRandom random) {
         DoubleSolution one = parents.get(random.nextInt(parents.size()));
         DoubleSolution other = parents.get(random.nextInt(parents.size()));
         return better.compare(one, other) <= 0 ? one : other;

@@ -5,8 +5,8 @@ import io.natator.encoding.GeneRange;
 import java.util.List;
 
 /**
- * Proposes genomes, a generation at a time, and learns from their results. What a generation proposes depends on the
- * settings and on results only, so that a run can continue from what was recorded of it.
+ * Proposes genomes, a generation at a time, and learns from their results: {@link #propose}, then {@link #population}. What a
+ * generation proposes depends on the settings and on results only, so that a run can continue from what was recorded of it.
  */
 interface Optimizer extends AutoCloseable {
 
@@ -19,13 +19,21 @@ interface Optimizer extends AutoCloseable {
     }
 
     /**
-     * Proposes and evaluates a generation.
+     * Genomes to be evaluated for a generation.
      *
      * @param generation 0 for the first, which knows nothing yet
      * @param before     the individuals of the generation before; empty for the first
-     * @return its individuals
      */
-    List<Individual> next(int generation, List<Individual> before);
+    List<List<Double>> propose(int generation, List<Individual> before);
+
+    /**
+     * The individuals of the generation.
+     *
+     * @param newborns what was proposed, in the same order; of that only the first, if the run has had its evaluations
+     */
+    default List<Individual> population(List<Individual> newborns) {
+        return newborns;
+    }
 
     @Override
     default void close() {
@@ -34,16 +42,15 @@ interface Optimizer extends AutoCloseable {
     /**
      * The optimizer that the settings name.
      *
-     * @param ranges    of the genes
-     * @param evaluator simulates what it proposes
+     * @param ranges of the genes
      */
-    static Optimizer of(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    static Optimizer of(EvolutionSettings settings, List<GeneRange> ranges) {
         return switch (settings.search().optimizer()) {
-            case JGAP -> new GeneticAlgorithm(settings, ranges, evaluator);
-            case CMA_ES -> new CmaEs(settings, ranges, evaluator);
-            case RANDOM -> new RandomSearch(settings, ranges, evaluator);
-            case NSGA2 -> new Nsga2(settings, ranges, evaluator);
-            case MAP_ELITES -> new MapElites(settings, ranges, evaluator);
+            case JGAP -> new GeneticAlgorithm(settings, ranges);
+            case CMA_ES -> new CmaEs(settings, ranges);
+            case RANDOM -> new RandomSearch(settings, ranges);
+            case NSGA2 -> new Nsga2(settings, ranges);
+            case MAP_ELITES -> new MapElites(settings, ranges);
         };
     }
 }

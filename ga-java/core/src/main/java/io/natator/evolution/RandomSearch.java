@@ -11,18 +11,15 @@ final class RandomSearch implements Optimizer {
 
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
-    private final GenerationEvaluator evaluator;
 
-    RandomSearch(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+    RandomSearch(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
         this.ranges = ranges;
-        this.evaluator = evaluator;
     }
 
     @Override
-    public List<Individual> next(int generation, List<Individual> before) {
-        SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
-        return evaluator.evaluate(genomes(settings.search().population(), ranges, random));
+    public List<List<Double>> propose(int generation, List<Individual> before) {
+        return genomes(settings.search().population(), ranges, new SplittableRandom(Seeds.of(settings.search().seed(), generation)));
     }
 
     /** So many. */

@@ -1,15 +1,8 @@
 package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
-import java.util.ArrayList;
-import java.util.HashMap;
-import java.util.LinkedHashSet;
-import java.util.List;
-import java.util.Map;
-import java.util.Set;
 import org.jgap.Configuration;
 import org.jgap.FitnessFunction;
-import org.jgap.Gene;
 import org.jgap.IChromosome;
 import org.jgap.InvalidConfigurationException;
 import org.jgap.Population;
@@ -23,21 +16,17 @@ import org.jgap.impl.GABreeder;
 final class ThesisBreeder extends GABreeder {
 
     private final transient EvolutionSettings settings;
-    private final transient GenerationEvaluator evaluator;
-    /** The chromosomes of the current population, by their genes. */
-    private final transient Map<List<Double>, Individual> known = new HashMap<>();
 
-    ThesisBreeder(EvolutionSettings settings, GenerationEvaluator evaluator) {
+    ThesisBreeder(EvolutionSettings settings) {
         this.settings = settings;
-        this.evaluator = evaluator;
     }
 
-    /** From evaluated parents to the next evaluated population. */
+    /** From evaluated parents to the next population, whose children are to be evaluated. */
     @Override
     public Population evolve(Population parents, Configuration configuration) {
         Population selected = select(parents, configuration);
         Population children = alter(selected, configuration);
-        return evaluate(combine(selected, children), configuration);
+        return combine(selected, children);
     }
 
     /** The best (30 of 150), the rest (120) by roulette. */
@@ -80,60 +69,5 @@ final class ThesisBreeder extends GABreeder {
         }
         selected.addChromosomes(children);
         return selected;
-    }
-
-    /**
-     * Gives every chromosome its fitness. All whose genes are not those of a known chromosome are simulated, as one
-     * batch and each once; a child that crossover or mutation left unchanged is not.
-     *
-     * @return the population without what could no more be simulated, since the run has had its evaluations
-     */
-    Population evaluate(Population population, Configuration configuration) {
-        Set<List<Double>> present = new LinkedHashSet<>();
-        for (IChromosome chromosome : population.toChromosomes()) {
-            present.add(genesOf(chromosome));
-        }
-        List<List<Double>> unknown = new ArrayList<>(present);
-        unknown.removeIf(known::containsKey);
-        know(evaluator.evaluate(unknown));
-        known.keySet().retainAll(present);
-        try {
-            Population evaluated = new Population(configuration, population.size());
-            for (IChromosome chromosome : population.toChromosomes()) {
-                if (known.containsKey(genesOf(chromosome))) {
-                    chromosome.setFitnessValueDirectly(evaluated(chromosome).fitness());
-                    evaluated.addChromosome(chromosome);
-                }
-            }
-            return evaluated;
-        } catch (InvalidConfigurationException e) {
-            throw new IllegalStateException(e);
-        }
-    }
-
-    /** Declares chromosomes that are evaluated. */
-    void know(List<Individual> individuals) {
-        individuals.forEach(individual -> known.put(individual.genes(), individual));
-    }
-
-    /**
-     * What came of a chromosome's evaluation.
-     *
-     * @throws IllegalStateException if it was not evaluated
-     */
-    Individual evaluated(IChromosome chromosome) {
-        Individual found = known.get(genesOf(chromosome));
-        if (found == null) {
-            throw new IllegalStateException("chromosome has not been evaluated: " + chromosome);
-        }
-        return found;
-    }
-
-    static List<Double> genesOf(IChromosome chromosome) {
-        List<Double> genes = new ArrayList<>();
-        for (Gene gene : chromosome.getGenes()) {
-            genes.add((Double) gene.getAllele());
-        }
-        return List.copyOf(genes);
     }
 }

@@ -1,2 +1,2 @@
-/** What a run asks of results beside the distance: evaluators around another one, which is closed with them. */
+/** What a run asks of results beside the distance, and of bodies: evaluators around another one, which is closed with them. */
 package io.natator.fitness;

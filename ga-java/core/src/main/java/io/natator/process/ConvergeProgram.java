@@ -55,7 +55,6 @@ public final class ConvergeProgram {
      * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
         return call(request, starts, levels, List.of(), line -> { });

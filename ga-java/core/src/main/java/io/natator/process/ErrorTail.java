@@ -36,11 +36,7 @@ public final class ErrorTail implements Runnable {
         }
     }
 
-    /**
-     * What was written in the end; empty if it cannot be read, or does not end within five seconds.
-     *
-     * @throws InterruptedException if the calling thread is interrupted
-     */
+    /** What was written in the end; empty if it cannot be read, or does not end within five seconds. */
     public String text() throws InterruptedException {
         try {
             return text.get(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS);

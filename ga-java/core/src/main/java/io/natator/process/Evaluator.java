@@ -14,6 +14,7 @@ import java.util.function.Consumer;
  * Carries out evaluations, many at a time. Takes calls from several threads at once; the results depend on nothing but
  * the requests.
  */
+@FunctionalInterface
 public interface Evaluator extends AutoCloseable {
 
     /**
@@ -35,29 +36,34 @@ public interface Evaluator extends AutoCloseable {
      * that of both only one need be closed.
      */
     @Override
-    void close();
+    default void close() {
+    }
 
     /**
-     * As {@link #evaluateAll}, with the results in the order of the requests: each as soon as it and all before it are
+     * Sorts the results of {@link #evaluateAll}: passes each on as soon as it and those of all requests before it are
      * there. So nothing after this point can depend on the number of workers.
      */
-    default void evaluateInOrder(List<SimulationRequest> requests, Consumer<SimulationResult> inOrder)
-            throws InterruptedException {
+    static Consumer<SimulationResult> inOrder(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone) {
         Map<Long, SimulationResult> early = new HashMap<>();
         int[] next = {0};
-        evaluateAll(requests, result -> {
+        return result -> {
             early.put(result.id(), result);
             while (next[0] < requests.size() && early.containsKey(requests.get(next[0]).id())) {
-                inOrder.accept(early.remove(requests.get(next[0]++).id()));
+                whenDone.accept(early.remove(requests.get(next[0]++).id()));
             }
-        });
+        };
+    }
+
+    /** All results, in the order of the requests. */
+    default List<SimulationResult> evaluate(List<SimulationRequest> requests) throws InterruptedException {
+        List<SimulationResult> results = new ArrayList<>();
+        evaluateAll(requests, inOrder(requests, results::add));
+        return results;
     }
 
     /** One evaluation. */
     default SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
-        evaluateAll(List.of(request), results::add);
-        return results.get(0);
+        return evaluate(List.of(request)).get(0);
     }
 
     /**
@@ -68,8 +74,8 @@ public interface Evaluator extends AutoCloseable {
      */
     static Evaluator open(ExecutionSettings execution) {
         return switch (execution.mode()) {
-            case PROCESS -> new WorkerPool(new ProcessSimulator(execution), execution.workers());
-            case RESIDENT -> new WorkerPool(new ResidentSimulator(execution), execution.workers());
+            case PROCESS -> new ProcessSimulator(execution);
+            case RESIDENT -> new ResidentSimulator(execution);
             case BATCH -> new BatchSimulator(execution);
             case SPARK -> ClusterEvaluators.open(execution);
         };

@@ -86,19 +86,11 @@ final class NativeProgram implements AutoCloseable {
     /**
      * Starts the program, writes {@code input} to it, closes its standard input and waits for its end.
      *
+     * @param errorLines told each line of standard error as it comes, in a thread of its own
      * @throws RequestRejectedException if it does not start
      * @throws SimulatorFailure         if it does not end in time, or prints too much
      * @throws InterruptedException     if interrupted meanwhile, or this virtual machine is shutting down; the program
      *                                  is then killed
-     */
-    Output call(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
-        return call(arguments, input, line -> { });
-    }
-
-    /**
-     * The same, telling each line of standard error as it comes.
-     *
-     * @param errorLines called in a thread of its own
      */
     Output call(List<String> arguments, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
         List<String> command = new ArrayList<>();
@@ -107,7 +99,16 @@ final class NativeProgram implements AutoCloseable {
         try {
             Process process = processes.start(command);
             try {
-                return converse(process, input, errorLines);
+                long begin = System.nanoTime();
+                pipes.submit(() -> {
+                    try (OutputStream stdin = process.getOutputStream()) {
+                        stdin.write(input.getBytes(StandardCharsets.UTF_8));
+                    }
+                    return null;
+                });
+                Future<byte[]> output = pipes.submit(() -> readLimited(process));
+                Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream(), errorLines));
+                return end(process, begin, output, errors);
             } finally {
                 processes.end(process);
             }
@@ -116,11 +117,9 @@ final class NativeProgram implements AutoCloseable {
         }
     }
 
-    private Output converse(Process process, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
-        long begin = System.nanoTime();
-        pipes.submit(() -> write(process, input));
-        Future<byte[]> output = pipes.submit(() -> readLimited(process));
-        Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream(), errorLines));
+    /** What a program leaves that began then, once it has ended. */
+    private Output end(Process process, long begin, Future<byte[]> output, Future<String> errors)
+            throws SimulatorFailure, InterruptedException {
         if (!process.waitFor(timeout.toMillis(), TimeUnit.MILLISECONDS)) {
             throw new SimulatorFailure("no answer within " + timeout.toMillis() / 1000.0 + " s");
         }
@@ -144,13 +143,6 @@ final class NativeProgram implements AutoCloseable {
                 throw new SimulatorFailure("output not readable: " + e.getCause().getMessage(), e);
             }
         }
-    }
-
-    private static Void write(Process process, String input) throws IOException {
-        try (OutputStream stdin = process.getOutputStream()) {
-            stdin.write(input.getBytes(StandardCharsets.UTF_8));
-        }
-        return null;
     }
 
     /** Reads up to one byte more than allowed; then the program is killed, since it would wait for a reader. */

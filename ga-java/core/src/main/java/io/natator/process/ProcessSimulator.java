@@ -8,6 +8,7 @@ import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulatorFailure;
 import java.util.List;
+import java.util.concurrent.Callable;
 import java.util.concurrent.atomic.AtomicInteger;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -17,7 +18,7 @@ import org.slf4j.LoggerFactory;
  * standard output. A process that crashes, hangs or answers nonsense is tried once more; if that fails too, the
  * evaluation is recorded as failed and nothing else suffers.
  */
-public final class ProcessSimulator implements Simulator {
+public final class ProcessSimulator extends WorkerPool {
 
     /** How often an evaluation is tried. */
     static final int ATTEMPTS = 2;
@@ -37,6 +38,7 @@ public final class ProcessSimulator implements Simulator {
      * @param settings with a time limit
      */
     public ProcessSimulator(ExecutionSettings settings) {
+        super(settings.workers());
         this.program = new NativeProgram(settings.simulator(), settings.timeout());
         this.arguments = settings.devices().stream()
                 .map(device -> List.of("evaluate", "--backend", settings.backend().argument(), "--device", "" + device))
@@ -44,18 +46,20 @@ public final class ProcessSimulator implements Simulator {
     }
 
     @Override
-    public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+    Callable<SimulationResult> evaluation(SimulationRequest request) {
         String input = Json.line(request) + "\n";
-        String reason = "";
-        for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
-            try {
-                return answer(request, program.call(nextArguments(), input));
-            } catch (SimulatorFailure e) {
-                reason = e.getMessage();
-                LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
+        return () -> {
+            String reason = "";
+            for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
+                try {
+                    return answer(request, program.call(nextArguments(), input, line -> { }));
+                } catch (SimulatorFailure e) {
+                    reason = e.getMessage();
+                    LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
+                }
             }
-        }
-        return SimulationResult.failed(request.id(), reason);
+            return SimulationResult.failed(request.id(), reason);
+        };
     }
 
     /** GPUs take turns. */
@@ -93,6 +97,7 @@ public final class ProcessSimulator implements Simulator {
 
     @Override
     public void close() {
+        super.close();
         program.close();
     }
 }

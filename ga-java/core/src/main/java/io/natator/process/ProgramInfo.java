@@ -42,7 +42,6 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      *
      * @throws InvalidInputException    if it says something else
      * @throws RequestRejectedException if it cannot be run
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public static ProgramInfo of(Path simulator) throws InterruptedException {
         try {
@@ -95,7 +94,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      */
     static String ask(Path simulator, List<String> arguments, String subject) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
-            NativeProgram.Output output = program.call(arguments, "");
+            NativeProgram.Output output = program.call(arguments, "", line -> { });
             if (output.exitStatus() != 0) {
                 throw output.failure(subject);
             }

@@ -7,6 +7,7 @@ import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulatorFailure;
 import java.util.Deque;
+import java.util.concurrent.Callable;
 import java.util.concurrent.ConcurrentLinkedDeque;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -15,7 +16,7 @@ import org.slf4j.LoggerFactory;
  * Native processes that stay alive, as many as evaluations were ever under way at once, each with one evaluation at a
  * time. A process that fails is replaced; its evaluation is tried once more in another one.
  */
-public final class ResidentSimulator implements Simulator {
+public final class ResidentSimulator extends WorkerPool {
 
     private static final Logger LOG = LoggerFactory.getLogger(ResidentSimulator.class);
 
@@ -30,29 +31,32 @@ public final class ResidentSimulator implements Simulator {
      * @param settings with a time limit
      */
     public ResidentSimulator(ExecutionSettings settings) {
+        super(settings.workers());
         this.settings = settings;
         this.commands = new ServeCommands(settings);
     }
 
     @Override
-    public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+    Callable<SimulationResult> evaluation(SimulationRequest request) {
         String input = Json.line(request) + "\n";
-        String reason = "";
-        ServeCommands.Command tried = null;
-        for (int attempt = 1; attempt <= ProcessSimulator.ATTEMPTS; attempt++) {
-            try {
-                ServeProcess process = take(tried, request);
-                tried = process.command();
-                return attempt(process, request, input);
-            } catch (SimulatorFailure e) {
-                reason = e.getMessage();
-                LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
-                        reason);
-            } finally {
-                group.failIfStopped();
+        return () -> {
+            String reason = "";
+            ServeCommands.Command tried = null;
+            for (int attempt = 1; attempt <= ProcessSimulator.ATTEMPTS; attempt++) {
+                try {
+                    ServeProcess process = take(tried, request);
+                    tried = process.command();
+                    return attempt(process, request, input);
+                } catch (SimulatorFailure e) {
+                    reason = e.getMessage();
+                    LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
+                            reason);
+                } finally {
+                    group.failIfStopped();
+                }
             }
-        }
-        return SimulationResult.failed(request.id(), reason);
+            return SimulationResult.failed(request.id(), reason);
+        };
     }
 
     private SimulationResult attempt(ServeProcess process, SimulationRequest request, String input)
@@ -94,6 +98,7 @@ public final class ResidentSimulator implements Simulator {
 
     @Override
     public void close() {
+        super.close();
         group.close();
         for (ServeProcess process = idle.poll(); process != null; process = idle.poll()) {
             process.close();

@@ -56,7 +56,6 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      * @param simulator the native program
      * @throws InvalidInputException    if the simulator does not know the scene
      * @throws RequestRejectedException if it cannot be run
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public static SceneInfo of(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
         String text = ask(scene, overrides, simulator);
@@ -109,7 +108,6 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      * @param overrides JSON Merge Patch on the scene, or null
      * @throws InvalidInputException    if the simulator does not know the scene
      * @throws RequestRejectedException if it cannot be run
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public static String definition(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
         return ask(scene, overrides, simulator, "--definition");

@@ -70,7 +70,6 @@ final class ServeProcess implements AutoCloseable {
      *
      * @throws SimulatorFailure         if none comes in time, or none will come any more
      * @throws RequestRejectedException if the program cannot work at all, as without the GPU that it was asked to use
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     SimulationResult receive(long nanoseconds) throws SimulatorFailure, InterruptedException {
         AnswerLines.Line line = answers.poll(nanoseconds);

@@ -5,6 +5,7 @@ import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.BlockingQueue;
+import java.util.concurrent.Callable;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
@@ -16,35 +17,39 @@ import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
 /** Evaluates on a fixed number of threads, one request each at a time. */
-public final class WorkerPool implements Evaluator {
+abstract class WorkerPool implements Evaluator {
 
     private static final long POLL_MILLISECONDS = 100;
 
-    private final Simulator simulator;
     private final ExecutorService workers;
 
     /**
-     * A pool that owns the simulator.
+     * A pool whose threads are started when they are needed.
      *
      * @param count evaluations at the same time, at least 1
      */
-    public WorkerPool(Simulator simulator, int count) {
-        this.simulator = simulator;
-        this.workers = Executors.newFixedThreadPool(count, task -> {
+    WorkerPool(int count) {
+        workers = Executors.newFixedThreadPool(count, task -> {
             Thread thread = new Thread(task, "evaluation");
             thread.setDaemon(true);
             return thread;
         });
     }
 
+    /**
+     * One evaluation, to be carried out on a thread of the pool; interrupted when it is abandoned. What goes wrong in it alone is a result
+     * with {@link SimulationResult.Status#FAILED}.
+     */
+    abstract Callable<SimulationResult> evaluation(SimulationRequest request);
+
     @Override
-    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
+    public final void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
             throws InterruptedException {
         BlockingQueue<Future<SimulationResult>> finished = new LinkedBlockingQueue<>();
         List<Future<SimulationResult>> tasks = new ArrayList<>();
         try {
             for (SimulationRequest request : requests) {
-                FutureTask<SimulationResult> task = new FutureTask<>(() -> simulator.evaluate(request)) {
+                FutureTask<SimulationResult> task = new FutureTask<>(evaluation(request)) {
                     @Override
                     protected void done() {
                         finished.add(this);
@@ -97,6 +102,5 @@ public final class WorkerPool implements Evaluator {
     @Override
     public void close() {
         workers.shutdownNow();
-        simulator.close();
     }
 }

@@ -20,24 +20,17 @@ import io.soabase.recordbuilder.core.RecordBuilder;
  * @param duration     simulated time in seconds, or null for the scene's own
  * @param scheme       or null for the scene's own
  * @param overrides    JSON Merge Patch on the scene, or null
- * @param perturbation shift of the starting positions, or null for none
- * @param start        which of many starts, at least 0, or null for the scene's own; not together with a perturbation
+ * @param start        which of many starts, at least 0, or null for the scene's own
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 @RecordBuilder
 public record SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme,
-        JsonNode overrides, Perturbation perturbation, Integer start)
+        JsonNode overrides, Integer start)
         implements SimulationRequestBuilder.With {
 
-    /** A request that leaves the starting positions as they are. */
+    /** A request from the scene's own start. */
     public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
-        this(id, scene, gait, duration, scheme, overrides, null, null);
-    }
-
-    /** A request from the scene's own start, with its positions shifted. */
-    public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides,
-            Perturbation perturbation) {
-        this(id, scene, gait, duration, scheme, overrides, perturbation, null);
+        this(id, scene, gait, duration, scheme, overrides, null);
     }
 
     /** A gait in a scene as it is, or null where nothing has muscles. */

@@ -11,10 +11,8 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
 import io.natator.process.ProgramInfo;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.VacuumRequests;
-import java.util.ArrayList;
 import java.util.List;
 
 /** Runs a swimmer under the conditions of {@link Controls}, all but the share under water. */
@@ -45,19 +43,19 @@ public final class ControlRuns {
     /** The controls of a swimmer. */
     public Controls of(Swimmer swimmer) throws InterruptedException {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
-            List<SimulationResult> inWater = runs(again.requests(swimmer, starts, null), evaluator);
+            List<SimulationResult> inWater = evaluator.evaluate(again.requests(swimmer, starts, null));
             String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst().orElse("");
             SwimSample water = again.sample(inWater, swimmer, 1);
             // A body at rest makes no progress, which is to end no run of it.
             SwimSample resting = again.sample(
-                    runs(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping()), evaluator), swimmer, 1);
-            SwimSample vacuum = again.sample(runs(again.requests(swimmer, starts, null).stream()
-                    .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList(), evaluator), swimmer, 1);
+                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping())), swimmer, 1);
+            SwimSample vacuum = again.sample(evaluator.evaluate(again.requests(swimmer, starts, null).stream()
+                    .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList()), swimmer, 1);
             SwimSample clampOff = scheme.equals(FLEX)
-                    ? again.sample(runs(again.requests(swimmer, starts, withoutClamp()), evaluator), swimmer, 1) : null;
-            SwimSample half = again.sample(runs(again.requests(swimmer, starts, again.halfStep()), evaluator), swimmer, 2);
+                    ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1) : null;
+            SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())), swimmer, 2);
             SwimSample mirrored = again.sample(
-                    runs(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null), evaluator), swimmer, 1);
+                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null)), swimmer, 1);
             Backend other = otherBackend();
             return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer), water, resting,
                     vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
@@ -70,7 +68,7 @@ public final class ControlRuns {
         ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);
         try (Evaluator evaluator = EvolutionRun.open(elsewhere)) {
-            return again.sample(runs(again.requests(swimmer, starts, null), evaluator), swimmer, 1);
+            return again.sample(evaluator.evaluate(again.requests(swimmer, starts, null)), swimmer, 1);
         }
     }
 
@@ -92,12 +90,5 @@ public final class ControlRuns {
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("noProgressAfter", 0);
         return patch;
-    }
-
-    private static List<SimulationResult> runs(List<SimulationRequest> requests, Evaluator evaluator)
-            throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
-        evaluator.evaluateInOrder(requests, results::add);
-        return results;
     }
 }

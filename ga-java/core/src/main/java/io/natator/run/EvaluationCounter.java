@@ -2,8 +2,8 @@ package io.natator.run;
 
 import io.natator.base.InvalidInputException;
 import io.natator.checkpoint.EvaluationStatistics;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -20,7 +20,7 @@ final class EvaluationCounter implements EvolutionListener {
 
     private static final double NANOSECONDS = 1e9;
 
-    private final RunFolder folder;
+    private final RunWriter folder;
     private final double duration;
     private final LongSupplier found;
     private final long foundBefore;
@@ -38,7 +38,7 @@ final class EvaluationCounter implements EvolutionListener {
      * @param duration of a simulation that nothing ends early, in seconds
      * @param found    results from the cache since this run began or was continued
      */
-    EvaluationCounter(RunFolder folder, double duration, LongSupplier found) {
+    EvaluationCounter(RunWriter folder, double duration, LongSupplier found) {
         this.folder = folder;
         this.duration = duration;
         this.found = found;
@@ -64,9 +64,9 @@ final class EvaluationCounter implements EvolutionListener {
     }
 
     /** Of the run so far; a damaged file of them costs only how many results came from the cache. */
-    private static EvaluationStatistics statistics(RunFolder folder) {
+    private static EvaluationStatistics statistics(RunWriter folder) {
         try {
-            return StoredRun.statistics(folder.directory());
+            return RunReader.statistics(folder.directory());
         } catch (InvalidInputException e) {
             LOG.warn(folder.recorded().first() == 0 ? "{}; counted anew, without the results that came from the cache"
                     : "{}; not counted any more, since the first evaluations are gone", e.getMessage());

@@ -5,21 +5,17 @@ import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Environment;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SceneDigest;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.FitnessKind;
-import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.fitness.BodyCheckEvaluator;
-import io.natator.fitness.EffortEvaluator;
-import io.natator.fitness.NetEvaluator;
-import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.process.TimeLimit;
@@ -33,7 +29,7 @@ import java.util.List;
 /** Carries out the evolution of a run folder from wherever it stands to its end. */
 public final class EvolutionRun {
 
-    private final RunFolder folder;
+    private final RunWriter folder;
     private final EvolutionSettings settings;
 
     /**
@@ -46,7 +42,7 @@ public final class EvolutionRun {
     }
 
     /** A run whose folder stays open. */
-    public EvolutionRun(RunFolder folder) {
+    public EvolutionRun(RunWriter folder) {
         this.folder = folder;
         this.settings = folder.settings();
     }
@@ -55,7 +51,6 @@ public final class EvolutionRun {
      * The execution with a time limit that suits the scene, if it has none.
      *
      * @throws io.natator.base.InvalidInputException if the simulator does not know the scene
-     * @throws InterruptedException                    if the calling thread is interrupted
      */
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
             throws InterruptedException {
@@ -80,7 +75,6 @@ public final class EvolutionRun {
      *
      * @param execution with a time limit
      * @throws io.natator.protocol.RequestRejectedException if the simulator cannot be run
-     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
         Evaluator evaluator = Evaluator.open(execution);
@@ -110,14 +104,13 @@ public final class EvolutionRun {
             throws InterruptedException {
         String digest = SceneDigest.of(settings, execution.simulator());
         SceneDigest.check(folder.directory(), settings, digest);
-        if (!StoredRun.isFinished(folder.directory())) {
+        if (!RunReader.isFinished(folder.directory())) {
             folder.write(Environment.present(execution, digest, settings));
         }
         // Runs that share an evaluator count for themselves what they find in its cache.
         CachedEvaluator cached = evaluator instanceof CachedEvaluator shared ? shared.counting() : null;
         Evaluator own = cached == null ? evaluator : cached;
         SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator());
-        checkFitness(settings, scene);
         double duration = settings.problem().duration() != null ? settings.problem().duration() : scene.duration();
         EvaluationCounter counter = new EvaluationCounter(folder, duration, cached == null ? () -> 0 : cached::found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
@@ -127,7 +120,7 @@ public final class EvolutionRun {
         all.addAll(List.of(listeners));
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded())
+        EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all, folder.recorded())
                 .run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
@@ -135,7 +128,7 @@ public final class EvolutionRun {
 
     /** Writes what came of the run, its winner examined. */
     private Outcome outcome(EvolutionState state, Evaluator evaluator, SceneInfo scene, Path simulator) throws InterruptedException {
-        BestGait known = StoredRun.best(folder.directory());
+        BestGait known = RunReader.best(folder.directory());
         if (known != null && state.best() != null && known.isExamined(state.best())) {
             folder.writeTable(state);
             return new Outcome(state, known);
@@ -147,41 +140,6 @@ public final class EvolutionRun {
             folder.write(best);
         }
         return new Outcome(state, best);
-    }
-
-    /**
-     * An evaluator that tells, as the run's own will, what the run asks of results beside the distance: its objectives, or what its map tells
-     * gaits apart by. What the simulator does not measure in the scene it refuses with the first result.
-     *
-     * @param evaluator carries out the evaluations; closed with this one, open where there is none
-     * @throws InvalidInputException if the scene has goals, and the run would have another fitness
-     */
-    public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
-        checkFitness(settings, scene);
-        return measuring(settings, settings.problem().objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
-    }
-
-    /** Goals are what is rewarded where a scene has any, so that there is no distance to take a drift off. */
-    private static void checkFitness(EvolutionSettings settings, SceneInfo scene) {
-        if (settings.problem().fitness() == FitnessKind.NET && scene.goals() != null && !scene.goals().isEmpty()) {
-            throw new InvalidInputException("--fitness net is for scenes without goals, and " + settings.problem().scene()
-                    + " has some, which are its fitness; expected --objectives net, alone or together with goals");
-        }
-    }
-
-    /** An evaluator whose results tell what the optimizer asks for. */
-    private static Evaluator measuring(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
-        if (settings.search().optimizer() != OptimizerKind.MAP_ELITES) {
-            return evaluator;
-        }
-        return settings.problem().evolve() == null ? EffortEvaluator.of(evaluator, scene.bodyLength())
-                : new EffortEvaluator(evaluator, request -> settings.problem().bodyLength(request.overrides()));
-    }
-
-    /** An evaluator whose results are worth what the run rewards. */
-    static Evaluator rewarding(EvolutionSettings settings, Evaluator evaluator) {
-        return settings.problem().objectives() != null ? new ObjectiveEvaluator(evaluator, settings.problem().objectives())
-                : settings.problem().fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */

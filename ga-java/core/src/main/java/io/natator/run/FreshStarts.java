@@ -6,6 +6,7 @@ import io.natator.body.Swimmer;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.Individual;
+import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
@@ -37,7 +38,7 @@ public final class FreshStarts {
      */
     public FreshStarts(EvolutionSettings settings, Evaluator evaluator, Path simulator) throws InterruptedException {
         this.settings = settings;
-        this.evaluator = EvolutionRun.rewarding(settings, evaluator);
+        this.evaluator = FitnessEvaluator.of(evaluator, settings.problem());
         this.again = new WinnerRuns(settings, simulator);
         this.genome = settings.problem().genome();
     }
@@ -62,8 +63,7 @@ public final class FreshStarts {
                 requests.add(one.withId(requests.size()));
             }
         }
-        List<SimulationResult> results = new ArrayList<>();
-        evaluator.evaluateInOrder(requests, results::add);
+        List<SimulationResult> results = evaluator.evaluate(requests);
         return IntStream.range(0, genomes.size()).mapToObj(i -> results.subList(i * starts, (i + 1) * starts)).toList();
     }
 
@@ -82,16 +82,13 @@ public final class FreshStarts {
 
     /** From the fresh starts; null, and a word of it, if the simulator refuses them. What the run found is not lost by that. */
     private List<SimulationResult> runs(Swimmer swimmer, ObjectNode change) throws InterruptedException {
-        int starts = usual(settings);
-        List<SimulationResult> results = new ArrayList<>();
         try {
-            evaluator.evaluateInOrder(again.requests(swimmer, starts, change), results::add);
+            return evaluator.evaluate(again.requests(swimmer, usual(settings), change));
         } catch (RequestRejectedException e) {
             e.throwUnlessBadInput();
             LOG.warn("the winner is not run from fresh starts: {}", e.getMessage());
             return null;
         }
-        return results;
     }
 
     /** The winner from the scene's own start, as whoever watches it sees it. */

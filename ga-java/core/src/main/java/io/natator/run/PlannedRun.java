@@ -1,9 +1,9 @@
 package io.natator.run;
 
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SceneDigest;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.SettingsChange;
 import java.nio.file.Path;
@@ -21,11 +21,11 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
      *
      * @throws InvalidInputException if there is a run of other settings in it
      */
-    public RunFolder open() {
-        if (!StoredRun.exists(directory)) {
-            return RunFolder.create(directory, settings);
+    public RunWriter open() {
+        if (!RunReader.exists(directory)) {
+            return RunWriter.create(directory, settings);
         }
-        RunFolder folder = RunFolder.open(directory);
+        RunWriter folder = RunWriter.open(directory);
         folder.refuse(refusal(folder.settings(), settings));
         if (isShorter(folder.settings())) {
             folder.changeGenerations(settings.budget().generations());
@@ -39,8 +39,8 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
      * @throws InvalidInputException if it is of others
      */
     public void check() {
-        if (StoredRun.exists(directory)) {
-            EvolutionSettings stored = StoredRun.settings(directory);
+        if (RunReader.exists(directory)) {
+            EvolutionSettings stored = RunReader.settings(directory);
             String refusal = refusal(stored, settings.withBackend(stored.budget().backend()));
             if (refusal != null) {
                 throw new InvalidInputException(refusal);
@@ -54,7 +54,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
      * @throws InvalidInputException if that was changed
      */
     void checkScene(Path simulator) throws InterruptedException {
-        if (StoredRun.exists(directory) && !isFinished()) {
+        if (RunReader.exists(directory) && !isFinished()) {
             SceneDigest.check(directory, settings, SceneDigest.of(settings, simulator));
         }
     }
@@ -68,7 +68,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /** Whether it has come to its end; one of fewer generations than this has not. */
     public boolean isFinished() {
-        return StoredRun.isFinished(directory) && !isShorter(StoredRun.settings(directory));
+        return RunReader.isFinished(directory) && !isShorter(RunReader.settings(directory));
     }
 
     private boolean isShorter(EvolutionSettings stored) {
@@ -77,6 +77,6 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /** How many of its evaluations are recorded. */
     public long recorded() {
-        return StoredRun.exists(directory) ? StoredRun.recorded(directory).end() : 0;
+        return RunReader.exists(directory) ? RunReader.recorded(directory).end() : 0;
     }
 }

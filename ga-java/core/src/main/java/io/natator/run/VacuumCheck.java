@@ -1,7 +1,7 @@
 package io.natator.run;
 
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.EvolutionListener;
@@ -19,15 +19,15 @@ import java.util.List;
 /** Runs the best gait after each generation that found a better one in vacuum too, for as long as it swam. */
 final class VacuumCheck implements EvolutionListener {
 
-    private final RunFolder folder;
+    private final RunWriter folder;
     private final Evaluator evaluator;
     private final List<VacuumRecord> records;
 
     /** A check that knows what an interrupted run has checked. */
-    VacuumCheck(RunFolder folder, Evaluator evaluator) {
+    VacuumCheck(RunWriter folder, Evaluator evaluator) {
         this.folder = folder;
         this.evaluator = evaluator;
-        this.records = new ArrayList<>(StoredRun.vacuumRecords(folder.directory()));
+        this.records = new ArrayList<>(RunReader.vacuumRecords(folder.directory()));
         if (folder.checkpoint() != null) {
             // A run that was killed between its checkpoint and the check that belongs to it.
             generationFinished(folder.checkpoint());

@@ -5,7 +5,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;
@@ -41,7 +41,7 @@ public final class FreshText {
                 : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3) + " per beat"));
         lines.put("selected", Numbers.worth(fresh.selected()) + " by " + (fresh.selectedRuns() == 1 ? "one run"
                 : judge(fresh.judge()) + " of " + fresh.selectedRuns() + " runs") + ", "
-                + (fresh.judge() == Judge.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again()) + " again"
+                + (fresh.judge() == Aggregate.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again()) + " again"
                 + (fresh.selectionLoss() == null ? "" : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
         return lines;
     }
@@ -53,7 +53,7 @@ public final class FreshText {
                 .collect(Collectors.joining(", "));
     }
 
-    private static String judge(Judge judge) {
+    private static String judge(Aggregate judge) {
         return judge.name().toLowerCase(Locale.ROOT).replace('_', ' ');
     }
 

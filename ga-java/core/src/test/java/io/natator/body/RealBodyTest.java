@@ -15,9 +15,9 @@ import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.protocol.SimulationRequest;
+import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.SplittableRandom;
 import java.util.stream.LongStream;
@@ -77,19 +77,15 @@ class RealBodyTest {
         assertThat(hashes(requests, execution.withMode(SimulatorMode.BATCH))).isEqualTo(alone);
         try (CachedEvaluator cached = new CachedEvaluator(Evaluator.open(execution), new EvaluationCache(folder), execution)) {
             for (int found : List.of(0, 3)) {
-                List<String> again = new ArrayList<>();
-                cached.evaluateInOrder(requests, result -> again.add(result.hash()));
-                assertThat(again).isEqualTo(alone);
+                assertThat(cached.evaluate(requests)).extracting(SimulationResult::hash).isEqualTo(alone);
                 assertThat(cached.found()).isEqualTo(found);
             }
         }
     }
 
     private static List<String> hashes(List<SimulationRequest> requests, ExecutionSettings execution) throws InterruptedException {
-        List<String> hashes = new ArrayList<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {
-            evaluator.evaluateInOrder(requests, result -> hashes.add(result.hash()));
+            return evaluator.evaluate(requests).stream().map(SimulationResult::hash).toList();
         }
-        return hashes;
     }
 }

@@ -10,10 +10,8 @@ import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
-import io.natator.protocol.Perturbation;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
@@ -42,7 +40,7 @@ class CachedEvaluatorTest {
     /** How many of the requests the simulator is asked for. */
     private int simulated(ExecutionSettings settings, SimulationRequest... requests) throws InterruptedException {
         ToySimulator simulator = new ToySimulator();
-        try (Evaluator inner = new WorkerPool(simulator, 2);
+        try (Evaluator inner = new FakePool(simulator, 2);
                 CachedEvaluator cached = new CachedEvaluator(inner, new EvaluationCache(folder.resolve("cache")),
                         settings)) {
             for (SimulationRequest request : requests) {
@@ -65,35 +63,23 @@ class CachedEvaluatorTest {
                 new SimulationRequest(4, "thesis/creature-1", GAIT, 2.0, null, null),
                 new SimulationRequest(5, "thesis/creature-1", GAIT, null, Scheme.CONSERVING, null),
                 new SimulationRequest(6, "thesis/creature-1", GAIT, null, null, patch),
-                new SimulationRequest(7, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 1)),
-                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 2)),
-                new SimulationRequest(9, "thesis/creature-1", GAIT, null, null, null).withStart(1),
-                new SimulationRequest(10, "thesis/creature-1", GAIT, null, null, null).withStart(2));
+                new SimulationRequest(7, "thesis/creature-1", GAIT, null, null, null, 1),
+                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, 2));
 
         SimulationRequest[] all = different.toArray(SimulationRequest[]::new);
-        assertThat(simulated(execution, all)).isEqualTo(10);
+        assertThat(simulated(execution, all)).isEqualTo(8);
         assertThat(simulated(execution, all)).isZero();
         assertThat(simulated(execution, all[0].withId(99L))).isZero();
-        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(10);
+        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(8);
         Files.writeString(execution.simulator(), "# another build\n", StandardOpenOption.APPEND);
-        assertThat(simulated(execution, all)).isEqualTo(10);
+        assertThat(simulated(execution, all)).isEqualTo(8);
     }
 
     @Test
     void failuresAreNotKept() throws InterruptedException {
-        Simulator failing = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) {
-                return SimulationResult.failed(request.id(), "crashed");
-            }
-
-            @Override
-            public void close() {
-                // Nothing is held.
-            }
-        };
+        FakePool.Simulation failing = request -> SimulationResult.failed(request.id(), "crashed");
         SimulationRequest request = new SimulationRequest(1, "thesis/creature-1", GAIT, null, null, null);
-        try (Evaluator inner = new WorkerPool(failing, 1); CachedEvaluator cached = new CachedEvaluator(inner,
+        try (Evaluator inner = new FakePool(failing, 1); CachedEvaluator cached = new CachedEvaluator(inner,
                 new EvaluationCache(folder.resolve("cache")), execution)) {
             cached.evaluate(request);
         }

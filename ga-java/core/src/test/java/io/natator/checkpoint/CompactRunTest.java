@@ -4,17 +4,17 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.base.InvalidInputException;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Judge;
 import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.WorkerPool;
 import io.natator.run.EvolutionRun;
 import io.natator.run.PlannedRun;
 import java.nio.file.Files;
@@ -43,20 +43,20 @@ class CompactRunTest {
     void aCompactRunIsStillFinishedAndHasItsResults() throws Exception {
         Path directory = folder.resolve("run");
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3);
-        try (RunFolder run = RunFolder.create(directory, settings);
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+        try (RunWriter run = RunWriter.create(directory, settings);
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             assertThatThrownBy(() -> CompactRun.compact(directory)).isInstanceOf(InvalidInputException.class)
                     .hasMessageContaining("not a finished run");
             new EvolutionRun(run).run(execution, evaluator);
         }
-        StoredRun before = StoredRun.in(directory);
+        RunReader before = RunReader.in(directory);
         assertThat(before.evaluations()).isNotEmpty();
 
         CompactRun.compact(directory);
         CompactRun.compact(directory);
 
-        assertThat(StoredRun.isFinished(directory)).isTrue();
-        StoredRun after = StoredRun.in(directory);
+        assertThat(RunReader.isFinished(directory)).isTrue();
+        RunReader after = RunReader.in(directory);
         assertThat(after.best()).isEqualTo(before.best());
         assertThat(after.state().history()).isEqualTo(before.state().history());
         assertThat(after.state().evaluations()).isEqualTo(before.evaluations().size());
@@ -65,8 +65,8 @@ class CompactRunTest {
     }
 
     private void evolve(Path directory, EvolutionSettings settings) throws Exception {
-        try (RunFolder run = new PlannedRun(settings, directory).open();
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+        try (RunWriter run = new PlannedRun(settings, directory).open();
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             new EvolutionRun(run).run(execution, evaluator);
         }
     }
@@ -76,18 +76,18 @@ class CompactRunTest {
     @CsvSource({"jgap, 1", "jgap, 2", "random, 1", "map-elites, 2", "nsga2, 1"})
     void aCompactRunGoesOnAsIfItHadNeverStopped(String optimizer, int starts) throws Exception {
         OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withStarts(starts, Judge.MEAN)
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withStarts(starts, Aggregate.MEAN)
                 .withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
                         : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
         Path parts = folder.resolve("parts");
         evolve(parts, settings.withSize(8, 2));
-        long dropped = StoredRun.recorded(parts).end();
+        long dropped = RunReader.recorded(parts).end();
         CompactRun.compact(parts);
-        assertThat(StoredRun.recorded(parts).end()).isEqualTo(dropped);
+        assertThat(RunReader.recorded(parts).end()).isEqualTo(dropped);
 
         evolve(parts, settings.withSize(8, 3));
-        assertThat(StoredRun.in(parts).damage()).isNull();
-        assertThat(StoredRun.in(parts).evaluations()).as("not the whole course").isEmpty();
+        assertThat(RunReader.in(parts).damage()).isNull();
+        assertThat(RunReader.in(parts).evaluations()).as("not the whole course").isEmpty();
         evolve(parts, settings.withSize(8, 5));
 
         Path whole = folder.resolve("whole");
@@ -98,7 +98,7 @@ class CompactRunTest {
         List<String> evaluations = Files.readAllLines(whole.resolve("evaluations.jsonl"));
         assertThat(Files.readAllLines(parts.resolve("evaluations.jsonl")))
                 .isEqualTo(evaluations.subList((int) dropped, evaluations.size()));
-        assertThat(StoredRun.recorded(parts).end()).isEqualTo(evaluations.size());
+        assertThat(RunReader.recorded(parts).end()).isEqualTo(evaluations.size());
         CompactRun.compact(parts);
         CompactRun.compact(whole);
         assertThat(parts.resolve("checkpoint.json.gz")).hasSameBinaryContentAs(whole.resolve("checkpoint.json.gz"));
@@ -120,11 +120,11 @@ class CompactRunTest {
         for (byte[] state : List.of(checkpoint, small)) {
             Files.write(run.resolve("checkpoint.json"), state);
             Files.write(run.resolve("evaluations.jsonl"), evaluations);
-            assertThat(StoredRun.in(run).damage()).isNull();
+            assertThat(RunReader.in(run).damage()).isNull();
         }
-        try (RunFolder opened = RunFolder.open(run)) {
+        try (RunWriter opened = RunWriter.open(run)) {
             opened.changeGenerations(3);
-            assertThat(StoredRun.in(run).damage()).isNull();
+            assertThat(RunReader.in(run).damage()).isNull();
         }
         evolve(run, settings.withSize(8, 3));
         for (String name : List.of("checkpoint.json", "evaluations.jsonl", "savings.json")) {

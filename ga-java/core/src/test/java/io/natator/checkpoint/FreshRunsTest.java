@@ -2,7 +2,7 @@ package io.natator.checkpoint;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import io.natator.encoding.Gait;
 import io.natator.protocol.SimulationResult;
 import io.natator.verdict.FreshText;
@@ -21,7 +21,7 @@ class FreshRunsTest {
     void aLossIsToldWhereThereWasSomethingToLose(double selected, String text) {
         SimulationResult result = new SimulationResult(0L, SimulationResult.Status.OK, 0.2, "completed", 4.0, 240, "conserving", "float", null,
                 null, null);
-        FreshRuns fresh = FreshRuns.of(4, SwimSample.of(List.of(result, result), 4, GAIT, 4.0, 1.25), null, Judge.MEAN, selected, 1,
+        FreshRuns fresh = FreshRuns.of(4, SwimSample.of(List.of(result, result), 4, GAIT, 4.0, 1.25), null, Aggregate.MEAN, selected, 1,
                 List.of(0.1, 0.3));
         BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 0.2, 0.05, result, 1.25, null, selected, 1, fresh);
 

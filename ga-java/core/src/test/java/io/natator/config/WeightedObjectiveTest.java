@@ -40,7 +40,7 @@ class WeightedObjectiveTest {
         assertThatThrownBy(() -> settings.withObjectives(optimizer, WeightedObjective.parse(objectives)))
                 .isInstanceOf(InvalidInputException.class).hasMessageContaining(message);
         assertThatThrownBy(() -> settings.withObjectives(OptimizerKind.NSGA2, null)).hasMessageContaining("not none");
-        assertThatThrownBy(() -> settings.withStarts(4, Judge.LOWER_QUARTILE)
+        assertThatThrownBy(() -> settings.withStarts(4, Aggregate.LOWER_QUARTILE)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work")))
                 .hasMessage("optimizer nsga2 judges by means; expected --judge mean");
         assertThatThrownBy(() -> settings.withFitness(FitnessKind.NET, false)

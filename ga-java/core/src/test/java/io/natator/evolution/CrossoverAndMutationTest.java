@@ -59,7 +59,7 @@ class CrossoverAndMutationTest {
         Set<Integer> cuts = new HashSet<>();
         for (int round = 0; round < 5; round++) {
             for (IChromosome child : children(OperatorSet.CORRECTED, 0, jgap.population(SIZE, GENES))) {
-                List<Double> values = ThesisBreeder.genesOf(child);
+                List<Double> values = GeneticAlgorithm.genesOf(child);
                 int changes = 0;
                 for (int i = 1; i < GENES; i++) {
                     if (!values.get(i).equals(values.get(i - 1))) {
@@ -81,10 +81,10 @@ class CrossoverAndMutationTest {
             Population population = jgap.population(SIZE, GENES);
             Set<Double> present = new HashSet<>();
             for (IChromosome chromosome : population.toChromosomes()) {
-                present.addAll(ThesisBreeder.genesOf(chromosome));
+                present.addAll(GeneticAlgorithm.genesOf(chromosome));
             }
             for (IChromosome child : children(OperatorSet.CORRECTED, 1, population)) {
-                changed += (int) ThesisBreeder.genesOf(child).stream().filter(gene -> !present.contains(gene)).count();
+                changed += (int) GeneticAlgorithm.genesOf(child).stream().filter(gene -> !present.contains(gene)).count();
             }
         }
 

@@ -8,16 +8,14 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
-import io.natator.protocol.SimulationRequest;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.function.Function;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
@@ -29,10 +27,10 @@ class EvolutionTest {
                 .withSeed(seed).withOptimizer(OptimizerKind.JGAP, operators, 0.05);
     }
 
-    private static EvolutionState run(EvolutionSettings settings, Simulator simulator, int workers,
+    private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
             EvolutionListener... listeners) {
-        try (WorkerPool pool = new WorkerPool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), new Recorded(0, List.of())).run(null);
+        try (Evaluator pool = new FakePool(simulator, workers)) {
+            return new Evolution(settings, pool, List.of(listeners), new RecordedEvaluations(0, List.of())).run(null);
         }
     }
 
@@ -151,8 +149,8 @@ class EvolutionTest {
 
     @Test
     void oneFailureCostsOneEvaluation() {
-        Simulator flaky = answering(request -> request.id() % 4 == 1
-                ? SimulationResult.failed(request.id(), "crashed") : ok(request.id(), 0.1));
+        FakePool.Simulation flaky = request -> request.id() % 4 == 1
+                ? SimulationResult.failed(request.id(), "crashed") : ok(request.id(), 0.1);
         EvolutionState end = run(settings(OperatorSet.CORRECTED, 16, 2, 5), flaky, 3);
 
         assertThat(end.history().get(0).failed()).isEqualTo(4);
@@ -162,33 +160,19 @@ class EvolutionTest {
 
     @Test
     void stopsWhenMostEvaluationsFail() {
-        Simulator broken = answering(request -> SimulationResult.failed(request.id(), "exit status 1"));
+        FakePool.Simulation broken = request -> SimulationResult.failed(request.id(), "exit status 1");
 
         assertThatThrownBy(() -> run(settings(OperatorSet.CORRECTED, 10, 2, 5), broken, 2))
                 .isInstanceOf(EvolutionFailedException.class)
                 .hasMessage("generation 0: 10 of 10 simulations failed, the first: exit status 1");
     }
 
-    private static Simulator constant(double distance) {
-        return answering(request -> ok(request.id(), distance));
+    private static FakePool.Simulation constant(double distance) {
+        return request -> ok(request.id(), distance);
     }
 
     private static SimulationResult ok(long id, double distance) {
         return new SimulationResult(id, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float",
                 null, null, null);
-    }
-
-    private static Simulator answering(Function<SimulationRequest, SimulationResult> answer) {
-        return new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) {
-                return answer.apply(request);
-            }
-
-            @Override
-            public void close() {
-                // Nothing is held.
-            }
-        };
     }
 }

@@ -50,7 +50,7 @@ class FaultInjectionTest {
                     evaluations.add(evaluation);
                     then.accept(evaluations.size());
                 }
-            }), new Recorded(0, List.of())).run(null);
+            }), new RecordedEvaluations(0, List.of())).run(null);
         }
         return evaluations;
     }

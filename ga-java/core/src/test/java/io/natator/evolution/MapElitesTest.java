@@ -5,18 +5,16 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.base.InvalidInputException;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.fitness.EffortEvaluator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.SortedMap;
@@ -82,7 +80,7 @@ class MapElitesTest {
     /** Of several starts a gait is of the kind of all its runs together, those in races too. */
     @Test
     void kindsAreByAllRuns() {
-        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Judge.MEAN));
+        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Aggregate.MEAN));
         EvolutionState end = recorder.states.get(4);
 
         assertThat(end.champions()).isNotEmpty().allSatisfy(one -> {
@@ -98,24 +96,13 @@ class MapElitesTest {
     /** As scheme flex, which cannot tell what its muscles do. */
     @Test
     void withoutWorkThereAreNoKinds() {
-        Simulator flex = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) {
-                return new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0, "completed", 4.0, 240, "flex", "float",
-                        null, null, null);
-            }
-
-            @Override
-            public void close() {
-                // Nothing is held.
-            }
-        };
-        try (WorkerPool pool = new WorkerPool(flex, 1)) {
+        FakePool.Simulation flex = request -> new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0, "completed", 4.0, 240, "flex", "float",
+                    null, null, null);
+        try (Evaluator pool = new FakePool(flex, 1)) {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
-                    new Recorded(0, List.of()));
+                    new RecordedEvaluations(0, List.of()));
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
                     .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
-            assertThatThrownBy(() -> EffortEvaluator.of(pool, null)).hasMessageContaining("the body's length is null");
         }
     }
 

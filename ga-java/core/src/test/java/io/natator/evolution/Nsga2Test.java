@@ -3,15 +3,15 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.fitness.ObjectiveEvaluator;
-import io.natator.process.WorkerPool;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -22,11 +22,11 @@ class Nsga2Test {
 
     private static EvolutionState run(int generations, int starts) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(24, generations)
-                .withSeed(3).withStarts(starts, Judge.MEAN)
+                .withSeed(3).withStarts(starts, Aggregate.MEAN)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            return new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
-                    new Recorded(0, List.of())).run(null);
+        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
+            return new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
+                    new RecordedEvaluations(0, List.of())).run(null);
         }
     }
 
@@ -71,7 +71,7 @@ class Nsga2Test {
 
         assertThat(end.champions()).allSatisfy(one -> {
             assertThat(one.runs()).isGreaterThan(3);
-            assertThat(one.objectives().get(0)).isCloseTo(Judge.MEAN.of(one.estimate().runs()), within(1e-12));
+            assertThat(one.objectives().get(0)).isCloseTo(Aggregate.MEAN.of(one.estimate().runs()), within(1e-12));
             assertThat(one.objectives().get(1)).isCloseTo(-ToySimulator.work(ENCODING.decode(one.genes())), within(1e-12));
         });
     }
@@ -81,9 +81,9 @@ class Nsga2Test {
     void weightsMakeOneObjective() {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
                 .withObjectives(OptimizerKind.CMA_ES, WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            EvolutionState end = new Evolution(settings, new ObjectiveEvaluator(pool, settings.problem().objectives()), List.of(),
-                    new Recorded(0, List.of())).run(null);
+        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
+            EvolutionState end = new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
+                    new RecordedEvaluations(0, List.of())).run(null);
             SimulationResult best = end.best().result();
             Gait gait = ENCODING.decode(end.best().genes());
             double distance = ToySimulator.distance(gait);

@@ -3,10 +3,10 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import io.natator.config.Aggregate;
 import io.natator.config.Budget;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import java.util.HashSet;
@@ -25,7 +25,7 @@ class RepeatsTest {
 
     private static EvolutionSettings settings(OptimizerKind optimizer, int generations) {
         return ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, generations).withSeed(6).withStarts(STARTS, Judge.MEAN));
+                .withSize(20, generations).withSeed(6).withStarts(STARTS, Aggregate.MEAN));
     }
 
     private static double truth(Individual one) {
@@ -91,7 +91,7 @@ class RepeatsTest {
                     .filter(one -> one.genes().equals(champion.genes())).toList();
             assertThat(own).extracting(EvaluationRecord::start).doesNotHaveDuplicates().hasSize(champion.runs());
             assertThat(champion.score()).isEqualTo(
-                    Judge.MEAN.of(own.stream().map(one -> one.result().score()).toList()));
+                    Aggregate.MEAN.of(own.stream().map(one -> one.result().score()).toList()));
         }
         assertThat(end.evaluations()).isEqualTo(recorder.evaluations.size());
     }
@@ -118,7 +118,7 @@ class RepeatsTest {
     void parentsAreChosenByTheirMeans() {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 1)
-                .withStarts(STARTS, Judge.MEAN), 2, null, List.of(), recorder);
+                .withStarts(STARTS, Aggregate.MEAN), 2, null, List.of(), recorder);
 
         List<List<Double>> best = recorder.states.get(0).population().stream()
                 .sorted((a, b) -> Double.compare(b.fitness(), a.fitness())).limit(4).map(Individual::genes).toList();
@@ -146,18 +146,18 @@ class RepeatsTest {
     void theJudgeHasItsSay() {
         EvolutionSettings mean = settings(OptimizerKind.RANDOM, 2);
         EvolutionState byMean = ToyEvolution.run(mean, 2, null, List.of());
-        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Judge.LOWER_QUARTILE), 2, null, List.of());
+        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Aggregate.LOWER_QUARTILE), 2, null, List.of());
 
         assertThat(byQuartile.champions()).allSatisfy(
-                one -> assertThat(one.score()).isEqualTo(Judge.LOWER_QUARTILE.of(one.estimate().runs())));
+                one -> assertThat(one.score()).isEqualTo(Aggregate.LOWER_QUARTILE.of(one.estimate().runs())));
         assertThat(byQuartile.history().get(0).mean()).isLessThan(byMean.history().get(0).mean());
     }
 
     @Test
     void freshStartsAreThoseOfNoGeneration() {
         for (int number = 0; number < 1000; number++) {
-            assertThat(Starts.fresh(number, number)).isGreaterThanOrEqualTo(1 << 30);
-            assertThat(Starts.of(number, number, number)).isBetween(0, (1 << 30) - 1);
+            assertThat(StartSeeds.fresh(number, number)).isGreaterThanOrEqualTo(1 << 30);
+            assertThat(StartSeeds.of(number, number, number)).isBetween(0, (1 << 30) - 1);
         }
     }
 }

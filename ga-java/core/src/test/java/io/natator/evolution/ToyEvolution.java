@@ -3,10 +3,10 @@ package io.natator.evolution;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
-import io.natator.fitness.EffortEvaluator;
-import io.natator.fitness.ObjectiveEvaluator;
+import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
-import io.natator.process.WorkerPool;
+import io.natator.process.FakePool;
+import io.natator.process.SceneInfo;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -27,15 +27,14 @@ final class ToyEvolution {
 
     static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
-            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), new Recorded(0, recorded)).run(from);
+        try (Evaluator pool = new FakePool(new ToySimulator(), workers)) {
+            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), new RecordedEvaluations(0, recorded)).run(from);
         }
     }
 
     /** What measures all that the settings ask for. */
     static Evaluator evaluator(EvolutionSettings settings, Evaluator toy) {
-        Evaluator worth = settings.problem().objectives() == null ? toy : new ObjectiveEvaluator(toy, settings.problem().objectives());
-        return settings.search().optimizer() == OptimizerKind.MAP_ELITES ? EffortEvaluator.of(worth, BODY_LENGTH) : worth;
+        return FitnessEvaluator.of(toy, settings, new SceneInfo("toy", 2, 1, 4, 1 / 60.0, 4, 4, BODY_LENGTH, 1, null));
     }
 
     /** Keeps all that a run folder keeps. */

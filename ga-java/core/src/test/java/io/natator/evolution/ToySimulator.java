@@ -1,7 +1,7 @@
 package io.natator.evolution;
 
 import io.natator.encoding.Gait;
-import io.natator.process.Simulator;
+import io.natator.process.FakePool;
 import io.natator.protocol.Course;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -9,7 +9,7 @@ import java.util.SplittableRandom;
 import java.util.concurrent.atomic.AtomicInteger;
 
 /** Swims by a formula, in this process; takes an uneven time so that workers finish out of order. */
-public final class ToySimulator implements Simulator {
+public final class ToySimulator implements FakePool.Simulation {
 
     static final double LUCK = 0.1;
 
@@ -60,10 +60,5 @@ public final class ToySimulator implements Simulator {
     /** How many evaluations were asked for. */
     public int calls() {
         return calls.get();
-    }
-
-    @Override
-    public void close() {
-        // Nothing is held.
     }
 }

@@ -4,15 +4,16 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.checkpoint.JudgedGaits;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
-import io.natator.fitness.NetEvaluator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
+import io.natator.fitness.FitnessEvaluator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -38,7 +39,7 @@ class UnstableGaitsTest {
     private static final List<String> LAWS = List.of("tank", "energy", "tank", "shape", "particle-energy");
 
     /** Half of the gaits cheat: they go ten units further than others, and break a law from some of their starts. */
-    private static class Cheats implements Simulator {
+    private static class Cheats implements FakePool.Simulation {
 
         private final ToySimulator toy = new ToySimulator();
         private final int oneOf;
@@ -62,11 +63,6 @@ class UnstableGaitsTest {
         static boolean cheats(Gait gait) {
             return gait.hashCode() % 2 == 0;
         }
-
-        @Override
-        public void close() {
-            toy.close();
-        }
     }
 
     private static SimulationResult unstable(long id, String law) {
@@ -76,23 +72,23 @@ class UnstableGaitsTest {
 
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        try (WorkerPool pool = new WorkerPool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new Recorded(0, List.of()))
+        try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
+            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new RecordedEvaluations(0, List.of()))
                     .run(null);
         }
         return recorder;
     }
 
     private static Stream<Arguments> ways() {
-        return Stream.of(OptimizerKind.values()).flatMap(optimizer -> Stream.of(Judge.values())
-                .filter(judge -> judge == Judge.MEAN || optimizer != OptimizerKind.NSGA2)
+        return Stream.of(OptimizerKind.values()).flatMap(optimizer -> Stream.of(Aggregate.values())
+                .filter(judge -> judge == Aggregate.MEAN || optimizer != OptimizerKind.NSGA2)
                 .flatMap(judge -> Stream.of(2, 3, 7).map(oneOf -> Arguments.of(optimizer, judge, oneOf))));
     }
 
     /** By whatever optimizer and judge: one broken run is enough. */
     @ParameterizedTest
     @MethodSource("ways")
-    void noOtherRunsWinForAGaitThatWasUnstable(OptimizerKind optimizer, Judge judge, int oneOf) {
+    void noOtherRunsWinForAGaitThatWasUnstable(OptimizerKind optimizer, Aggregate judge, int oneOf) {
         EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
                 .withSize(20, 4).withSeed(6).withStarts(4, judge));
         ToyEvolution.Recorder recorder = run(settings, oneOf);
@@ -127,7 +123,7 @@ class UnstableGaitsTest {
     @ValueSource(ints = {1, 4})
     void aRunTellsWhichLawsItsEvaluationsBroke(int starts) throws JsonProcessingException {
         ToyEvolution.Recorder recorder = run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 3)
-                .withSeed(2).withStarts(starts, Judge.MEAN), starts);
+                .withSeed(2).withStarts(starts, Aggregate.MEAN), starts);
 
         EvolutionState end = recorder.states.get(3);
         TreeMap<String, Integer> laws = new TreeMap<>();
@@ -145,14 +141,15 @@ class UnstableGaitsTest {
     @Test
     void whatIsUnstableInVacuumHasNoNetDistance() throws InterruptedException {
         SimulationRequest request = SimulationRequest.of("thesis/creature-1", new Gait(1.5, List.of(0.6), List.of(0.3))).withId(7);
-        Simulator simulator = new Cheats(1) {
+        FakePool.Simulation simulator = new Cheats(1) {
             @Override
             public SimulationResult evaluate(SimulationRequest one) throws InterruptedException {
                 return one.overrides() == null ? new ToySimulator().evaluate(one) : unstable(one.id(), "shape");
             }
         };
-        try (WorkerPool pool = new WorkerPool(simulator, 1)) {
-            SimulationResult result = new NetEvaluator(pool).evaluate(request);
+        try (Evaluator pool = new FakePool(simulator, 1)) {
+            SimulationResult result = FitnessEvaluator.of(pool, EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                    .withFitness(FitnessKind.NET, false).problem()).evaluate(request);
 
             assertThat(result.status()).isEqualTo(Status.UNSTABLE);
             assertThat(result.id()).isEqualTo(7);

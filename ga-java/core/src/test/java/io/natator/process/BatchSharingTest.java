@@ -75,18 +75,11 @@ class BatchSharingTest {
                 .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList());
     }
 
-    private static List<SimulationResult> evaluate(Evaluator evaluator, List<SimulationRequest> requests)
-            throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
-        evaluator.evaluateInOrder(requests, results::add);
-        return results;
-    }
-
     @Test
     void eachGetsItsShare() throws InterruptedException, IOException {
         List<SimulationResult> results;
         try (Evaluator evaluator = open(Stream.of("a", "b", "c").map(name -> met(name, 3) + noted(name)).toArray(String[]::new))) {
-            results = evaluate(evaluator, requests(41));
+            results = evaluator.evaluate(requests(41));
         }
 
         assertThat(results).extracting(SimulationResult::id).containsExactlyElementsOf(LongStream.range(0, 41).boxed().toList());
@@ -99,7 +92,7 @@ class BatchSharingTest {
         int generations = 0;
         try (Evaluator evaluator = open(broken("broken"), noted("sound"))) {
             for (int more = 6; more > 0 && generations < 1000; generations++) {
-                assertThat(evaluate(evaluator, requests(30))).hasSize(30)
+                assertThat(evaluator.evaluate(requests(30))).hasSize(30)
                         .allSatisfy(result -> assertThat(result.status()).isEqualTo(Status.OK));
                 more -= asked("broken") < 2 ? 0 : 1;
             }
@@ -115,14 +108,14 @@ class BatchSharingTest {
         requests.set(17, FakeSimulator.request(17, "fault/killed"));
         try (Evaluator evaluator = open(noted("a"), noted("b"))) {
             for (int generation = 0; generation < 4; generation++) {
-                for (SimulationResult result : evaluate(evaluator, requests)) {
+                for (SimulationResult result : evaluator.evaluate(requests)) {
                     assertThat(result.status()).isEqualTo(result.id() == 17 ? Status.FAILED : Status.OK);
                 }
             }
             long a = asked("a");
             long b = asked("b");
             for (int i = 0; i < 1000 && (asked("a") == a || asked("b") == b); i++) {
-                evaluate(evaluator, requests(20));  // where one comes late, the other has done all
+                evaluator.evaluate(requests(20));  // where one comes late, the other has done all
             }
             assertThat(asked("a")).isGreaterThan(a);
             assertThat(asked("b")).isGreaterThan(b);
@@ -132,7 +125,7 @@ class BatchSharingTest {
     @Test
     void whereAllAreBrokenResultsSayWhy() throws InterruptedException {
         try (Evaluator evaluator = open(broken("a"), broken("b"))) {
-            assertThat(evaluate(evaluator, requests(3))).hasSize(3)
+            assertThat(evaluator.evaluate(requests(3))).hasSize(3)
                     .allSatisfy(result -> assertThat(result.error()).contains("output ended"));
         }
     }

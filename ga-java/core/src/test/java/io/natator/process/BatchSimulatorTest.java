@@ -9,8 +9,6 @@ import com.fasterxml.jackson.databind.JsonSerializable;
 import com.fasterxml.jackson.databind.SerializerProvider;
 import com.fasterxml.jackson.databind.jsontype.TypeSerializer;
 import com.fasterxml.jackson.databind.node.POJONode;
-import io.natator.config.Backend;
-import io.natator.config.ExecutionSettings;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -47,11 +45,9 @@ class BatchSimulatorTest {
 
     private List<SimulationResult> evaluate(List<SimulationRequest> requests, double timeoutSeconds)
             throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
         try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
-            evaluator.evaluateInOrder(requests, results::add);
+            return evaluator.evaluate(requests);
         }
-        return results;
     }
 
     @Test
@@ -106,25 +102,6 @@ class BatchSimulatorTest {
         }
     }
 
-    @Test
-    void aMissingDeviceIsToldOf() {
-        try (Evaluator evaluator = new BatchSimulator(
-                FakeSimulator.execution(folder, PATIENCE).withBackend(Backend.CUDA))) {
-            assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
-                    .isInstanceOf(RequestRejectedException.class).hasMessage("no such device here");
-        }
-    }
-
-    @Test
-    void aProgramThatCannotStartIsToldOf() {
-        ExecutionSettings execution = FakeSimulator.execution(folder, PATIENCE);
-        assertThat(execution.simulator().toFile().setExecutable(false, false)).isTrue();
-        try (Evaluator evaluator = new BatchSimulator(execution)) {
-            assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
-                    .isInstanceOf(RequestRejectedException.class).hasMessageStartingWith("cannot start ");
-        }
-    }
-
     /** Whoever asks then, or later, would wait for ever. */
     @Test
     void whatEndsTheThreadThatComputesIsToldToAll() {
@@ -148,26 +125,6 @@ class BatchSimulatorTest {
     }
 
     @Test
-    void closingFreesWhoWaits() throws InterruptedException {
-        Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE));
-        List<Exception> outcomes = new ArrayList<>();
-        Thread caller = new Thread(() -> {
-            try {
-                evaluator.evaluate(FakeSimulator.request(1, "fault/hang"));
-            } catch (InterruptedException e) {
-                outcomes.add(e);
-            }
-        });
-        caller.start();
-        Processes.awaitChild();
-
-        evaluator.close();
-        caller.join();
-
-        assertThat(outcomes).hasSize(1);
-    }
-
-    @Test
     void callersShareTheProcessAndGetTheirOwn() throws InterruptedException {
         List<Thread> callers = new ArrayList<>();
         List<List<SimulationResult>> all = new ArrayList<>();
@@ -177,7 +134,7 @@ class BatchSimulatorTest {
                 all.add(own);
                 callers.add(new Thread(() -> {
                     try {
-                        evaluator.evaluateInOrder(requests(30, "thesis/creature-1"), own::add);
+                        own.addAll(evaluator.evaluate(requests(30, "thesis/creature-1")));
                     } catch (InterruptedException e) {
                         Thread.currentThread().interrupt();
                     }

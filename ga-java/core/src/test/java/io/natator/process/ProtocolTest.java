@@ -14,7 +14,6 @@ import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
 import io.natator.encoding.SparseEncoding;
-import io.natator.protocol.Perturbation;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
@@ -57,8 +56,7 @@ class ProtocolTest {
                 new SimulationRequest(2, "a", dense.decode(List.of(2.0, 1.0, 0.0, 1.0, 1.0, 0.0)), 4.0, Scheme.FLEX,
                         patch),
                 new SimulationRequest(3, "a", sparse.decode(List.of(0.5, 1.0, 0.0, 1.0)), 0.1, Scheme.CONSERVING, null),
-                new SimulationRequest(4, "a", new Gait(1, List.of(0.5), List.of(0.0), 0.5), null, null, null,
-                        new Perturbation(1e-6, 1)));
+                new SimulationRequest(4, "a", new Gait(1, List.of(0.5), List.of(0.0), 0.5), null, null, null));
 
         for (SimulationRequest request : requests) {
             assertThat(check("request.schema.json", Json.line(request))).as(Json.line(request)).isEmpty();
@@ -89,7 +87,7 @@ class ProtocolTest {
     void answersFitTheSchema(String scene) throws Exception {
         try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofMinutes(5))) {
             String answer = program.call(List.of("evaluate"),
-                    Json.line(FakeSimulator.request(5, scene)) + "\n").text();
+                    Json.line(FakeSimulator.request(5, scene)) + "\n", line -> { }).text();
             assertThat(check("result.schema.json", answer)).as(answer).isEmpty();
         }
     }

@@ -41,7 +41,7 @@ class RealProtocolTest {
 
         String answer;
         try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-            answer = program.call(List.of("evaluate"), Json.line(request) + "\n").text();
+            answer = program.call(List.of("evaluate"), Json.line(request) + "\n", line -> { }).text();
         }
 
         assertThat(ProtocolTest.check("result.schema.json", answer)).as(answer).isEmpty();
@@ -60,7 +60,7 @@ class RealProtocolTest {
         for (Integer start : Arrays.asList(3, 4, 3, null)) {
             try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
                 results.add(ResultReader.read(
-                        program.call(List.of("evaluate"), Json.line(request.withStart(start)) + "\n").text()));
+                        program.call(List.of("evaluate"), Json.line(request.withStart(start)) + "\n", line -> { }).text()));
             }
         }
 
@@ -77,7 +77,7 @@ class RealProtocolTest {
         List<Double> eight = Collections.nCopies(8, 0.5);
         SimulationRequest swim = new SimulationRequest(9, scene, new Gait(2, eight, eight), 0.2, null, null);
         try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n").text();
+            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n", line -> { }).text();
             assertThat(ResultReader.read(answer).distance()).as(answer).isCloseTo(0, within(1e-4));
         }
     }

@@ -15,7 +15,6 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.LongStream;
@@ -54,13 +53,12 @@ class ServeCommandsTest {
 
     private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
             throws InterruptedException {
-        List<SimulationResult> results = new ArrayList<>();
         try (Evaluator evaluator = Evaluator.open(settings)) {
-            evaluator.evaluateInOrder(LongStream.range(0, requests)
-                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList(), results::add);
+            return evaluator.evaluate(LongStream.range(0, requests)
+                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList());
+        } finally {
+            assertThatNoChildIsLeft();
         }
-        assertThatNoChildIsLeft();
-        return results;
     }
 
     /** Each waits for the other to be started, so that none is left idle before. */

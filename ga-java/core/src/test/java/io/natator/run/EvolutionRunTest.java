@@ -9,15 +9,15 @@ import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.EvaluationStatistics;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.VacuumRecord;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
@@ -27,10 +27,8 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -66,8 +64,8 @@ class EvolutionRunTest {
     /** Runs in a folder of this name; gives the number of simulations. */
     private int run(String name, EvolutionSettings settings, ExecutionSettings how) throws InterruptedException {
         ToySimulator simulator = new ToySimulator();
-        try (RunFolder run = RunFolder.create(folder.resolve(name), settings);
-                Evaluator inner = new WorkerPool(simulator, 2);
+        try (RunWriter run = RunWriter.create(folder.resolve(name), settings);
+                Evaluator inner = new FakePool(simulator, 2);
                 Evaluator evaluator = how.cache() == null ? inner
                         : new CachedEvaluator(inner, new EvaluationCache(how.cache()), how)) {
             new EvolutionRun(run).run(how, evaluator);
@@ -95,8 +93,8 @@ class EvolutionRunTest {
         assertThat(longer).isBetween(1, without / 4);
         assertSame("first", "without");
         assertSame("second", "without");
-        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        assertThat(RunReader.statistics(folder.resolve("without")).fromCache()).isZero();
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("second"));
         assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isEqualTo(without - 1 - 2 * 4);
     }
 
@@ -120,9 +118,9 @@ class EvolutionRunTest {
     void savingsAddUp() throws InterruptedException, IOException {
         run("run", SETTINGS, execution);
 
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("run"));
         EvolutionState end;
-        try (RunFolder run = RunFolder.open(folder.resolve("run"))) {
+        try (RunWriter run = RunWriter.open(folder.resolve("run"))) {
             end = run.checkpoint();
         }
         assertThat(statistics.evaluations()).isEqualTo(end.evaluations());
@@ -139,7 +137,7 @@ class EvolutionRunTest {
     @CsvSource({"map-elites, 1", "map-elites, 2", "jgap, 1", "jgap, 2", "random, 1", "cma-es, 2", "nsga2, 1"})
     void unchangedIsWhatWasNotNewlySimulated(String optimizer, int starts) throws InterruptedException, IOException {
         OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = SETTINGS.withStarts(starts, Judge.MEAN).withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
+        EvolutionSettings settings = SETTINGS.withStarts(starts, Aggregate.MEAN).withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
                 : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
         List<EvolutionState> states = new ArrayList<>();
         EvolutionListener recorder = new EvolutionListener() {
@@ -148,8 +146,8 @@ class EvolutionRunTest {
                 states.add(state);
             }
         };
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+        try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
+                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             new EvolutionRun(run).run(execution, evaluator, recorder);
         }
 
@@ -162,14 +160,14 @@ class EvolutionRunTest {
                     .filter(born::contains).count();
             known.addAll(born);
         }
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("run"));
         assertThat(statistics.unchanged()).isEqualTo(unchanged).isGreaterThanOrEqualTo(0);
 
         String whole = Files.readString(folder.resolve("run/savings.json"));
         Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(states.get(2)));
         Files.delete(folder.resolve("run/digests.json"));  // else it is noticed
-        try (RunFolder again = RunFolder.open(folder.resolve("run"));
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+        try (RunWriter again = RunWriter.open(folder.resolve("run"));
+                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);
         }
         assertThat(folder.resolve("run/savings.json")).hasContent(whole);
@@ -180,7 +178,7 @@ class EvolutionRunTest {
     void nothingIsSavedWhereNothingEndsEarly() throws InterruptedException {
         run("short", SETTINGS.withScene(null, 0.1, null), execution);
 
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("short"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("short"));
         assertThat(statistics.simulatedSeconds()).isEqualTo(statistics.wholeSeconds());
         assertThat(statistics.shareOfEarlyStops()).isEqualTo(0.0);
         assertThat(new EvaluationStatistics(30, 0, 0, 0, 3.0000000000000004, 3, null).shareOfEarlyStops())
@@ -192,29 +190,19 @@ class EvolutionRunTest {
     @CsvSource({"4.0, 4.0, 240, false", "4.0, 3.9833, 239, true", "0.11, 0.1166667, 7, false", "0.11, 0.1, 6, true", "0.108, 0.1, 6, false"})
     void onlyWhatWasNotSimulatedWholeEndedEarly(double duration, double simulated, int frames, boolean early) throws InterruptedException {
         ToySimulator toy = new ToySimulator();
-        Simulator stopped = new Simulator() {
-            @Override
-            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
-                return toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
-            }
-
-            @Override
-            public void close() {
-                toy.close();
-            }
-        };
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
-                Evaluator evaluator = new WorkerPool(stopped, 2)) {
+        FakePool.Simulation stopped = request -> toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
+        try (RunWriter run = RunWriter.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
+                Evaluator evaluator = new FakePool(stopped, 2)) {
             new EvolutionRun(run).run(execution, evaluator);
         }
 
-        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        EvaluationStatistics statistics = RunReader.statistics(folder.resolve("run"));
         assertThat(statistics.stoppedEarly()).isEqualTo(early ? statistics.simulations() : 0);
         assertThat(statistics.shareOfEarlyStops()).isCloseTo(early ? 1 - simulated / duration : 0, within(1e-9));
     }
 
     private List<EvaluationRecord> evaluations(String name) {
-        return StoredRun.recorded(folder.resolve(name)).rows();
+        return RunReader.recorded(folder.resolve(name)).rows();
     }
 
     /** The toy swims best at f = 1.2, where it drifts 0.2 in vacuum: no more than what remains is to count. */
@@ -247,7 +235,7 @@ class EvolutionRunTest {
         run("run", SETTINGS.withSize(20, 10).withFitness(FitnessKind.DISTANCE, true), execution);
         run("without", SETTINGS, execution);
 
-        List<VacuumRecord> records = StoredRun.vacuumRecords(folder.resolve("run"));
+        List<VacuumRecord> records = RunReader.vacuumRecords(folder.resolve("run"));
         List<EvaluationRecord> evaluations = evaluations("run");
         double best = Double.NEGATIVE_INFINITY;
         List<Long> newBests = new ArrayList<>();
@@ -263,15 +251,15 @@ class EvolutionRunTest {
         assertThat(records).extracting(VacuumRecord::evaluation).isEqualTo(newBests).hasSizeGreaterThan(1);
         assertThat(records).allSatisfy(record -> assertThat(record.drift())
                 .isEqualTo(evaluations.get((int) record.evaluation()).gait().frequency() - 1.0));
-        assertThat(StoredRun.vacuumRecords(folder.resolve("without"))).isEmpty();
+        assertThat(RunReader.vacuumRecords(folder.resolve("without"))).isEmpty();
 
         String before = Files.readString(folder.resolve("run/vacuum.jsonl"));
         Files.delete(folder.resolve("run/vacuum.jsonl"));
-        assertThatThrownBy(() -> RunFolder.open(folder.resolve("run"))).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> RunWriter.open(folder.resolve("run"))).isInstanceOf(InvalidInputException.class)
                 .hasMessageStartingWith(folder.resolve("run") + " is damaged: it has no vacuum.jsonl");
         Files.delete(folder.resolve("run/digests.json"));
-        try (RunFolder again = RunFolder.open(folder.resolve("run"));
-                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+        try (RunWriter again = RunWriter.open(folder.resolve("run"));
+                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
             new EvolutionRun(again).run(execution, evaluator);
         }
         assertThat(before).endsWith(Files.readString(folder.resolve("run/vacuum.jsonl")));

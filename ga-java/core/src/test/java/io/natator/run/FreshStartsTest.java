@@ -6,18 +6,18 @@ import static org.assertj.core.api.Assertions.within;
 
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.SwimSample;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
-import io.natator.config.Judge;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.ToySimulator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -40,9 +40,9 @@ class FreshStartsTest {
     private final List<SimulationRequest> asked = new ArrayList<>();
 
     /** The toy swimmer, who takes down what it is asked. */
-    private final class Recorder implements Simulator {
+    private final class Recorder implements FakePool.Simulation {
 
-        private final Simulator toy = new ToySimulator();
+        private final FakePool.Simulation toy = new ToySimulator();
         private final Predicate<SimulationRequest> refused;
         private final RequestRejectedException refusal;
 
@@ -61,19 +61,14 @@ class FreshStartsTest {
             }
             return toy.evaluate(request);
         }
-
-        @Override
-        public void close() {
-            toy.close();
-        }
     }
 
-    private BestGait best(int starts, Judge judge, Recorder simulator) throws InterruptedException {
+    private BestGait best(int starts, Aggregate judge, Recorder simulator) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(12, 3)
                 .withStarts(starts, judge);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                WorkerPool pool = new WorkerPool(simulator, 2)) {
+        try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
+                Evaluator pool = new FakePool(simulator, 2)) {
             BestGait best = new EvolutionRun(run).run(how, pool).best();
             assertThat(Json.read(folder.resolve("run/best.json"), BestGait.class, "best")).isEqualTo(best);
             return best;
@@ -82,10 +77,10 @@ class FreshStartsTest {
 
     @ParameterizedTest
     @CsvSource({"1, MEAN, 4", "3, MEDIAN, 6", "4, LOWER_QUARTILE, 8"})
-    void aWinnerIsRunFromStartsThatNoGenerationHad(int starts, Judge judge, int fresh) throws InterruptedException {
+    void aWinnerIsRunFromStartsThatNoGenerationHad(int starts, Aggregate judge, int fresh) throws InterruptedException {
         BestGait best = best(starts, judge, new Recorder(request -> false, null));
 
-        List<EvaluationRecord> evolved = RunFolder.open(folder.resolve("run")).recorded().rows();
+        List<EvaluationRecord> evolved = RunWriter.open(folder.resolve("run")).recorded().rows();
         List<Integer> used = evolved.stream().map(EvaluationRecord::start).toList();
         List<SimulationRequest> after = asked.stream()
                 .filter(one -> one.start() != null && !used.contains(one.start())).toList();
@@ -117,7 +112,7 @@ class FreshStartsTest {
     /** What the run found is not lost where the simulator does not know starts. */
     @Test
     void withoutFreshStartsThereIsStillAWinner() throws InterruptedException {
-        BestGait best = best(1, Judge.MEAN,
+        BestGait best = best(1, Aggregate.MEAN,
                 new Recorder(request -> request.start() != null, FakeSimulator.rejection("request: start: unknown")));
 
         assertThat(best.fresh()).isNull();
@@ -131,7 +126,7 @@ class FreshStartsTest {
         Recorder leaving = new Recorder(request -> inVacuum ? request.overrides() != null : request.start() != null,
                 new RequestRejectedException("cannot start natator-sim", false));
 
-        assertThatThrownBy(() -> best(1, Judge.MEAN, leaving)).isInstanceOf(RequestRejectedException.class)
+        assertThatThrownBy(() -> best(1, Aggregate.MEAN, leaving)).isInstanceOf(RequestRejectedException.class)
                 .hasMessage("cannot start natator-sim");
     }
 

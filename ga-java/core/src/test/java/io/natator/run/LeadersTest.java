@@ -4,16 +4,16 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.checkpoint.Leader;
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
+import io.natator.checkpoint.RunWriter;
+import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Judge;
 import io.natator.evolution.ToySimulator;
+import io.natator.process.Evaluator;
+import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.process.Simulator;
-import io.natator.process.WorkerPool;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
@@ -30,9 +30,9 @@ class LeadersTest {
     private Path folder;
 
     /** The toy swimmer, who touches a wall after 1 s of 4 if it is quick. */
-    private static final class Hurried implements Simulator {
+    private static final class Hurried implements FakePool.Simulation {
 
-        private final Simulator toy = new ToySimulator();
+        private final FakePool.Simulation toy = new ToySimulator();
 
         @Override
         public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
@@ -40,24 +40,19 @@ class LeadersTest {
             return one.distance() < 0.2 ? one : new SimulationResult(one.id(), one.status(), one.distance(), "touched-plane", 1.0,
                     60, one.scheme(), one.precision(), one.hash(), null, null);
         }
-
-        @Override
-        public void close() {
-            toy.close();
-        }
     }
 
     @ParameterizedTest
     @CsvSource({"1, 1", "1, 2", "3, 1", "3, 2", "4, 3"})
     void theLastLeaderIsTheWinner(int starts, long seed) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 8)
-                .withStarts(starts, Judge.MEAN).withSeed(seed);
+                .withStarts(starts, Aggregate.MEAN).withSeed(seed);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
-        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                WorkerPool pool = new WorkerPool(new Hurried(), 2)) {
+        try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
+                Evaluator pool = new FakePool(new Hurried(), 2)) {
             new EvolutionRun(run).run(how, pool);
         }
-        StoredRun run = StoredRun.in(folder.resolve("run"));
+        RunReader run = RunReader.in(folder.resolve("run"));
 
         List<Leader> leaders = run.leaders();
 

@@ -10,7 +10,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import io.natator.encoding.Gait;
 import io.natator.protocol.SimulationResult;
 import java.util.Arrays;
@@ -38,7 +38,7 @@ class MeasureTest {
 
     @Test
     void aWinnerWithAllThatCanBeKnown() {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(1.8, 1.8), Judge.MEAN, 2.5, 1, List.of(2.0));
+        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(1.8, 1.8), Aggregate.MEAN, 2.5, 1, List.of(2.0));
         Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(1.9, 2.1), sample(0.0), sample(0.0), null,
                 sample(1.8), sample(0.5), sample(2.0), "cuda", 0.4);
 
@@ -85,7 +85,7 @@ class MeasureTest {
     @ParameterizedTest
     @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})
     void halfTheTimeStepMayChangeAWayByHalfOfIt(double half, Measure.Outcome outcome) {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(half), Judge.MEAN, 2.0, 1, List.of(2.0));
+        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(half), Aggregate.MEAN, 2.0, 1, List.of(2.0));
 
         assertThat(Measure.of(best(fresh, 0), null)).filteredOn(one -> one.name().equals("half the time step"))
                 .extracting(Measure::outcome, Measure::expected).containsExactly(tuple(outcome, "its way to within half of it"));
@@ -93,7 +93,7 @@ class MeasureTest {
 
     @Test
     void runsThatDifferTooMuchDoNotShowAWay() {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(-1, 1.4), sample(0.05), Judge.MEAN, 0.3, 1, List.of(0.2));
+        FreshRuns fresh = FreshRuns.of(4.0, sample(-1, 1.4), sample(0.05), Aggregate.MEAN, 0.3, 1, List.of(0.2));
 
         assertThat(Measure.of(best(fresh, 0), null)).extracting(Measure::outcome).startsWith(FAILS, FAILS, HOLDS, FAILS);
     }

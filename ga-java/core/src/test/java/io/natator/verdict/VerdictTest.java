@@ -6,7 +6,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import io.natator.encoding.Gait;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulationResult.Status;
@@ -74,7 +74,7 @@ class VerdictTest {
         List<SimulationResult> runs = Arrays.stream(distances.split(" "))
                 .map(one -> result(Double.parseDouble(one), stopped, 1, "conserving")).toList();
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(runs, 4, gait, 4.0, LENGTH),
-                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Judge.MEAN, 9, 1, List.of(1.0));
+                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Aggregate.MEAN, 9, 1, List.of(1.0));
         BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, null, 9, 9, result(9, "completed", 4, "conserving"),
                 LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
 
@@ -89,7 +89,7 @@ class VerdictTest {
     @CsvSource(delimiter = '|', value = {"1|0|; 1 of 4 runs was unstable", "2|0|; 2 of 4 runs were unstable",
         "0|1|; 1 of 4 runs was unstable at half the time step", "0|0|''"})
     void noVerdictByTheOtherRunsOfAGaitThatWasUnstable(int base, int half, String doubt) {
-        FreshRuns fresh = FreshRuns.of(4.0, runs(base), runs(half), Judge.MEAN, 9, 1, List.of(1.0));
+        FreshRuns fresh = FreshRuns.of(4.0, runs(base), runs(half), Aggregate.MEAN, 9, 1, List.of(1.0));
         BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 9, 9, result(9, "completed", 4, "conserving"),
                 LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
 

@@ -5,7 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Judge;
+import io.natator.config.Aggregate;
 import io.natator.encoding.Gait;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SwimmingNumbers;
@@ -41,7 +41,7 @@ class WinnerFactsTest {
     @Test
     void aReaderOfAWinnerIsToldAll() {
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(result(1.9), result(2.1)), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, List.of(2.0));
+                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1, List.of(2.0));
 
         assertThat(WinnerFacts.of(run, best(fresh))).containsExactly(
                 Map.entry("verdict", "swims: 0.40 ± 0.03 body lengths/s, 0.36 at half the time step, 0.00 in vacuum"),
@@ -69,7 +69,7 @@ class WinnerFactsTest {
     void coarseWaterIsTold(Double across, String told) {
         SimulationResult one = result(2.0, across);
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(one), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(one), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, List.of(2.0));
+                SwimSample.of(List.of(one), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1, List.of(2.0));
         String flow = "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes" + (told == null ? "" : told);
         for (FreshRuns runs : Arrays.asList(null, fresh)) {
             BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, one, 1.25, result(0), 2.5, 1, runs);

@@ -29,7 +29,7 @@ final class Cluster {
      */
     private static final Map<String, String> SETTINGS = Map.ofEntries(
             Map.entry("spark.app.name", "natator"),
-            Map.entry("spark.log.level", "ERROR"),  // failed tasks are told of in one line each, see ExecutorNews
+            Map.entry("spark.log.level", "ERROR"),  // failed tasks are told of in one line each, see ExecutorLog
             Map.entry("spark.scheduler.mode", "FAIR"),
             Map.entry("spark.locality.wait", "0"),
             Map.entry("spark.ui.showConsoleProgress", "false"),
@@ -50,7 +50,7 @@ final class Cluster {
     private static Cluster present;
 
     private final JavaSparkContext context;
-    private final ExecutorNews news = new ExecutorNews();
+    private final ExecutorLog log = new ExecutorLog();
     private final Path folder;
     private final Set<String> files = new HashSet<>();
     private volatile long alone = System.nanoTime();
@@ -60,7 +60,7 @@ final class Cluster {
         this.context = context;
         this.folder = Files.createTempDirectory("natator-cluster");
         folder.toFile().deleteOnExit();
-        context.sc().addSparkListener(news);
+        context.sc().addSparkListener(log);
     }
 
     /**
@@ -123,8 +123,8 @@ final class Cluster {
         return context;
     }
 
-    ExecutorNews news() {
-        return news;
+    ExecutorLog log() {
+        return log;
     }
 
     /** Whether Spark has given up, as where the master is gone. */

@@ -4,10 +4,9 @@ import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.process.BatchSimulator;
+import io.natator.process.Evaluator;
 import io.natator.process.ProcessSimulator;
 import io.natator.process.ProgramInfo;
-import io.natator.process.ResidentSimulator;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -21,7 +20,7 @@ import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 
 /**
- * The native program of an executor: processes that stay alive for all its tasks, of one kind of mission on one device. Gets
+ * The native program of an executor: processes that stay alive for all its tasks, of one configuration on one device. Gets
  * no work before it was seen to do as the driver's.
  */
 final class ExecutorSimulator {
@@ -30,13 +29,12 @@ final class ExecutorSimulator {
 
     private final Path program;
     private final ExecutionSettings settings;
-    private final ResidentSimulator resident;
-    private final BatchSimulator batches;
+    private final Evaluator simulator;
     /** Samples that came out as they should. */
     private final Set<String> done = ConcurrentHashMap.newKeySet();
     private ProgramInfo info;
 
-    /** What missions have in common that can share processes. */
+    /** What configurations have in common that can share processes. */
     private record Key(Path program, Backend backend, int device, long timeout) {
     }
 
@@ -48,25 +46,25 @@ final class ExecutorSimulator {
         this.program = key.program;
         boolean alone = key.backend == Backend.CPU;
         this.settings = ExecutionSettings.of(key.program).withMode(alone ? SimulatorMode.RESIDENT : SimulatorMode.BATCH)
-                .withBackend(key.backend).withDevices(List.of(key.device)).withWorkers(1).withTimeout(Duration.ofMillis(key.timeout));
-        this.resident = alone ? new ResidentSimulator(settings) : null;
-        this.batches = alone ? null : new BatchSimulator(settings);
+                .withBackend(key.backend).withDevices(List.of(key.device))
+                .withWorkers(Runtime.getRuntime().availableProcessors()).withTimeout(Duration.ofMillis(key.timeout));
+        this.simulator = Evaluator.open(settings);
     }
 
     /**
-     * The one for a mission on a device; the same for all tasks of this virtual machine.
+     * The one for a configuration on a device; the same for all tasks of this virtual machine.
      *
      * @throws UnfitExecutorException if this executor does otherwise than the driver
      */
-    static ExecutorSimulator of(Mission mission, int device) throws UnfitExecutorException, InterruptedException {
+    static ExecutorSimulator of(ExecutorConfig config, int device) throws UnfitExecutorException, InterruptedException {
         ExecutorSimulator simulator = ALL.computeIfAbsent(
-                new Key(SentFile.get(mission.program()), mission.backend(), device, mission.timeout()), ExecutorSimulator::new);
-        simulator.check(mission, false);
+                new Key(SentFile.get(config.program()), config.backend(), device, config.timeout()), ExecutorSimulator::new);
+        simulator.check(config, false);
         return simulator;
     }
 
     /** One check at a time: what one task finds out the others need not. */
-    private synchronized void check(Mission mission, boolean again) throws UnfitExecutorException, InterruptedException {
+    private synchronized void check(ExecutorConfig config, boolean again) throws UnfitExecutorException, InterruptedException {
         if (info == null) {
             try {
                 info = ProgramInfo.of(program);
@@ -74,22 +72,22 @@ final class ExecutorSimulator {
                 throw new UnfitExecutorException("the native program does not run: " + e.getMessage(), e);
             }
         }
-        if (mission.instructionSet() != null && !mission.instructionSet().equals(info.instructionSet())) {
+        if (config.instructionSet() != null && !config.instructionSet().equals(info.instructionSet())) {
             throw new UnfitExecutorException("instruction set is " + info.instructionSet() + ", the driver's is "
-                    + mission.instructionSet() + ": last digits would differ; set NATATOR_ISA for all to what all have");
+                    + config.instructionSet() + ": last digits would differ; set NATATOR_ISA for all to what all have");
         }
-        if (mission.gpu() != null && !mission.gpu().equals(gpu())) {
-            throw new UnfitExecutorException("GPU is " + gpu() + ", the first was " + mission.gpu()
+        if (config.gpu() != null && !config.gpu().equals(gpu())) {
+            throw new UnfitExecutorException("GPU is " + gpu() + ", the first was " + config.gpu()
                     + ": last digits would differ");
         }
-        if (mission.hash() != null && (again || !done.contains(mission.hash()))) {
-            SimulationResult result = swim(mission.sample());
-            if (!mission.hash().equals(result.hash())) {
-                throw new UnfitExecutorException("swims otherwise than " + (mission.backend() == Backend.CPU ? "the driver"
+        if (config.hash() != null && (again || !done.contains(config.hash()))) {
+            SimulationResult result = swim(config.sample());
+            if (!config.hash().equals(result.hash())) {
+                throw new UnfitExecutorException("swims otherwise than " + (config.backend() == Backend.CPU ? "the driver"
                         : "the first GPU") + " (hash " + Objects.requireNonNullElse(result.hash(), "none: " + result.error())
-                        + ", not " + mission.hash() + ", after " + mission.sample().duration() + " s)");
+                        + ", not " + config.hash() + ", after " + config.sample().duration() + " s)");
             }
-            done.add(mission.hash());
+            done.add(config.hash());
         }
     }
 
@@ -98,8 +96,8 @@ final class ExecutorSimulator {
      *
      * @throws UnfitExecutorException if the sample comes to no end that can be compared
      */
-    Kind kind(Mission mission) throws UnfitExecutorException, InterruptedException {
-        SimulationResult result = swim(mission.sample());
+    Kind kind(ExecutorConfig config) throws UnfitExecutorException, InterruptedException {
+        SimulationResult result = swim(config.sample());
         if (result.hash() == null) {
             throw new UnfitExecutorException("the first swim has no end to compare others with: " + result.error());
         }
@@ -130,7 +128,7 @@ final class ExecutorSimulator {
      *
      * @throws UnfitExecutorException if it is this executor that fails
      */
-    List<SimulationResult> evaluate(List<SimulationRequest> requests, Mission mission)
+    List<SimulationResult> evaluate(List<SimulationRequest> requests, ExecutorConfig config)
             throws UnfitExecutorException, InterruptedException {
         List<SimulationResult> results = new ArrayList<>();
         List<SimulationRequest> here = new ArrayList<>();
@@ -138,21 +136,21 @@ final class ExecutorSimulator {
             here.add(located(request));
         }
         try {
-            if (batches != null) {
-                batches.evaluateAll(here, results::add);
+            if (settings.inBatches()) {
+                simulator.evaluateAll(here, results::add);
             } else {
                 for (SimulationRequest request : here) {
-                    results.add(resident.evaluate(request));
+                    results.add(simulator.evaluate(request));
                 }
             }
         } catch (RequestRejectedException e) {
             if (!e.isBadInput()) {
                 throw new UnfitExecutorException(e.getMessage(), e);
             }
-            results.add(refused(batches == null ? here.get(results.size()).id() : null, e.getMessage()));
+            results.add(refused(settings.inBatches() ? null : here.get(results.size()).id(), e.getMessage()));
         }
         if (results.stream().anyMatch(result -> result.status() == SimulationResult.Status.FAILED)) {
-            check(mission, true);
+            check(config, true);
         }
         return results;
     }

@@ -12,18 +12,18 @@ import org.apache.spark.TaskContext;
 import org.apache.spark.api.java.function.FlatMapFunction;
 import org.apache.spark.resource.ResourceInformation;
 
-/** What an executor does with a part of a generation: a list of requests in, an {@link Answer} out, both as JSON. */
+/** What an executor does with a part of a generation: a list of requests in, an {@link PartitionResponse} out, both as JSON. */
 final class Partition implements FlatMapFunction<Iterator<String>, String> {
 
     private static final long serialVersionUID = 1L;
     private static final String GPU = "gpu";
     private static final double NANOSECONDS = 1e9;
 
-    private final String mission;
+    private final String config;
 
-    /** The mission as JSON. */
-    Partition(String mission) {
-        this.mission = mission;
+    /** The configuration as JSON. */
+    Partition(String config) {
+        this.config = config;
     }
 
     @Override
@@ -38,21 +38,21 @@ final class Partition implements FlatMapFunction<Iterator<String>, String> {
 
     private String answer(List<SimulationRequest> requests)
             throws UnfitExecutorException, InterruptedException, JsonProcessingException {
-        Mission known = Json.parse(mission, Mission.class);
+        ExecutorConfig known = Json.parse(config, ExecutorConfig.class);
         ExecutorSimulator simulator = ExecutorSimulator.of(known, device(known));
         if (known.backend() != Backend.CPU && known.hash() == null) {
             return Json.line(simulator.kind(known));
         }
         long begun = System.nanoTime();
         List<SimulationResult> results = simulator.evaluate(requests, known);
-        return Json.line(new Answer((System.nanoTime() - begun) / NANOSECONDS, results));
+        return Json.line(new PartitionResponse((System.nanoTime() - begun) / NANOSECONDS, results));
     }
 
-    /** The GPU that Spark gave this task, else that of the mission. */
-    private static int device(Mission mission) throws UnfitExecutorException {
+    /** The GPU that Spark gave this task, else that of the configuration. */
+    private static int device(ExecutorConfig config) throws UnfitExecutorException {
         ResourceInformation gpu = TaskContext.get().resourcesJMap().get(GPU);
-        if (mission.backend() == Backend.CPU || gpu == null || gpu.addresses().length == 0) {
-            return mission.device();
+        if (config.backend() == Backend.CPU || gpu == null || gpu.addresses().length == 0) {
+            return config.device();
         }
         try {
             return Integer.parseInt(gpu.addresses()[0]);

@@ -45,7 +45,6 @@ final class SceneFiles {
 
     /** The same request in the scene of that file. */
     static SimulationRequest withScene(SimulationRequest request, String file) {
-        return new SimulationRequest(request.id(), file, request.gait(), request.duration(), request.scheme(), null,
-                request.perturbation(), request.start());
+        return request.withScene(file).withOverrides(null);
     }
 }

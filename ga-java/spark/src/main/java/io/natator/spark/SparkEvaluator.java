@@ -24,7 +24,7 @@ import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Consumer;
 
 /**
- * Spreads evaluations over a cluster. A call is one action of Spark; results come as soon as a {@link Parts part} is done.
+ * Spreads evaluations over a cluster. A call is one action of Spark; results come as soon as a {@link Partitioner part} is done.
  * What an executor does not finish another one does again, with the same bits.
  */
 final class SparkEvaluator implements Evaluator {
@@ -36,11 +36,11 @@ final class SparkEvaluator implements Evaluator {
     private final Cluster cluster;
     private final ExecutionSettings execution;
     private final SceneFiles scenes;
-    private final Parts parts = new Parts();
+    private final Partitioner parts = new Partitioner();
     /** Calls under way, which share the cluster evenly. */
     private final AtomicInteger calls = new AtomicInteger();
     private final String name = "natator-" + UUID.randomUUID();
-    private Mission mission;
+    private ExecutorConfig config;
     private volatile boolean closed;
 
     /** An evaluator whose executors get the program when they first need it. */
@@ -60,7 +60,7 @@ final class SparkEvaluator implements Evaluator {
         if (cluster.isLost()) {
             throw new RequestRejectedException("the cluster is lost: Spark has ended the application", false);
         }
-        Mission known = missionFor(requests.get(0));
+        ExecutorConfig known = missionFor(requests.get(0));
         int together = calls.incrementAndGet();
         try {
             evaluate(requests, Math.max(1, cluster.slots(execution.backend()) / together), known, whenDone);
@@ -70,12 +70,12 @@ final class SparkEvaluator implements Evaluator {
     }
 
     /** With so many slots for this call. */
-    private void evaluate(List<SimulationRequest> requests, int slots, Mission given, Consumer<SimulationResult> whenDone)
+    private void evaluate(List<SimulationRequest> requests, int slots, ExecutorConfig given, Consumer<SimulationResult> whenDone)
             throws InterruptedException {
         Map<Long, List<SimulationRequest>> open = new HashMap<>();
         List<String> lines = new ArrayList<>();
         for (List<SimulationRequest> part : execution.backend() == Backend.CPU ? parts.of(requests, slots)
-                : Parts.evenly(requests, cluster.slots(execution.backend()))) {
+                : Partitioner.evenly(requests, cluster.slots(execution.backend()))) {
             List<SimulationRequest> sent = new ArrayList<>();
             for (SimulationRequest request : part) {
                 sent.add(scenes.sent(request));
@@ -84,7 +84,7 @@ final class SparkEvaluator implements Evaluator {
             lines.add(Json.line(sent));
         }
         carryOut(Numbers.count(requests.size(), "evaluation"), lines, given, line -> {
-            Answer answer = read(line, Answer.class);
+            PartitionResponse answer = read(line, PartitionResponse.class);
             List<SimulationRequest> part = null;
             for (SimulationResult result : answer.results()) {
                 if (result.status() == Status.ERROR) {
@@ -104,7 +104,7 @@ final class SparkEvaluator implements Evaluator {
         });
     }
 
-    private void carryOut(String what, List<String> lines, Mission given, Consumer<String> whenDone) throws InterruptedException {
+    private void carryOut(String what, List<String> lines, ExecutorConfig given, Consumer<String> whenDone) throws InterruptedException {
         try (ClusterJob job = new ClusterJob(cluster, name, what, lines, new Partition(Json.line(given)))) {
             for (int left = lines.size(); left > 0;) {
                 failIfClosed();
@@ -133,25 +133,25 @@ final class SparkEvaluator implements Evaluator {
 
     /** What to tell the user: why executors refused, if they did. */
     private RequestRejectedException failure(ClusterJob.FailedException failed) {
-        ExecutorNews.Refusal refusal = cluster.news().last();
+        ExecutorLog.Refusal refusal = cluster.log().last();
         String text = cluster.isLost() ? "the cluster is lost: " + failed.getMessage()
                 : refusal != null ? "no executor can do it; " + refusal.reason() : failed.getMessage();
         return new RequestRejectedException(text, !cluster.isLost() && refusal != null && refusal.differs());
     }
 
     /** What executors are told, found out once. */
-    private synchronized Mission missionFor(SimulationRequest request) throws InterruptedException {
-        if (mission == null) {
+    private synchronized ExecutorConfig missionFor(SimulationRequest request) throws InterruptedException {
+        if (config == null) {
             boolean here = execution.backend() == Backend.CPU;
             SimulationRequest cut = request.withDuration(SAMPLE);
             String hash = here ? swim(cut) : null;
-            Mission first = new Mission(cluster.send("natator-sim", execution.simulator()), Sha256.of(execution.simulator()),
+            ExecutorConfig first = new ExecutorConfig(cluster.send("natator-sim", execution.simulator()), Sha256.of(execution.simulator()),
                     here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),
                     execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut), hash,
                     null);
-            mission = here ? first : like(first);
+            config = here ? first : like(first);
         }
-        return mission;
+        return config;
     }
 
     /** The hash of the end of the swim on this machine; null if it has no end that others can be compared with. */
@@ -161,8 +161,8 @@ final class SparkEvaluator implements Evaluator {
         }
     }
 
-    /** The mission with the kind of the GPU that answers first. */
-    private Mission like(Mission first) throws InterruptedException {
+    /** The configuration with the kind of the GPU that answers first. */
+    private ExecutorConfig like(ExecutorConfig first) throws InterruptedException {
         List<ExecutorSimulator.Kind> kinds = new ArrayList<>();
         carryOut("a first swim", List.of(Json.line(List.of(first.sample()))), first,
                 line -> kinds.add(read(line, ExecutorSimulator.Kind.class)));

@@ -59,12 +59,12 @@ public final class ReplayHtml {
      * @throws UncheckedIOException  if the file cannot be written
      */
     public Written write(Path file, long maxBytes) {
-        OutputFile output = OutputFile.of(file);
+        OutputFile.check(file);
         byte[] html = null;
         for (int every : EVERY) {
             html = html(every).getBytes(StandardCharsets.UTF_8);
             if (html.length <= maxBytes) {
-                output.write(html);
+                OutputFile.write(file, html);
                 return new Written(html.length, framesPerSecond(every), every > 1, largestError());
             }
         }
@@ -105,15 +105,6 @@ public final class ReplayHtml {
                 "swims", swimText);
         return PART.matcher(PageModules.resource("natator/replay.html"))
                 .replaceAll(part -> Matcher.quoteReplacement(parts.get(part.group(1))));
-    }
-
-    /**
-     * Whether {@link #write} can make this file, before there is anything to write.
-     *
-     * @throws InvalidInputException if it cannot
-     */
-    public static void check(Path file) {
-        OutputFile.of(file);
     }
 
     private static String base64(byte[] content) {

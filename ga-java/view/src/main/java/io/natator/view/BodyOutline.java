@@ -1,7 +1,7 @@
 package io.natator.view;
 
 import io.natator.body.ProfileBody;
-import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.RunReader;
 import java.util.ArrayList;
 import java.util.LinkedHashSet;
 import java.util.List;
@@ -21,13 +21,13 @@ record BodyOutline(String label, double length, List<double[]> sections, List<Do
     private static final int BODIES = 4;
 
     /** The scene's body, and the best of generations from the first to the last; null of a run that evolves gaits alone. */
-    static List<BodyOutline> of(StoredRun run, List<RunAnswer.Best> bests) {
+    static List<BodyOutline> of(RunReader run, List<RunResponse.Best> bests) {
         if (run.settings().problem().evolve() == null) {
             return null;
         }
         ProfileBody scene = run.settings().problem().evolve().body();
         List<BodyOutline> outlines = new ArrayList<>(List.of(of("the scene's", scene)));
-        Set<RunAnswer.Best> shown = new LinkedHashSet<>();
+        Set<RunResponse.Best> shown = new LinkedHashSet<>();
         for (int i = 0; i < BODIES && !bests.isEmpty(); i++) {
             shown.add(bests.get((bests.size() - 1) * i / (BODIES - 1)));
         }

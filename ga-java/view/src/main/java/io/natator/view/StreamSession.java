@@ -18,9 +18,7 @@ import java.util.LinkedHashMap;
 import java.util.LinkedHashSet;
 import java.util.Map;
 import java.util.Set;
-import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
-import java.util.concurrent.Executor;
 import java.util.concurrent.locks.ReentrantLock;
 import java.util.function.Consumer;
 import org.eclipse.jetty.websocket.api.Callback;
@@ -40,14 +38,11 @@ final class StreamSession implements AutoCloseable {
     private static final int MOST_RESTARTS = 3;
     private static final int MOST_REASON_BYTES = 100;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
-    private static final long ANALYSIS_NANOSECONDS = 1_000_000_000L;
 
     private final Session socket;
     private final Path simulator;
     private final Set<String> files;
-    private final Executor analysts;
     private final ReentrantLock sending = new ReentrantLock();
-    private final LiveKinematics motion = new LiveKinematics();
     private final Deque<Long> deaths = new ArrayDeque<>();
     /** Scenes that were saved since the page was told of them. */
     private final Set<String> untold = new LinkedHashSet<>();
@@ -55,8 +50,6 @@ final class StreamSession implements AutoCloseable {
     private SessionState course;
     private StreamProcess process;
     private boolean closed;
-    private CompletableFuture<LiveKinematics.Analysis> analysis;
-    private long analysed = System.nanoTime();
 
     /** The socket cannot be written to any more. */
     private static final class SocketGoneException extends Exception {
@@ -70,14 +63,12 @@ final class StreamSession implements AutoCloseable {
     /**
      * A session that waits for the command that starts its simulator.
      *
-     * @param files    that commands may name; see {@link ClientCommand#check}
-     * @param analysts who measures motion, aside from the messages
+     * @param files that commands may name; see {@link ClientCommand#check}
      */
-    StreamSession(Session socket, Path simulator, Set<String> files, Executor analysts) {
+    StreamSession(Session socket, Path simulator, Set<String> files) {
         this.socket = socket;
         this.simulator = simulator;
         this.files = files;
-        this.analysts = analysts;
     }
 
     /** Takes a command. Waits while an answer of the server's own cannot be sent. */
@@ -222,34 +213,13 @@ final class StreamSession implements AutoCloseable {
             synchronized (this) {
                 course.follow(scene.scene());
             }
-            motion.begin(scene.scene());
-            analysis = null;
             send("SCEN", scene.json());
         } else if (message instanceof StreamMessage.Frame frame) {
-            motion.add(frame.decode());
             send(done -> socket.sendBinary(frame.body(), done));
-            analyse();
         } else if (message instanceof StreamMessage.Answer answer) {
             send("ANSW", answer.json());
         } else if (message instanceof StreamMessage.Stop stop) {
             send("STOP", stop.json());
-        }
-    }
-
-    /** Sends an analysis that is ready, and asks for the next one when it is time. */
-    private void analyse() throws SocketGoneException {
-        if (analysis != null && analysis.isDone()) {
-            if (!analysis.isCompletedExceptionally()) {
-                send("ANALYSIS", Json.line(analysis.join()));
-            }
-            analysis = null;
-        }
-        if (analysis == null && System.nanoTime() - analysed >= ANALYSIS_NANOSECONDS) {
-            LiveKinematics.Beats beats = motion.lastBeats();
-            if (beats != null) {
-                analysed = System.nanoTime();
-                analysis = CompletableFuture.supplyAsync(beats::analyse, analysts);
-            }
         }
     }
 

@@ -8,8 +8,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.Semaphore;
 import java.util.concurrent.TimeUnit;
 import org.eclipse.jetty.websocket.api.StatusCode;
@@ -26,11 +24,6 @@ final class StreamSockets implements AutoCloseable {
     private final Set<String> files;
     private final Map<String, StreamSession> sessions = new ConcurrentHashMap<>();
     private final Semaphore free = new Semaphore(MOST_SESSIONS, true);
-    private final ExecutorService analysts = Executors.newSingleThreadExecutor(task -> {
-        Thread thread = new Thread(task, "view-analysis");
-        thread.setDaemon(true);
-        return thread;
-    });
 
     /** See {@link StreamSession}. */
     StreamSockets(Path simulator, Set<String> files) {
@@ -65,7 +58,7 @@ final class StreamSockets implements AutoCloseable {
         }
         // Tells a page that is paused from one that has gone.
         context.enableAutomaticPings(PING_SECONDS, TimeUnit.SECONDS);
-        sessions.put(context.sessionId(), new StreamSession(context.session, simulator, files, analysts));
+        sessions.put(context.sessionId(), new StreamSession(context.session, simulator, files));
     }
 
     private void end(WsContext context) {
@@ -79,6 +72,5 @@ final class StreamSockets implements AutoCloseable {
     @Override
     public void close() {
         sessions.values().forEach(StreamSession::close);
-        analysts.shutdownNow();
     }
 }

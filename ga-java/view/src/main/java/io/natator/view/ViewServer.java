@@ -11,8 +11,7 @@ import io.javalin.http.HttpStatus;
 import io.javalin.http.NotFoundResponse;
 import io.javalin.util.JavalinBindException;
 import io.natator.base.InvalidInputException;
-import io.natator.checkpoint.StoredRun;
-import io.natator.config.EvolutionSettings;
+import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
@@ -73,14 +72,13 @@ public final class ViewServer implements AutoCloseable {
      * @throws InvalidInputException    if a folder is not that of a run
      * @throws RequestRejectedException if the simulator cannot be run
      * @throws UncheckedIOException     if it cannot listen there
-     * @throws InterruptedException     if the calling thread is interrupted
      */
     public ViewServer(ViewSettings settings) throws InterruptedException {
         this.settings = settings;
         hosts = new AllowedHosts(settings.host());
         page = APP.text("index.html");
         headers = new SecurityHeaders(page);
-        setup = Json.line(SetupAnswer.of(ProgramInfo.of(settings.simulator()), settings));
+        setup = Json.line(SetupResponse.of(ProgramInfo.of(settings.simulator()), settings));
         sockets = new StreamSockets(settings.simulator(), files(settings));
         saved = new SavedFiles(files(settings), scene -> sockets.sessions().forEach(session -> session.saved(scene)));
         javalin = Javalin.create(this::configure);
@@ -124,8 +122,8 @@ public final class ViewServer implements AutoCloseable {
     private static Set<String> files(ViewSettings settings) {
         Set<String> files = new HashSet<>();
         addFiles(files, settings.start().scene(), settings.start().overrides());
-        settings.runs().stream().map(StoredRun::settings)
-                .forEach(run -> addFiles(files, run.problem().scene(), RunAnswer.overrides(run)));
+        settings.runs().stream().map(RunReader::settings)
+                .forEach(run -> addFiles(files, run.problem().scene(), RunResponse.overrides(run)));
         return files;
     }
 
@@ -199,7 +197,7 @@ public final class ViewServer implements AutoCloseable {
         }
     }
 
-    private RunAnswer run(String id) {
+    private RunResponse run(String id) {
         int number;
         try {
             number = Integer.parseInt(id);
@@ -209,7 +207,7 @@ public final class ViewServer implements AutoCloseable {
         if (number < 0 || number >= settings.runs().size()) {
             throw new NotFoundResponse("no such run");
         }
-        return RunAnswer.of(number, StoredRun.in(settings.runs().get(number)));
+        return RunResponse.of(number, RunReader.in(settings.runs().get(number)));
     }
 
     /** Whether machines other than this one can reach it. */

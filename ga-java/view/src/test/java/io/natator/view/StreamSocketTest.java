@@ -168,24 +168,6 @@ class StreamSocketTest {
     }
 
     @Test
-    void theMotionIsMeasured() throws InterruptedException {
-        StreamClient page = openStarted(false);
-        page.send("{'do':'credit','frames':1000}");
-
-        JsonNode analysis = page.await("ANALYSIS");
-
-        assertThat(analysis.get("frequency").asDouble()).isEqualTo(1.5);
-        assertThat(analysis.get("frames").asInt()).isBetween(8, 60);
-        assertThat(analysis.get("envelope")).hasSize(25);
-        assertThat(analysis.get("envelope").get(24).get(0).asDouble()).isBetween(0.5, 1.1);
-        assertThat(analysis.get("envelope").get(24).get(1).asDouble()).isBetween(0.005, 0.5);
-        assertThat(analysis.get("modes")).extracting(mode -> mode.get("name").textValue())
-                .containsExactly("anguilliform", "carangiform", "thunniform");
-        assertThat(analysis.get("modes").get(0).get("e").asDouble()).isBetween(0.0, 1.0);
-        assertThat(analysis.get("modes").get(0).get("envelope")).hasSize(25);
-    }
-
-    @Test
     void aSettingIsAnsweredInShort() throws InterruptedException {
         StreamClient page = openStarted(true);
 

@@ -101,7 +101,7 @@ class ViewPageTest extends ViewBrowserTest {
     @Test
     void allOfItFitsTheWindow() {
         open(vacuum);
-        await("document.querySelector('[data-chart=envelope]').textContent !== ''");
+        await("document.querySelector('[data-chart=speed]').textContent !== ''");
         fits(1400, 900);
         fits(1280, 720);
         fits(1920, 1080);

@@ -112,10 +112,6 @@ class ViewServerTest {
         assertThat(setup.get("start").get("scene").textValue()).isEqualTo(ViewFixture.SCENE);
         assertThat(setup.get("start").get("gait").get("frequency").asDouble()).isEqualTo(1.5);
         assertThat(setup.get("runs").toString()).isEqualTo("[{\"id\":0,\"name\":\"my-run\"}]");
-        assertThat(setup.get("modes")).extracting(mode -> mode.get("name").textValue())
-                .containsExactly("anguilliform", "carangiform", "thunniform");
-        assertThat(setup.get("modes").get(0).get("envelope")).hasSizeGreaterThanOrEqualTo(20);
-        assertThat(setup.get("modes").get(0).get("envelope").get(24).toString()).isEqualTo("[1.0,0.1]");
         assertThat(setup.get("gaits")).hasSize(1);
         assertThat(setup.get("gaits").get("thesis/creature-3").toString())
                 .isEqualTo(Json.line(ViewFixture.KNOWN.get("thesis/creature-3")));

@@ -22,8 +22,7 @@ const PARTS = [
     + 'bodies of “conserving” in water on a lattice, which has no surface and is not drawn.'],
 ];
 const CHARTS = [
-  ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat; the '
-    + 'envelope is how far the spine moves sideways, beside those of real fish.'],
+  ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat.'],
   ['The charts', 'Distance is how far the middle of the body has come, speed is given in body lengths per second, over a beat. '
     + 'Momentum is the share that does not cancel out: 0 where a body pushes the water back as much as it goes forwards.'],
 ];

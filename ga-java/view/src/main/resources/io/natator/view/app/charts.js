@@ -15,7 +15,7 @@ export function chartColours(element) {
   const read = name => style.getPropertyValue(name).trim();
   return {
     text: read('--muted'), grid: read('--line'), paper: read('--card'), strong: read('--text'),
-    series: [1, 2, 3, 4].map(i => read(`--series-${i}`)), other: read('--series-b'),
+    series: [1, 2, 3].map(i => read(`--series-${i}`)), other: read('--series-b'),
   };
 }
 
@@ -203,29 +203,6 @@ function firstAfter(history, start) {
     first++;
   }
   return first;
-}
-
-/** Envelopes over the body, head to tail, in body lengths. */
-export class EnvelopeChart extends Chart {
-  /** `modes` are those of real fish; `own` one or two measured ones (ANALYSIS), null where there is none yet. */
-  draw(modes, own) {
-    const measured = own.filter(one => one !== null);
-    const highest = Math.max(0.12, ...measured.flatMap(one => one.envelope.map(point => point[1])));
-    this.begin(axis(0, 1, 5), axis(0, highest, 3));
-    modes.forEach((mode, i) => this.#envelope(mode.envelope, {
-      colour: this.colours.series[i + 1], width: 1.2, dash: [4, 3],
-    }));
-    own.forEach((one, which) => one !== null && this.#envelope(one.envelope, {
-      colour: which === 0 ? this.colours.series[0] : this.colours.other, width: 2.2,
-    }));
-    if (measured.length === 0) {
-      this.note('after a whole beat');
-    }
-  }
-
-  #envelope(points, style) {
-    this.line(points.length, i => points[i][0], i => points[i][1], style);
-  }
 }
 
 /** Best and mean fitness over the generations of a run. */

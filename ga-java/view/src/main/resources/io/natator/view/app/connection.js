@@ -6,7 +6,7 @@ const FIRST_RETRY_MS = 400;
 const LAST_RETRY_MS = 8000;
 
 /**
- * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), stop(STOP), analysis(ANALYSIS),
+ * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), stop(STOP),
  * lost(LOST), saved(SAVED) if a scene's file was saved, refused(text) if what was to be shown cannot be.
  */
 export class Connection {
@@ -114,9 +114,6 @@ export class Connection {
         break;
       case 'STOP':
         this.#handlers.stop(message.body);
-        break;
-      case 'ANALYSIS':
-        this.#handlers.analysis(message.body);
         break;
       case 'LOST':
         this.#forgetFrames();

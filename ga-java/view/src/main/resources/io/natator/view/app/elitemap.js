@@ -24,7 +24,7 @@ export class EliteMap extends GaitPlot {
     super(byId('elites'), onWatch, onLook);
   }
 
-  /** Shows a map (MapAnswer.java), or nothing of a run that has none. */
+  /** Shows a map (MapResponse.java), or nothing of a run that has none. */
   show(map) {
     byId('elites-figure').hidden = map === null;
     if (map === null) {

@@ -29,7 +29,7 @@ export class ParetoPlot extends GaitPlot {
     });
   }
 
-  /** Shows gaits (FrontAnswer.java), or nothing of a run with a single objective. */
+  /** Shows gaits (FrontResponse.java), or nothing of a run with a single objective. */
   show(front) {
     byId('front-figure').hidden = front === null;
     this.#front = front;

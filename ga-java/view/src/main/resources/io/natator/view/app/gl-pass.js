@@ -1,6 +1,7 @@
 /** Passes over the whole screen: a fragment shader that reads textures and writes a target. */
 
 import * as THREE from 'three';
+import {FullScreenQuad} from 'three/addons/postprocessing/Pass.js';
 import {shader} from './gl-shader.js';
 
 const VERTEX = `
@@ -10,11 +11,7 @@ const VERTEX = `
     gl_Position = vec4(position.xy, 0.0, 1.0);
   }`;
 
-const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
-const world = new THREE.Scene();
-const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2));
-quad.frustumCulled = false;
-world.add(quad);
+const quad = new FullScreenQuad();
 
 /** One fragment shader with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
 export class Pass {
@@ -38,7 +35,7 @@ export class Pass {
   draw(renderer, to) {
     quad.material = this.#material;
     renderer.setRenderTarget(to);
-    renderer.render(world, camera);
+    quad.render(renderer);
   }
 
   /** Filters `first` across and then down, by way of `second`; a step is so many texels. For uniforms `source` and `along`. */

@@ -53,7 +53,7 @@ export class Page {
       view.stage.rig.isOrbiting = isOn;
     }));
     this.#look = new LookControls(firstLook(memory.look), () => this.#lookChanged());
-    this.#charts = new LiveCharts(setup.modes);
+    this.#charts = new LiveCharts();
     this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
     this.#controls = new SwimControls(this, setup);
     this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watching.watch(run, best, beside), () => this.#markRun());

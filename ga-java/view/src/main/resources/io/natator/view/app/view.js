@@ -44,8 +44,6 @@ export class View {
    * @type {Frame|null}
    */
   frame = null;
-  /** The last ANALYSIS of this motion, or null. */
-  analysis = null;
   history = new History();
 
   /**
@@ -68,9 +66,6 @@ export class View {
       status: (state, text) => this.#status(state, text),
       scene: scene => this.#scene(scene),
       stop: stop => this.#stopped(stop),
-      analysis: analysis => {
-        this.analysis = analysis;
-      },
       lost: lost => this.#lost(lost),
       saved: saved => this.#saved(saved),
       refused: error => this.#refused(error),
@@ -269,7 +264,6 @@ export class View {
       this.#firstScene = scene.number;
       this.#isFresh = false;
       this.history.clear();
-      this.analysis = null;
     }
     this.stage.setScene(scene);
     this.#handlers.scene();

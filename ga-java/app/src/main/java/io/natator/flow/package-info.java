@@ -1,2 +1,0 @@
-/** How much of a swimmer is in the water. */
-package io.natator.flow;
