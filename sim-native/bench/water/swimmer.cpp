@@ -112,7 +112,7 @@ SwimTarget read_target(const json& value, const Place& place, const SwimCase& of
 
 const std::vector<std::string>& swim_quantities() {
     static const std::vector<std::string> names{"speed", "spread", "lateral", "slip", "tail_beat", "strouhal", "reynolds",
-                                                "swimming_number", "amplitude", "force", "power", "pressure", "thrust"};
+                                                "swimming_number", "amplitude", "force", "power", "pressure_force", "thrust"};
     return names;
 }
 

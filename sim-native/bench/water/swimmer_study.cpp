@@ -103,7 +103,7 @@ Swum swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Po
 }
 
 bool only_on_lattice(const std::string& quantity) {
-    return quantity == "pressure" || quantity == "thrust";
+    return quantity == "pressure_force" || quantity == "thrust";
 }
 
 /// The columns that tell a row from others, empty where its water has no such thing.
@@ -142,7 +142,7 @@ Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
             {"amplitude", swimmer.scale},
             {"force", mean(&Beat::force)},
             {"power", mean(&Beat::power)},
-            {"pressure", mean(&Beat::pressure)},
+            {"pressure_force", mean(&Beat::pressure)},
             {"thrust", mean(&Beat::thrust)}};
 }
 
