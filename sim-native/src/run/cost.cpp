@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/text.h"
+#include "model/max_iterations.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "solver/cpu/cell_grid.h"
@@ -224,9 +225,7 @@ Cost cost_of(const Model& model, const Computing& computing) {
     const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.conserving.solid_iterations) * of_solids +
                                  particles * (work_of_particle + static_cast<double>(model.planes.size())) +
                                  work_of_substep;
-    const bool to_tolerance = p.conserving.density_tolerance > 0 && model.scheme == Scheme::conserving;
-    const int iterations = to_tolerance ? std::max(p.iterations, p.conserving.max_iterations) : p.iterations;
-    cost.per_substep += cost.candidates + 2 * cost.neighbours + iterations * per_iteration + work_of_cell * start.cells +
+    cost.per_substep += cost.candidates + 2 * cost.neighbours + max_iterations(model) * per_iteration + work_of_cell * start.cells +
                        work_of_particle * particles + work_of_substep;
 
     const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;

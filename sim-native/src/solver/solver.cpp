@@ -11,6 +11,7 @@
 #include "lattice/coupling.h"
 #include "law_name.h"
 #include "model/check_model.h"
+#include "model/max_iterations.h"
 #include "natator/error.h"
 #include "natator/gait.h"
 #include "natator/model.h"
@@ -21,9 +22,7 @@ namespace natator {
 namespace {
 
 Iterations iterations_of(const Model& model) {
-    const SolverParameters& p = model.parameters;
-    const bool to_tolerance = p.conserving.density_tolerance > 0 && model.scheme == Scheme::conserving;
-    return {p.iterations, p.conserving.solid_iterations, to_tolerance ? p.conserving.max_iterations : 0};
+    return {model.parameters.iterations, model.parameters.conserving.solid_iterations, max_iterations(model)};
 }
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace natator::lattice {
+
 template <class Real>
 Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu)
     : model_(model),

@@ -38,18 +38,18 @@ private:
         int x, y, z;
     };
 
-    long place(int x, int y, int z) const { return (static_cast<long>(z) * ny_ + y) * stride_ + margin + x; }
+    long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
     View view();
     void hold(const std::vector<Cube>& cubes);
     void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
-    void hand_over(const Held& held, const float (&surplus)[3], std::vector<Push>& pushes);
+    void hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
     void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void remember();
     void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
     const Populations& after_collision(long cell, const physics::LatticeRates& rates);
     static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
 
-    int nx_, ny_, nz_, stride_;
+    int cells_[3], stride_;
     Array now_[moments], next_[moments], change_[3];
     std::vector<unsigned char> row_changes_;
     std::vector<int> owner_;  ///< by cell: the cube that held it in the last step, -1: none
@@ -71,12 +71,12 @@ private:
 };
 
 CpuWater::CpuWater(const Box& box, int threads)
-    : Water(box), nx_(box.cells.x()), ny_(box.cells.y()), nz_(box.cells.z()), stride_(padded(nx_) + 2 * margin), team_(threads) {
-    const auto size = static_cast<std::size_t>(stride_) * ny_ * nz_ + margin;
+    : Water(box), cells_{box.cells.x(), box.cells.y(), box.cells.z()}, stride_(padded(cells_[0]) + 2 * margin), team_(threads) {
+    const auto size = static_cast<std::size_t>(stride_) * cells_[1] * cells_[2] + margin;
     for (Array& array : now_) array.assign(size, 0);
     for (Array& array : next_) array.assign(size, 0);
     for (Array& array : change_) array.assign(size, 0);
-    row_changes_.assign(static_cast<std::size_t>(ny_) * nz_, 0);
+    row_changes_.assign(static_cast<std::size_t>(cells_[1]) * cells_[2], 0);
     owner_.assign(size, -1);
     chosen_.assign(size, -1);
     made_of_.assign(size, -1);
@@ -84,7 +84,7 @@ CpuWater::CpuWater(const Box& box, int threads)
 }
 
 View CpuWater::view() {
-    View view{nx_, ny_, nz_, stride_, {}, {}, {}, {}, {}, row_changes_.data()};
+    View view{cells_[0], cells_[1], cells_[2], stride_, {}, {}, {}, {}, {}, row_changes_.data()};
     for (int a = 0; a < 3; ++a)
         for (int end = 0; end < 2; ++end) {
             view.bounces[a][end] = box_.faces[a][end] == Face::no_slip;
@@ -104,16 +104,15 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
     }
     held_.clear();
     out_.clear();
-    const int cells[3] = {nx_, ny_, nz_};
     for (std::size_t p = 0; p < cubes.size(); ++p) {
         const Cube& cube = cubes[p];
-        const CellRange range = cells_around(cube, cells, periodic_);
+        const CellRange range = cells_around(cube, cells_, periodic_);
         for (int z = range.low[2]; z < range.low[2] + range.count[2]; ++z)
             for (int y = range.low[1]; y < range.low[1] + range.count[1]; ++y)
                 for (int x = range.low[0]; x < range.low[0] + range.count[0]; ++x) {
                     const PlaceInCube in = place_in(cube, x, y, z);
                     if (!(in.out <= cube.edge)) continue;
-                    const int inside[3] = {wrapped(x, nx_), wrapped(y, ny_), wrapped(z, nz_)};
+                    const int inside[3] = {wrapped(x, cells_[0]), wrapped(y, cells_[1]), wrapped(z, cells_[2])};
                     const long at = place(inside[0], inside[1], inside[2]);
                     if (chosen_[at] < 0) {
                         chosen_[at] = static_cast<int>(held_.size());
@@ -146,18 +145,18 @@ void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
         const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (const float surplus[3] = {-density * by[0], -density * by[1], -density * by[2]}; begun_ && owner_[at] < 0) hand_over(held, surplus, pushes);
+        if (begun_ && owner_[at] < 0) hand_over(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
     }
 }
 
 /// Gives a covered cell's surplus to the water beside it, or to the body where there is none.
-void CpuWater::hand_over(const Held& held, const float (&surplus)[3], std::vector<Push>& pushes) {
-    const int cells[3] = {nx_, ny_, nz_}, here[3] = {held.x, held.y, held.z};
+void CpuWater::hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
+    const int here[3] = {held.x, held.y, held.z};
     long takers[physics::lattice_populations];
     float sum = 0;
     for (int i = 0; i < physics::lattice_populations; ++i) {
         int to[3];
-        takers[i] = neighbour(i, here, cells, periodic_, to) ? place(to[0], to[1], to[2]) : -1;
+        takers[i] = neighbour(i, here, cells_, periodic_, to) ? place(to[0], to[1], to[2]) : -1;
         if (takers[i] >= 0 && chosen_[takers[i]] >= 0) takers[i] = -1;
         if (takers[i] >= 0) sum += neighbour_weight(i);
     }
@@ -168,7 +167,6 @@ void CpuWater::hand_over(const Held& held, const float (&surplus)[3], std::vecto
 
 /// Cells that a body has left keep what they have more than it, which it was given.
 void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
-    const int cells[3] = {nx_, ny_, nz_};
     for (const Owned& one : owned_) {
         if (chosen_[one.cell] >= 0) continue;
         const int p = std::exchange(owner_[one.cell], -1);
@@ -177,7 +175,7 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         int here[3];
         bool near = true;  // a body that has been put elsewhere is not pushed by what it left
         for (int a = 0; a < 3; ++a) {
-            here[a] = beside(cubes[p].x[a], at[a], cells[a], periodic_[a]);
+            here[a] = beside(cubes[p].x[a], at[a], cells_[a], periodic_[a]);
             near = near && std::abs(static_cast<float>(here[a]) - cubes[p].x[a]) <= cubes[p].reach[a] + 1;
         }
         if (!near) continue;
@@ -210,8 +208,8 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
-    const std::size_t room = std::size_t{3} * physics::lattice_populations * ny_ * stride_ + 2 * margin;
-    team_.for_parts(nz_, 4, [&](int part, int begin, int end) {
+    const std::size_t room = std::size_t{3} * physics::lattice_populations * cells_[1] * stride_ + 2 * margin;
+    team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
         Array& own = rooms_[static_cast<std::size_t>(part)];
         if (own.empty()) own.assign(room, 0);
         kernel.advance(lattice, rates, begin, end, own.data());
@@ -236,7 +234,6 @@ const CpuWater::Populations& CpuWater::after_collision(long cell, const physics:
 
 /// What streams between cells of bodies and of water in this step pushes the bodies.
 void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes) {
-    const int cells[3] = {nx_, ny_, nz_};
     for (const Held& held : held_) {
         double j[3] = {};
         const int here[3] = {held.x, held.y, held.z};
@@ -246,7 +243,7 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
             const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             const int opposite = physics::lattice_populations - 1 - i;
             int from[3];
-            if (!neighbour(opposite, here, cells, periodic_, from)) continue;
+            if (!neighbour(opposite, here, cells_, periodic_, from)) continue;
             const long source = place(from[0], from[1], from[2]);
             if (chosen_[source] >= 0) continue;
             const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
@@ -266,9 +263,9 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
     const auto inside = [&](const Eigen::Vector3i& c) { return (c.array() >= 0).all() && (c.array() < size.array()).all(); };
     for (Array& array : now_) {
         const Array old = array;
-        for (int z = 0; z < nz_; ++z)
-            for (int y = 0; y < ny_; ++y)
-                for (int x = 0; x < nx_; ++x) {
+        for (int z = 0; z < cells_[2]; ++z)
+            for (int y = 0; y < cells_[1]; ++y)
+                for (int x = 0; x < cells_[0]; ++x) {
                     const Eigen::Vector3i from = Eigen::Vector3i(x, y, z) + by;
                     array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : 0;
                 }
