@@ -55,7 +55,7 @@ class ThirdPartyJarCheck {
     private List<Library> libraries() throws IOException {
         List<Library> all = text(META + "THIRD-PARTY.txt").lines().filter(line -> line.matches("\\S+:\\S+:\\S+ \\|.*"))
                 .map(Library::of).toList();
-        assertThat(all).hasSizeGreaterThan(20);
+        assertThat(all).isNotEmpty();
         return all;
     }
 
