@@ -20,7 +20,6 @@ if [ -n "${NATATOR_JAR:-}" ]; then
     jar=$NATATOR_JAR
 elif [ -f "$installed" ]; then
     jar=$installed
-    export NATATOR_SIM="${NATATOR_SIM:-$bin/natator-sim}"
 else
     jar=$bin/../../../ga-java/target/natator.jar
 fi

@@ -47,9 +47,9 @@ public final class Natator {
      * All processors, with processes kept alive and without a cache of evaluations; the simulator where
      * {@link SimulatorLocator} finds it.
      *
-     * @throws io.natator.base.InvalidInputException if it finds none
+     * @throws io.natator.base.InvalidInputException if it finds none of this version
      */
-    public static ExecutionSettings onThisMachine() {
+    public static ExecutionSettings onThisMachine() throws InterruptedException {
         return ExecutionSettings.of(SimulatorLocator.locate(null));
     }
 

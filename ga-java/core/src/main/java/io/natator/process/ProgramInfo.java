@@ -13,6 +13,8 @@ import java.time.Duration;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.IntStream;
 
 /**
@@ -36,6 +38,8 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
     }
 
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    private static final Duration VERSION_TIMEOUT = Duration.ofSeconds(1);
+    private static final Pattern VERSION = Pattern.compile("natator-sim (\\d[\\w.]*), ");
 
     /**
      * Asks the simulator about itself.
@@ -48,6 +52,16 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
             return Json.parse(ask(simulator, List.of("info", "--json"), "itself"), ProgramInfo.class);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("simulator does not describe itself: " + Json.reason(e), e);
+        }
+    }
+
+    /** What {@code natator-sim --version} says of its version; null of a program that says none within a second. */
+    static String version(Path simulator) throws InterruptedException {
+        try (NativeProgram program = new NativeProgram(simulator, VERSION_TIMEOUT)) {
+            Matcher said = VERSION.matcher(program.call(List.of("--version"), "", line -> { }).text());
+            return said.lookingAt() ? said.group(1) : null;
+        } catch (SimulatorFailure | RequestRejectedException e) {
+            return null;
         }
     }
 
