@@ -130,6 +130,14 @@ class DebianJarCheck {
         assertThat(elsewhere.resolve("minnow.json")).content().contains(root.toRealPath().resolve("usr/share/natator/protocol").toString());
     }
 
+    /** The page and what it loads are in the jar. */
+    @Test
+    void itMakesThePage() throws IOException, InterruptedException {
+        said(elsewhere, program("natator"), "page", "pool/eel", "--duration", "0.05", "--output", "eel.html");
+
+        assertThat(elsewhere.resolve("eel.html")).content().contains("<html");
+    }
+
     @Test
     void aProgramOfAnotherVersionIsRefusedInOneLine() throws IOException, InterruptedException {
         Path other = elsewhere.resolve("other");
