@@ -10,7 +10,8 @@ import picocli.CommandLine.Option;
 final class SimulatorOption {
 
     @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else the one installed or built with this program, else "
+            + "the environment variable " + SimulatorLocator.VARIABLE
+            + " names, else the one installed or built with this program, else "
             + "natator-sim on the PATH or in ~/.local/bin, else build/release/bin/natator-sim.")
     private Path path;
 

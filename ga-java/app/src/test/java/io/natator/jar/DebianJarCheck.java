@@ -18,8 +18,10 @@ import org.junit.jupiter.api.io.TempDir;
 /** The Debian package of what was built: what it says of itself, what it holds, and that its programs run from where it is unpacked. */
 class DebianJarCheck {
 
-    private static final Path SOURCE = Path.of(System.getProperty("natator.protocol")).toAbsolutePath().normalize().getParent();
-    private static final Path BUILD = Path.of(System.getProperty("natator.simulator")).toAbsolutePath().normalize().getParent().getParent();
+    private static final Path SOURCE = Path.of(System.getProperty("natator.protocol")).toAbsolutePath().normalize()
+            .getParent();
+    private static final Path BUILD = Path.of(System.getProperty("natator.simulator")).toAbsolutePath().normalize()
+            .getParent().getParent();
 
     @TempDir
     private static Path folder;
@@ -37,7 +39,8 @@ class DebianJarCheck {
         if (System.getenv("CI") == null) {
             assumeThat(Path.of("/usr/bin/dpkg-shlibdeps")).as("dpkg-dev, which ./setup.sh --readers installs").exists();
         }
-        said(folder, "cpack", "--config", BUILD.resolve("CPackConfig.cmake").toString(), "-G", "DEB", "-B", folder.toString());
+        said(folder, "cpack", "--config", BUILD.resolve("CPackConfig.cmake").toString(), "-G", "DEB", "-B",
+                folder.toString());
         try (Stream<Path> files = Files.list(folder)) {
             deb = files.filter(file -> file.toString().endsWith(".deb")).findAny().orElseThrow();
         }
@@ -46,17 +49,20 @@ class DebianJarCheck {
     }
 
     /** With no variable of the caller's but where Java is. */
-    private static Ended run(Path directory, List<String> variables, String... command) throws IOException, InterruptedException {
+    private static Ended run(Path directory, List<String> variables, String... command)
+            throws IOException, InterruptedException {
         Path output = folder.resolve("output.txt");
         Path errors = folder.resolve("errors.txt");
-        ProcessBuilder builder = new ProcessBuilder(command).directory(directory.toFile()).redirectOutput(output.toFile())
+        ProcessBuilder builder = new ProcessBuilder(command).directory(directory.toFile())
+                .redirectOutput(output.toFile())
                 .redirectError(errors.toFile());
         builder.environment().keySet().removeIf(name -> name.startsWith("NATATOR_"));
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
         builder.environment().put("NATATOR_CACHE", "");
         variables.forEach(variable -> builder.environment().put(variable.split("=")[0], variable.split("=")[1]));
         int status = builder.start().waitFor();
-        return new Ended(status, Files.readString(output, StandardCharsets.UTF_8), Files.readString(errors, StandardCharsets.UTF_8));
+        return new Ended(status, Files.readString(output, StandardCharsets.UTF_8),
+                Files.readString(errors, StandardCharsets.UTF_8));
     }
 
     private static String said(Path directory, String... command) throws IOException, InterruptedException {
@@ -76,15 +82,19 @@ class DebianJarCheck {
     }
 
     private static String version() throws IOException {
-        return Files.readString(SOURCE.resolveSibling("CMakeLists.txt")).replaceFirst("(?s).*?project\\(natator VERSION (\\S+) .*", "$1");
+        return Files.readString(SOURCE.resolveSibling("CMakeLists.txt"))
+                .replaceFirst("(?s).*?project\\(natator VERSION (\\S+) .*", "$1");
     }
 
     @Test
     void itSaysWhatItIsAndNeeds() throws IOException, InterruptedException {
         assertThat(deb.getFileName().toString()).matches("natator_" + version() + "_\\w+\\.deb");
-        assertThat(said(folder, "dpkg-deb", "--field", deb.toString())).contains("Package: natator\n", "Version: " + version() + "\n",
-                "Section: science\n").containsPattern("Maintainer: .+ <.+@.+>\n").containsPattern("Depends: default-jre-headless "
-                        + "\\(>= 2:1\\.17\\) \\| java17-runtime-headless, libc6 \\(>= [\\d.]+\\)").doesNotContain("libstdc++");
+        assertThat(said(folder, "dpkg-deb", "--field", deb.toString()))
+                .contains("Package: natator\n", "Version: " + version() + "\n",
+                        "Section: science\n")
+                .containsPattern("Maintainer: .+ <.+@.+>\n").containsPattern("Depends: default-jre-headless "
+                        + "\\(>= 2:1\\.17\\) \\| java17-runtime-headless, libc6 \\(>= [\\d.]+\\)")
+                .doesNotContain("libstdc++");
     }
 
     /** No scripts that run as root, no files that its removal would leave. */
@@ -93,7 +103,8 @@ class DebianJarCheck {
         said(folder, "dpkg-deb", "--control", deb.toString(), folder.resolve("control").toString());
 
         try (Stream<Path> files = Files.list(folder.resolve("control"))) {
-            assertThat(files.map(file -> file.getFileName().toString())).containsExactlyInAnyOrder("control", "md5sums");
+            assertThat(files.map(file -> file.getFileName().toString())).containsExactlyInAnyOrder("control",
+                    "md5sums");
         }
     }
 
@@ -109,25 +120,31 @@ class DebianJarCheck {
             }
         }
         assertThat(data.resolve("natator.jar")).hasSameBinaryContentAs(Path.of(System.getProperty("natator.jar")));
-        assertThat(root.resolve("usr/share/doc/natator/copyright")).content().contains("common-licenses/Apache-2.0", "Niels Lohmann");
-        assertThat(unpacked("man/man1/natator.1.gz")).contains(".SH NAME\nnatator \\- evolves", "resume    Continues a run")
+        assertThat(root.resolve("usr/share/doc/natator/copyright")).content().contains("common-licenses/Apache-2.0",
+                "Niels Lohmann");
+        assertThat(unpacked("man/man1/natator.1.gz"))
+                .contains(".SH NAME\nnatator \\- evolves", "resume    Continues a run")
                 .containsPattern("(?m)^  \\\\-h, \\\\-\\\\-help  ");
-        assertThat(unpacked("man/man1/natator-sim.1.gz")).contains(".SH NAME\nnatator\\-sim \\- simulates", "Subcommands:");
+        assertThat(unpacked("man/man1/natator-sim.1.gz")).contains(".SH NAME\nnatator\\-sim \\- simulates",
+                "Subcommands:");
         assertThat(unpacked("doc/natator/changelog.gz")).startsWith("natator (" + version() + ") ");
         try (Stream<Path> files = Files.walk(root)) {
-            assertThat(files.filter(Files::isRegularFile)).allSatisfy(file -> assertThat(root.relativize(file).toString()).contains("natator"));
+            assertThat(files.filter(Files::isRegularFile))
+                    .allSatisfy(file -> assertThat(root.relativize(file).toString()).contains("natator"));
         }
     }
 
     @Test
     void itsProgramsRun() throws IOException, InterruptedException {
         assertThat(said(elsewhere, program("natator-sim"), "--version")).startsWith("natator-sim " + version() + ", ");
-        assertThat(said(elsewhere, program("natator-sim"), "run", "pool/eel", "--duration", "0.05")).contains("pool/eel");
+        assertThat(said(elsewhere, program("natator-sim"), "run", "pool/eel", "--duration", "0.05"))
+                .contains("pool/eel");
         assertThat(said(elsewhere, program("natator"), "--version")).startsWith("natator " + version());
 
         said(elsewhere, program("natator"), "new", "creature", "minnow");
 
-        assertThat(elsewhere.resolve("minnow.json")).content().contains(root.toRealPath().resolve("usr/share/natator/protocol").toString());
+        assertThat(elsewhere.resolve("minnow.json")).content()
+                .contains(root.toRealPath().resolve("usr/share/natator/protocol").toString());
     }
 
     /** The page and what it loads are in the jar. */
@@ -146,7 +163,8 @@ class DebianJarCheck {
 
         Ended ended = run(elsewhere, List.of("NATATOR_SIM=" + other), program("natator"), "new", "creature", "minnow");
 
-        assertThat(ended).isEqualTo(new Ended(2, "", "natator new: " + other + " is natator-sim 0.0.1, this is natator " + version()
+        assertThat(ended).isEqualTo(new Ended(2, "", "natator new: " + other + " is natator-sim 0.0.1, this is natator "
+                + version()
                 + "; expected the same version: install or build both again, or name another program by --simulator-path or NATATOR_SIM\n"));
     }
 }

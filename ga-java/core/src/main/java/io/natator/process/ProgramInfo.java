@@ -58,7 +58,8 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
     /** What {@code natator-sim --version} says of its version; null of a program that says none within a second. */
     static String version(Path simulator) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, VERSION_TIMEOUT)) {
-            Matcher said = VERSION.matcher(program.call(List.of("--version"), "", line -> { }).text());
+            Matcher said = VERSION.matcher(program.call(List.of("--version"), "", line -> {
+            }).text());
             return said.lookingAt() ? said.group(1) : null;
         } catch (SimulatorFailure | RequestRejectedException e) {
             return null;

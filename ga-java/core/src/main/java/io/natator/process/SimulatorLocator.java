@@ -54,7 +54,8 @@ public final class SimulatorLocator {
         } else if (variable != null && !variable.isBlank()) {
             program = executable(Path.of(variable), VARIABLE);
         } else {
-            program = first(places(jar(), System.getenv("PATH"), Path.of(System.getProperty("user.home")), Path.of("").toAbsolutePath()));
+            program = first(places(jar(), System.getenv("PATH"), Path.of(System.getProperty("user.home")),
+                    Path.of("").toAbsolutePath()));
         }
         program = insideWheel(program);
         requireVersion(program, SimulatorLocator.class.getPackage().getImplementationVersion());
@@ -74,9 +75,11 @@ public final class SimulatorLocator {
 
     /** The first of the places that has a program. */
     static Path first(List<Path> places) {
-        return places.stream().filter(SimulatorLocator::isProgram).findFirst().orElseThrow(() -> new InvalidInputException(
-                "no " + NAME + " beside this jar, on the PATH, in ~/.local/bin or built in a checkout; install Natator's Debian package "
-                        + "or Python wheel, or name the program by --simulator-path or " + VARIABLE));
+        return places.stream().filter(SimulatorLocator::isProgram).findFirst()
+                .orElseThrow(() -> new InvalidInputException(
+                        "no " + NAME
+                                + " beside this jar, on the PATH, in ~/.local/bin or built in a checkout; install Natator's Debian package "
+                                + "or Python wheel, or name the program by --simulator-path or " + VARIABLE));
     }
 
     /**

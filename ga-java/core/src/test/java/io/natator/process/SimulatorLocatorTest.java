@@ -29,8 +29,9 @@ class SimulatorLocatorTest {
     }
 
     private Path found(String jar) {
-        return SimulatorLocator.first(SimulatorLocator.places(folder.resolve(jar), "relative:" + folder.resolve("empty") + "::"
-                + folder.resolve("path"), folder.resolve("home"), folder.resolve("checkout/below")));
+        return SimulatorLocator
+                .first(SimulatorLocator.places(folder.resolve(jar), "relative:" + folder.resolve("empty") + "::"
+                        + folder.resolve("path"), folder.resolve("home"), folder.resolve("checkout/below")));
     }
 
     /** Each is found where those before it are not. */
@@ -63,9 +64,10 @@ class SimulatorLocatorTest {
 
     @Test
     void noneIsToldInOneLineWithTheWayOut() {
-        assertThatThrownBy(() -> found("natator.jar")).isInstanceOf(InvalidInputException.class).hasMessage("no natator-sim beside this "
-                + "jar, on the PATH, in ~/.local/bin or built in a checkout; install Natator's Debian package or Python wheel, or name the "
-                + "program by --simulator-path or NATATOR_SIM");
+        assertThatThrownBy(() -> found("natator.jar")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("no natator-sim beside this "
+                        + "jar, on the PATH, in ~/.local/bin or built in a checkout; install Natator's Debian package or Python wheel, or name the "
+                        + "program by --simulator-path or NATATOR_SIM");
     }
 
     @Test
@@ -89,8 +91,10 @@ class SimulatorLocatorTest {
         SimulatorLocator.requireVersion(program, "0.2.0-SNAPSHOT");
         SimulatorLocator.requireVersion(program, null);
 
-        assertThatThrownBy(() -> SimulatorLocator.requireVersion(program, "0.3.0-SNAPSHOT")).isInstanceOf(InvalidInputException.class)
-                .hasMessage(program + " is natator-sim 0.2.0, this is natator 0.3.0; expected the same version: install or build both "
+        assertThatThrownBy(() -> SimulatorLocator.requireVersion(program, "0.3.0-SNAPSHOT"))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage(program
+                        + " is natator-sim 0.2.0, this is natator 0.3.0; expected the same version: install or build both "
                         + "again, or name another program by --simulator-path or NATATOR_SIM");
     }
 
