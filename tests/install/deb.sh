@@ -21,7 +21,7 @@ clock() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.1f s", b - a }'; }
 (( $# )) || set -- bookworm noble
 for suite in "$@"; do
     system "deb-$suite" "$suite" ''
-    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge natator 2>/dev/null  # of a run that was cut short
+    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge natator >/dev/null 2>&1  # of a run that was cut short
     apt purge --auto-remove
     apt update
     chmod 777 "$root/tried/elsewhere"
@@ -29,7 +29,6 @@ for suite in "$@"; do
     began=$EPOCHREALTIME
     apt install "/tried/${package##*/}"
     installed=$EPOCHREALTIME
-    inside dpkg --listfiles natator >"$root.files"
     user natator-sim run pool/eel --duration 1 >"$root.log"
     swum=$EPOCHREALTIME
     [[ $(user natator-sim --version) == "natator-sim $version, commit "* ]]
@@ -42,8 +41,7 @@ for suite in "$@"; do
     evolved=$EPOCHREALTIME
     apt purge natator
     removed=$EPOCHREALTIME
-    left=$(grep -v '/\.$' "$root.files" | while read -r file; do [[ $file != *natator* || ! -e $root$file ]] || echo "$file"; done
-        find "$root" -xdev -path "$root/tried" -prune -o -name '*natator*' -print)
+    left=$(find "$root" -xdev -path "$root/tried" -prune -o -name '*natator*' -print)
     [[ -z $left ]] || { printf 'deb.sh: left on %s: %s\n' "$suite" "$left" >&2; exit 1; }
     printf '%s: installed in %s, first swim %s later, evolution and page %s, removed in %s\n' "$suite" "$(clock "$began" "$installed")" \
         "$(clock "$installed" "$swum")" "$(clock "$evolving" "$evolved")" "$(clock "$evolved" "$removed")"
