@@ -143,6 +143,12 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
 }
 
 template <class Real>
+void StreamSession<Real>::apply(const stream::Water&) {
+    refuse_if_unstable();
+    print(stream_water(simulation_, scene_));
+}
+
+template <class Real>
 void StreamSession<Real>::apply(const stream::Rate& rate) {
     pace_.set_rate(rate.value);
 }

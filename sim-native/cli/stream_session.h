@@ -37,6 +37,7 @@ private:
     void apply(const stream::Run&);
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
+    void apply(const stream::Water&);
     void apply(const stream::Rate& rate);
     void apply(const stream::Reset& reset);
     void apply(const stream::NewGait& gait);

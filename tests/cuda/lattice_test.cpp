@@ -100,6 +100,21 @@ TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
     expect_same_pushes(Face::free_slip, false);
     expect_same_pushes(Face::no_slip, false);
 }
+TEST_F(GpuLattice, TellsAllOfItsCells) {
+    Box box = box_of(13, 10, 7);
+    box.viscosity = 0.01;
+    const auto water = Water::on_gpu(box, 0);
+    stir(*water);
+    const std::vector<Eigen::Vector4f> cells = water->cells();
+    ASSERT_EQ(cells.size(), 910u);
+    std::size_t i = 0;
+    for_each_cell(box, [&](const Eigen::Vector3i& at) {
+        const Cell cell = water->cell(at);
+        EXPECT_NEAR(cells[i][0], 1 + cell.excess, 1e-6) << at;
+        EXPECT_LT((cells[i++].tail<3>().cast<double>() - cell.velocity).norm(), 1e-6) << at;
+    });
+}
+
 TEST_F(GpuLattice, IsShiftedAsOnTheCpu) {
     expect_same_pushes(Face::periodic, true);
     expect_same_pushes(Face::no_slip, true);

@@ -1,6 +1,7 @@
 // Scheme lattice: bodies that swim in water on a lattice.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
 #include "natator/model.h"
+#include "natator/solver.h"
 #include "refusal_of.h"
 
 namespace natator {
@@ -112,6 +114,16 @@ TEST(LatticeSwim, WaterAloneIsAScene) {
 }
 
 /// Bodies are then as in scheme conserving, to the bit.
+TEST(LatticeSwim, ThePlanNamesTheWaterBeforeAndAfterTheSolids) {
+    const std::vector<std::string> plan = describe_plan(build_model(lake()));
+    const auto has = [&](const char* what) {
+        return std::find_if(plan.begin(), plan.end(), [&](const std::string& line) { return line.find(what) != std::string::npos; });
+    };
+    EXPECT_LT(has("impulses of the water"), has("predict"));
+    EXPECT_LT(has("velocities"), has("collision and streaming"));
+    EXPECT_LT(has("collision and streaming"), plan.end());
+}
+
 TEST(LatticeSwim, NothingSwimsInVacuum) {
     Scene scene = lake();
     scene.fluid.reset();

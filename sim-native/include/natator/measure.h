@@ -133,6 +133,13 @@ std::optional<double> cavities(const Model& model, const State<Real>& state, con
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
                                                 const std::vector<double>& tail);
 
+/// The water's particles on a grid with cells as wide as they are apart at rest, over the box that holds them. The velocity is Shepard's mean
+/// of those within two cells (Shepard 1968), weighted by Wendland's kernel C2; the density the sum of their volumes times that
+/// kernel. Throws InputError for particles so far apart that there would be more than 100 million cells. Without particles of
+/// water, as in scheme `lattice`, it has no cells: Simulation::water has those of the lattice.
+template <class Real>
+WaterField water_field(const Model& model, const State<Real>& state);
+
 /// Where a body feels the water: the particles of a slice that lie outermost on one of its sides at rest.
 struct SkinPlace {
     enum class Side { left, right, above, below };

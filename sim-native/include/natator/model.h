@@ -27,6 +27,15 @@ struct WaterBox {
     double cell_mass() const { return density * cell * cell * cell; }
 };
 
+/// The water on a grid of cubic cells, in the coordinates of its tank; values are by cell, x first, then y, then z.
+struct WaterField {
+    Eigen::Vector3i cells{0, 0, 0};
+    double cell = 0;                        ///< edge of a cell, length
+    Eigen::Vector3d corner{0, 0, 0};        ///< the grid's lowest, length
+    std::vector<Eigen::Vector3f> velocity;  ///< length/s; 0 where there is no water, about the body's where that is, in scheme `lattice`
+    std::vector<float> density;             ///< in rest densities: about 1 in water, less at a surface or a body, 0 without
+};
+
 /// Bits of a particle's phase: a group number and flags, as NVIDIA Flex packs them.
 namespace phase {
 inline constexpr std::uint32_t group_mask = 0x000fffff;

@@ -94,6 +94,9 @@ public:
     /// Density of each particle in units of rest density, 0 for solids: of the present state at the start and in scheme
     /// flex; after a step in conserving at the positions of the start of its last substep.
     std::vector<Real> densities();
+    /// The water on a grid: the cells of scheme `lattice`, the particles of the others as water_field has them. Throws InputError as
+    /// that.
+    WaterField water() const;
     const std::optional<Instability>& instability() const { return instability_; }
 
 private:

@@ -185,6 +185,8 @@ public:
     /// other schemes, whose water is of particles.
     void shift_water(const Eigen::Vector3d& by);
 
+    /// The lattice's cells, of scheme `lattice`; at rest before the first update. In the other schemes it has no cells: water_field.
+    WaterField lattice_water() const;
     /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final positions,
     /// in conserving at those of the start of its last substep.
     std::vector<Real> densities();

@@ -36,8 +36,8 @@ class SwimmerEnv(gymnasium.Env):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError(f'render_mode = {render_mode!r}: must be None or "rgb_array"')
         self.render_mode, self._clipped = render_mode, False
-        self.frames = _at_most(MOST_FRAMES, "frames", whole("frames", frames, 1))
-        self.starts = _at_most(MOST_STARTS, "starts", whole("starts", starts, 1))
+        self.frames = _at_most(MAX_FRAMES, "frames", whole("frames", frames, 1))
+        self.starts = _at_most(MAX_STARTS, "starts", whole("starts", starts, 1))
         self.duration = _at_least(0, "duration", duration)
         if self.duration == 0:
             raise InputError("duration = 0: must be more than 0 s")
@@ -364,8 +364,8 @@ def _check_in_tank(box, scene):
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
 LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it
-MOST_FRAMES = 1000    # of a step, as the simulator has it
-MOST_STARTS = 2**31   # which the simulator counts from 0
+MAX_FRAMES = 1000    # of a step, as the simulator has it
+MAX_STARTS = 2**31   # which the simulator counts from 0
 
 gymnasium.register("natator/Swimmer-v0", entry_point="natator.gym:SwimmerEnv",
                    vector_entry_point="natator.gym:SwimmerVectorEnv")

@@ -20,7 +20,7 @@ from natator.program import simulator_path
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # told apart also by the colour blind
 FISH = ("anguilliform", "carangiform", "thunniform")
 ALONG, SIDEWAYS = "from the head (body lengths)", "sideways (body lengths)"
-LIKE, LEAST_ALPHA = 0.8, 0.1  # like a fish is what has at most this share of no motion's e, and is not scaled to less than that
+LIKE, MIN_ALPHA = 0.8, 0.1  # like a fish is what has at most this share of no motion's e, and is not scaled to less than that
 SIGNS = {"holds": ("holds", "✔"), "does not": ("fails", "✘"), "not measured": ("unknown", "–")}
 ROUNDING = 1e-5  # of a recorded distance, scene units
 UNSTABLE = 3  # exit code of a run that has an answer nevertheless
@@ -148,7 +148,7 @@ def difference(run, swim):
 
 def nearest(fits):
     """Number of the fish that a motion is like, or None."""
-    like = [(fit["error"], fish) for fish, fit in enumerate(fits) if fit["error"] <= LIKE * fit["none"] and fit["alpha"] >= LEAST_ALPHA]
+    like = [(fit["error"], fish) for fish, fit in enumerate(fits) if fit["error"] <= LIKE * fit["none"] and fit["alpha"] >= MIN_ALPHA]
     return min(like)[1] if like else None
 
 

@@ -72,7 +72,7 @@ class Simulator:
             for program, share in shares.items():
                 program.send_later(b"".join(lines[own] for own in share.left))
             while shares:
-                programs.hear(list(shares))
+                programs.exchange(list(shares))
                 for program, share in list(shares.items()):
                     if share.take():
                         answers |= shares.pop(program).answers

@@ -14,6 +14,7 @@ from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
 from natator.gait import Gait, numbers, rows, whole
 from natator.plain import is_number, is_whole, line, plain
+from natator.water import Water
 
 SIDES = ("left", "right", "above", "below")
 
@@ -100,7 +101,7 @@ class Stream:
     is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
-    Frame, None without fields.
+    Frame, None without fields; `last_water`, the Water that was asked for last.
     """
 
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
@@ -124,7 +125,7 @@ class Stream:
             options.append(f"--scheme={scheme}")
         if start is not None:
             options.append(f"--start={whole('start', start, 0)}")
-        self.scene, self.frame = {}, None
+        self.scene, self.frame, self.last_water = {}, None, None
         self._framed = bool(fields)
         self._unstable, self._torn = None, False
         self._ids, self._unanswered = itertools.count(1), collections.deque()
@@ -177,6 +178,11 @@ class Stream:
         if self._framed:
             self.receive()
         return self._senses(self.receive())
+
+    def water(self):
+        """The Water as it is now. Raises InputError, also when the simulation has become unstable."""
+        self.ask({"do": "water"})
+        return self.last_water
 
     def steer(self, scale=None, offset=None):
         """From the next frame on; without arguments the gait alone drives again."""
@@ -288,6 +294,11 @@ class Stream:
     def _take(self, letters, body):
         if letters == b"FRAM":
             self.frame = self._frame_of(body)
+        elif letters == b"WATR":
+            try:
+                self.last_water = Water.from_message(body)
+            except ValueError:
+                raise self._program.no_simulator() from None
         elif letters == b"SCEN":
             self._take_scene(self._program.json(body))
         elif letters == b"STOP":
@@ -360,4 +371,4 @@ def _is_scene(scene):
 PROTOCOL = 2
 WIDTHS = {"position": 3, "velocity": 3, "density": 1}
 #: bytes of a message's body
-LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

@@ -144,13 +144,14 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "drive") return only({"drive"}), fields::required(value, place, "drive"), read_steer(value);
     if (name == "steer") return only({"scale", "offset"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
+    if (name == "water") return only({}), stream::Water{};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, drive, steer, sense, overrides or scene");
+    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
 }
 
 }  // namespace natator

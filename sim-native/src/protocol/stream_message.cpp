@@ -267,6 +267,23 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
     return message.finish();
 }
 
+template <class Real>
+std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene) {
+    const WaterField field = simulation.water();
+    MessageWriter message("WATR");
+    message.reserve(64 + 16 * field.velocity.size());
+    message.add(scene);
+    message.add(static_cast<std::uint32_t>(simulation.frames()));
+    for (const int count : field.cells) message.add(static_cast<std::uint32_t>(count));
+    message.add(std::uint32_t{0});
+    message.add(simulation.state().time);
+    message.add(field.cell);
+    for (const double component : field.corner) message.add(component);
+    message.add_vectors(field.velocity);
+    message.add_numbers(field.density);
+    return message.finish();
+}
+
 ordered_json stream_stop() {
     return {{"reason", "until"}};
 }
@@ -281,6 +298,8 @@ ordered_json stream_stop(const Instability& instability) {
 
 template ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
 template ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
+template std::string stream_water(const Simulation<float>&, std::uint32_t);
+template std::string stream_water(const Simulation<double>&, std::uint32_t);
 template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
 template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 

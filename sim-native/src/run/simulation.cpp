@@ -254,6 +254,11 @@ double Simulation<Real>::distance() const {
 }
 
 template <class Real>
+WaterField Simulation<Real>::water() const {
+    return model().water_box ? run_->solver.lattice_water() : water_field(model(), state_);
+}
+
+template <class Real>
 std::vector<Real> Simulation<Real>::densities() {
     return updated_ ? run_->solver.densities() : densities_at_rest(model(), state_);
 }

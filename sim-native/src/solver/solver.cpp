@@ -148,6 +148,7 @@ public:
     void shift_water(const Eigen::Vector3d& by) {
         if (coupling_) coupling_->shift(by);
     }
+    WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
     double muscle_work() const { return muscle_work_; }
     void clear_muscle_work() { muscle_work_ = 0; }
 
@@ -271,6 +272,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
 template <class Real>
 void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
     if (!gpu_) implementation_->shift_water(by);
+}
+
+template <class Real>
+WaterField Solver<Real>::lattice_water() const {
+    return gpu_ ? WaterField{} : implementation_->lattice_water();
 }
 
 template <class Real>

@@ -25,6 +25,8 @@ public:
     void follow(const State<Real>& state, double h, double time);
     /// What is at x comes to x - by, length: a whole number of cells. The State's particles are moved by who calls this.
     void shift(const Eigen::Vector3d& by);
+    /// All cells of the water; at rest before the first step.
+    WaterField field() const;
     /// The greatest speed of a particle in a substep so far, cells.
     double fastest() const { return fastest_; }
     int fastest_particle() const { return fastest_particle_; }
@@ -41,6 +43,7 @@ private:
     std::vector<Push> pushes_;
     std::vector<Eigen::Vector3d> impulses_, places_, velocities_;
     double time_ = 0;
+    double step_ = 0;  ///< the last one, s
     double fastest_ = 0;
     int fastest_particle_ = 0;
 };

@@ -25,6 +25,7 @@ public:
     void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
     void shift(const Eigen::Vector3i& by) override;
     Cell cell(const Eigen::Vector3i& at) const override;
+    std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
 
 private:
@@ -286,6 +287,19 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
 Cell CpuWater::cell(const Eigen::Vector3i& at) const {
     const long i = place(at.x(), at.y(), at.z());
     return {now_[0][i], Eigen::Vector3d(now_[1][i], now_[2][i], now_[3][i]) / (1 + now_[0][i])};
+}
+
+std::vector<Eigen::Vector4f> CpuWater::cells() const {
+    std::vector<Eigen::Vector4f> all;
+    all.reserve(box_.cells.cast<std::size_t>().prod());
+    for (int z = 0; z < box_.cells.z(); ++z)
+        for (int y = 0; y < box_.cells.y(); ++y)
+            for (int x = 0; x < box_.cells.x(); ++x) {
+                const long i = place(x, y, z);
+                const float density = 1 + now_[0][i];
+                all.emplace_back(density, now_[1][i] / density, now_[2][i] / density, now_[3][i] / density);
+            }
+    return all;
 }
 
 void CpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {

@@ -310,6 +310,16 @@ __global__ void __launch_bounds__(block) shift_cells(Lattice lattice, const floa
     owners_to[cell] = inside ? owners_from[source] : Owners{-1, -1};
 }
 
+/// Density over that at rest and velocity, cells/step, of each cell.
+__global__ void __launch_bounds__(block) read_cells(Lattice lattice, const float* __restrict__ populations, float4* to) {
+    const unsigned cell = blockIdx.x * block + threadIdx.x;
+    if (cell >= lattice.count) return;
+    float m[lattice_moments];
+    load_moments(populations, lattice.count, cell, m);
+    const float density = 1 + m[0];
+    to[cell] = {density, m[1] / density, m[2] / density, m[3] / density};
+}
+
 /// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is found by kernels.
 class GpuWater : public Water {
 public:
@@ -318,6 +328,7 @@ public:
     void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
     void shift(const Eigen::Vector3i& by) override;
     Cell cell(const Eigen::Vector3i& at) const override;
+    std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
 
 private:
@@ -453,6 +464,18 @@ Cell GpuWater::cell(const Eigen::Vector3i& place) const {
     wait();
     moments_of(f, m);
     return {m[0], Eigen::Vector3d(m[1], m[2], m[3]) / (1 + m[0])};
+}
+
+std::vector<Eigen::Vector4f> GpuWater::cells() const {
+    choose();
+    cuda::DeviceBuffer<float4> read(lattice_.count);
+    read_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), read.data());
+    cuda::check(cudaGetLastError(), "launch");
+    std::vector<Eigen::Vector4f> all(lattice_.count);
+    static_assert(sizeof(Eigen::Vector4f) == sizeof(float4));
+    cuda::check(cudaMemcpyAsync(all.data(), read.data(), all.size() * sizeof(float4), cudaMemcpyDeviceToHost, stream_.get()), "download");
+    wait();
+    return all;
 }
 
 void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {

@@ -44,6 +44,8 @@ public:
     virtual void shift(const Eigen::Vector3i& by) = 0;
 
     virtual Cell cell(const Eigen::Vector3i& at) const = 0;
+    /// Density over that at rest and velocity, cells/step, of all cells, x first, then y, then z.
+    virtual std::vector<Eigen::Vector4f> cells() const = 0;
     virtual void set_cell(const Eigen::Vector3i& at, const Cell& cell) = 0;
 
 protected:
