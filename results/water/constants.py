@@ -133,7 +133,7 @@ def table(everything):
     all_rows = rows()
     plain = figures(row for row in all_rows if not row["constant"])
     lines = ["| constant | other value | " + " | ".join(FIGURES.values()) + " |",
-             "| --- | ---: | " + " | ".join("---:" for _ in FIGURES) + " |",
+             "|---|---:|" + "---:|" * len(FIGURES),
              "| as they are | | " + " | ".join(f"{statistics.mean(plain[key]):.3g}" for key in FIGURES) + " |"]
     for name, (kind, value) in constants().items():
         for other in variants(name, kind, value):
