@@ -20,7 +20,7 @@ SIDES = ("left", "right", "above", "below")
 
 
 def pairs(name, values):
-    """Two values each, of any sequence of such."""
+    """A list of pairs, from any sequence of pairs."""
     try:
         return [(first, second) for first, second in values]
     except (TypeError, ValueError):
@@ -73,7 +73,7 @@ def _number(value):
 
 
 def _vector(values, size):
-    """So many."""
+    """A list of `size` numbers as an array. Raises ValueError for anything else."""
     if not isinstance(values, list) or len(values) != size:
         raise ValueError
     return np.array([_number(value) for value in values], float)
@@ -160,7 +160,7 @@ class Stream:
         return self.end_step()
 
     def begin_step(self, frames=None, drive=None, scale=None, offset=None):
-        """The first half of `step`: does not wait. Several may be begun before the first is ended."""
+        """Sends a `step` without waiting for its answer. Several may be begun before the first is ended."""
         command = {"do": "step", "sense": True}
         if frames is not None:
             command["frames"] = whole("frames", frames, 1)
@@ -174,7 +174,7 @@ class Stream:
         self.send(command)
 
     def end_step(self):
-        """The second half."""
+        """Waits for a step that `begin_step` sent; returns the senses at its end. Raises Unstable."""
         if self._framed:
             self.receive()
         return self._senses(self.receive())
@@ -185,7 +185,7 @@ class Stream:
         return self.last_water
 
     def steer(self, scale=None, offset=None):
-        """From the next frame on; without arguments the gait alone drives again."""
+        """Scales and offsets the gait from the next frame on; without arguments the gait alone drives again."""
         self.ask({"do": "steer", **{name: numbers(name, values) for name, values in (("scale", scale), ("offset", offset))
                                     if values is not None}})
 
@@ -200,16 +200,16 @@ class Stream:
         self.end_reset()
 
     def begin_reset(self, start=None):
-        """The first half of `reset`: does not wait."""
+        """Sends a `reset` without waiting for it."""
         self.send({"do": "reset"} if start is None else {"do": "reset", "start": whole("start", start, 0)})
 
     def end_reset(self):
-        """The second half."""
+        """Waits for a reset that `begin_reset` sent."""
         self.receive()
         self._first_frame()
 
     def ask(self, command):
-        """Sends any command of the protocol; its answer. Raises InputError."""
+        """Sends any command of the protocol; returns its answer. Raises InputError."""
         self.require_idle()
         self.send(command)
         return self.receive()

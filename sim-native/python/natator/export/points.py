@@ -39,7 +39,7 @@ class Ply:
             out.write(b"" if faces is None else faces.tobytes())
 
     def finish(self):
-        """Every file is whole already."""
+        """Does nothing: each frame's file is already complete."""
 
     close = finish
 
@@ -82,7 +82,7 @@ class Vtp:
             self._write(frame, "water-surface", part, vertices, {"Polys": triangles})
 
     def _write(self, frame, name, part, points, cells, of_points={}, of_cells={}):
-        """VTK's PolyData in XML, its numbers behind the XML as they are (appended, raw)."""
+        """VTK's PolyData in XML, its numbers appended raw after the XML."""
         blocks, offset = [], 0
 
         def listed(arrays):
@@ -117,7 +117,7 @@ class Vtp:
         _write_collection(self._folder / "swim.pvd", self._index)
 
     def close(self):
-        """No file stays open between frames."""
+        """Does nothing: no file stays open between frames."""
 
 
 class Vti:
@@ -136,7 +136,7 @@ class Vti:
         _write_collection(self._folder / "water.pvd", self._index)
 
     def close(self):
-        """No file stays open between frames."""
+        """Does nothing: no file stays open between frames."""
 
 
 def _write_collection(file, entries):
