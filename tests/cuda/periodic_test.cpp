@@ -109,7 +109,7 @@ TEST_F(GpuPeriodic, ASwimIsTheCpus) {
     EXPECT_NEAR(on_cpu.distance, all[0].distance, 1e-12);
 }
 
-TEST_F(GpuPeriodic, MoreBordersThanItHasRoomForAreRefused) {
+TEST_F(GpuPeriodic, MoreBoundariesThanItHasRoomForAreRefused) {
     Model model = stirred_periodic_water({0, 2});
     model.planes.push_back({{0, -1, 0}, 2});
     GpuSolver<float> fits(model);  // six

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "law_models.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/water_volumes.h"
 
 /// Models of periodic tanks that tests share.

@@ -32,13 +32,13 @@ State<Real> after_frames(const Model& model, int frames, int threads = 1) {
 }
 
 /// Whatever the tank's place and length, what one of a pair sees of the other through an end is bit for bit the opposite of
-/// what that one sees: the images are nowhere rounded.
+/// what that one sees: ghosts are nowhere rounded.
 template <class Real>
 void expect_exactly_opposite_pairs() {
     for (const PeriodicAxis& axis : {PeriodicAxis{0, 0, 2.4}, {0, -0.7, 1.1}, {0, 0.1, 4.51}, {0, 100.3, 103}}) {
         Model model = box_of_water({1, 1, 1});
         model.periodic = {axis};
-        const auto seam = seams_of<Real>(model).front();
+        const auto seam = periodic_axes_of<Real>(model).front();
         EXPECT_NEAR(static_cast<double>(seam.low), axis.low, 1e-5);
         EXPECT_NEAR(static_cast<double>(seam.length), axis.length(), 1e-5);
         for (int k = 0; k < 1000; ++k) {

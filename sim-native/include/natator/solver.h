@@ -193,7 +193,7 @@ public:
     /// takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
-    /// viscosity, of the water before walls and of its mirror images behind them. Summed over a body's particles, or over
+    /// viscosity, of the water before walls and of its ghosts behind them. Summed over a body's particles, or over
     /// any part of them, it is the force on that; particles of infinite mass feel it too, though they do not move. What
     /// solids do to each other is not in it; 0 for fluid. Empty without Execution::forces, and in the other schemes.
     std::vector<Vector3<Real>> forces() const;

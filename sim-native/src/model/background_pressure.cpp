@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "borders.h"
+#include "boundaries.h"
 #include "natator/error.h"
 #include "physics/dfsph.h"
 #include "tank_ends.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "borders.h"
+#include "boundaries.h"
 #include "physics/dfsph.h"
 
 namespace natator {

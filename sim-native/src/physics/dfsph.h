@@ -59,7 +59,7 @@ inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a subs
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
 inline constexpr double partly_corrected_density = 0.9, wholly_corrected_density = 0.95;
 inline constexpr double uncorrected_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
-inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its ghost
 
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
 // determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
@@ -238,7 +238,7 @@ NATATOR_HD T zeroth_order_share(T density, T volume, const WendlandKernel<R>& ke
 }
 
 /// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall, at
-/// most as much as the owner's. The pressure of mirror images has a kink at the wall, of which gradients see but a part:
+/// most as much as the owner's. The pressure of ghosts has a kink at the wall, of which gradients see but a part:
 /// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from owner to
 /// ghost.
 template <class T>

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "base/strict_json.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
 #include "natator/measure.h"

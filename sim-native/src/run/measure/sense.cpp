@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/check_model.h"
 #include "natator/error.h"
 #include "physics/constants.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "ghost_maps.h"
+#include "ghost_transforms.h"
 #include "kernel_choice.h"
 #include "model/background_pressure.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
@@ -159,15 +159,15 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.volume = keep(volume_, volume);
     water.fluid_volume = view_.fluid > 0 ? volume.front() : 0;
 
-    const std::vector<physics::Seam<Real>> seams = seams_of<Real>(model);
-    const std::vector<physics::Border<Real>> borders = borders_of<Real>(model);
+    const std::vector<physics::PeriodicAxis<Real>> axes = periodic_axes_of<Real>(model);
+    const std::vector<physics::Boundary<Real>> boundaries = boundaries_of<Real>(model);
     water.weight_on_walls = vec3<Real>(model.parameters.buoyancy * gravity_on_walls(model));
-    water.seams = static_cast<int>(seams.size());
-    water.borders = static_cast<int>(borders.size());
-    std::copy(seams.begin(), seams.end(), water.seam);
-    std::copy(borders.begin(), borders.end(), water.border);
-    water.ghost_map = keep(ghost_map_, ghost_maps(borders));
-    water.max_copies = max_copies(borders, water.radius);
+    water.periodic_axes = static_cast<int>(axes.size());
+    water.boundaries = static_cast<int>(boundaries.size());
+    std::copy(axes.begin(), axes.end(), water.periodic_axis);
+    std::copy(boundaries.begin(), boundaries.end(), water.boundary);
+    water.ghost_transform = keep(ghost_transform_, ghost_transforms(boundaries));
+    water.max_copies = max_copies(boundaries, water.radius);
     water.grid = grid_over(model, water.radius, water.radius, cells_off_chip(model));
 }
 

@@ -42,7 +42,7 @@ private:
     ModelView<Real> view_{};
     std::vector<int> number_of_, particle_of_;
     DeviceBuffer<Real> inverse_mass_, member_mass_, volume_;
-    DeviceBuffer<GhostMap<Real>> ghost_map_;
+    DeviceBuffer<GhostTransform<Real>> ghost_transform_;
     DeviceBuffer<std::uint32_t> phase_;
     DeviceBuffer<Vec3<Real>> rest_position_, offset_;
     DeviceBuffer<SpringView<Real>> spring_;

@@ -4,7 +4,7 @@
 
 #include "natator/solver.h"
 #include "physics/background_pressure.h"
-#include "physics/border.h"
+#include "physics/boundary.h"
 #include "physics/dfsph.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"
@@ -101,17 +101,18 @@ struct Incidence {
 
 inline constexpr int most_planes = 16;
 
-/// x -> turn x + shift: through one or more borders, one behind the other.
+/// x -> H x + shift: takes a place to that of its ghost through one or more boundaries. H is a product of reflections, and turns
+/// vectors into those of the ghost.
 template <class Real>
-struct GhostMap {
-    Vec4<Real> row[3];  ///< of the turn; w: of the shift
+struct GhostTransform {
+    Vec4<Real> row[3];  ///< of H; w: of the shift
 };
 
-inline constexpr int max_borders = 6, max_borders_at_once = 3;
-inline constexpr int max_slot_bits = 26;   ///< the rest of 32 bits is a set of borders
+inline constexpr int max_boundaries = 6;
+inline constexpr int max_slot_bits = 26;   ///< the rest of 32 bits is a set of boundaries
 
-/// The water of scheme `conserving`. What is beyond its borders is the ghost of what is before them. A ghost is known by its
-/// particle and the set of borders that it went through, in their order: bit k for border k.
+/// The water of scheme `conserving`. A ghost is known by its particle and the set of boundaries that it went through, in their order:
+/// bit k for boundary k.
 template <class Real>
 struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
@@ -124,11 +125,11 @@ struct WaterModel {
     const Real* volume;          ///< by particle
     Vec3<Real> weight_on_walls;  ///< gravity of the fluid along axes that have ends, length/s^2
     physics::CarriedWeight<Real> carried;
-    int seams, borders;
-    physics::Seam<Real> seam[2];
-    physics::Border<Real> border[max_borders];  ///< see borders_of
-    const GhostMap<Real>* ghost_map;             ///< by set of borders
-    int max_copies;                     ///< of a particle: itself and its ghosts
+    int periodic_axes, boundaries;
+    physics::PeriodicAxis<Real> periodic_axis[2];
+    physics::Boundary<Real> boundary[max_boundaries];  ///< see boundaries_of
+    const GhostTransform<Real>* ghost_transform;  ///< by set of boundaries
+    int max_copies;                                        ///< of a particle: itself and its ghosts
 };
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.

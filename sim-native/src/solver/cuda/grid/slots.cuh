@@ -91,7 +91,7 @@ __device__ inline int place_of(unsigned neighbour) {
 }
 
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the slots of the
-// fluid. An entry is a slot with the set of borders that it is the ghost of: borders << max_slot_bits | slot.
+// fluid. An entry is a slot with the set of boundaries that it is the ghost of: boundaries << max_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
     X(int, table, plan.water ? size.water.grid.cells : 0) /* ends of the cells */                                       \
     X(int, first_row, (water + slots_of_row - 1) / slots_of_row) /* of the slots that share rows */                     \
@@ -129,7 +129,7 @@ struct StateArrays {
 template <class Real>
 struct WaterArrays {
     NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
-    // By themselves, as their room may grow. Of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their
+    // By themselves, as their room may grow. Of particles and ghosts, cell by cell: boundaries << 58 | number << 32 | slot; their
     // positions, w: the entry as an integer.
     std::uint64_t* keys = nullptr;
     Vec4<Real>* candidate = nullptr;

@@ -90,7 +90,7 @@ private:
     void apply_internal_corrections();
     /// x, or where it is put that is behind a plane or nearer to one than `distance`: see physics::put_before.
     Vec3<Real> before_planes(Vec3<Real> x, Real distance) const;
-    /// What a particle keeps from planes, length. Water does not touch them otherwise: their mirror images hold it.
+    /// What a particle keeps from planes, length. Water does not touch them otherwise: their ghosts hold it.
     Real wall_distance(int particle) const;
     void move(int slot, const Vec3<Real>& by) {
         displacement_.add(slot, by);
@@ -104,7 +104,7 @@ private:
 
     std::optional<Water<Real>> water_;
     std::vector<physics::PlaneSurface<Real>> planes_;
-    std::vector<physics::Seam<Real>> seams_;
+    std::vector<physics::PeriodicAxis<Real>> periodic_axes_;
     double density_error_ = 0;         ///< before the last iteration, see Residuals::density; with a tolerance alone
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot

@@ -20,7 +20,7 @@ void ConservingStages<Real>::move_solids_with_water() {
 template <class Real>
 void ConservingStages<Real>::compute_density_impulses() {
     tell_water();
-    if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
+    if (!ws_.solid_ids.empty()) water_->update_ghost_velocities(*this->team_);
     water_->compute_impulses(*this->team_);
     if (model_.parameters.conserving.density_tolerance > 0) density_error_ = water_->lacking().mean;
 }

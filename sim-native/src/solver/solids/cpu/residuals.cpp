@@ -9,7 +9,7 @@ template <class Real>
 void ConservingStages<Real>::measure_constraints(Residuals& residuals) {
     if (water_) {
         tell_water();
-        water_->give_images_velocities(*this->team_);
+        water_->update_ghost_velocities(*this->team_);
         residuals.density = water_->unsolved(*this->team_);
     }
     ResidualSum springs, clusters;

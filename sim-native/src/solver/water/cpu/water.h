@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "images.h"
+#include "ghosts.h"
 #include "natator/model.h"
 #include "natator/solver.h"
 #include "physics/background_pressure.h"
@@ -54,7 +54,7 @@ public:
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
-    /// To be followed by give_images_velocities once all are set.
+    /// To be followed by update_ghost_velocities once all are set.
     void set_velocity(int particle, const Vec3<Real>& v) {
         const int slot = slot_of_[particle];
         velocity_.set(slot, v);
@@ -64,8 +64,8 @@ public:
     }
     /// Once all passes are done: holds up what lies at walls, see physics::hydrostatic_ghost_impulse.
     void apply_wall_pressure(ThreadTeam& team);
-    /// Gives the images the velocities of what they are images of.
-    void give_images_velocities(ThreadTeam& team);
+    /// Gives the ghosts the velocities of what they are ghosts of.
+    void update_ghost_velocities(ThreadTeam& team);
     /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
@@ -88,18 +88,18 @@ public:
     std::vector<Vector3<Real>> forces() const;
 
 private:
-    using Image = typename Images<Real>::Image;
+    using Ghost = typename Ghosts<Real>::Ghost;
 
     /// Where the water has its particles: in a periodic tank all within its ends.
     const std::vector<Vector3<Real>>& places_in_tank(const State<Real>& state);
     void lay_out(const State<Real>& state, ThreadTeam& team);
-    void sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Image>& images, ThreadTeam& team);
+    void sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Ghost>& ghosts, ThreadTeam& team);
     void make_room(std::size_t slots);
     void list_neighbours(ThreadTeam& team);
-    void give_images_corrections(ThreadTeam& team);
+    void update_ghost_corrections(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
-    /// Turns vectors that neighbours gather into those of the images.
-    void give_images(AlignedVector<Real>& packed, ThreadTeam& team);
+    /// Turns vectors that neighbours gather into those of the ghosts.
+    void update_ghosts(AlignedVector<Real>& packed, ThreadTeam& team);
     WaterView<Real> view();
 
     void add_viscous_forces(Real strength, Real most);
@@ -110,9 +110,9 @@ private:
     void add_cohesion(ThreadTeam& team);
     void add_surface_tension(ThreadTeam& team);
     void add_vorticity_confinement(ThreadTeam& team);
-    /// Of an image's owner, too.
+    /// Of a ghost's owner, too.
     bool is_fluid_slot(int slot) const {
-        return model_.is_fluid(particle_of_[slot < image_begin_ ? slot : image_owner_[slot - image_begin_]]);
+        return model_.is_fluid(particle_of_[slot < ghost_begin_ ? slot : ghost_owner_[slot - ghost_begin_]]);
     }
     /// As neighbours gather it.
     Vec3<Real> packed_velocity(int slot) const {
@@ -137,10 +137,10 @@ private:
     template <class Work>
     void for_fluid_slots(ThreadTeam& team, const Work& work);
 
-    /// Calls work(k) for each image, k being its slot - image_begin_.
+    /// Calls work(k) for each ghost, k being its slot - ghost_begin_.
     template <class Work>
-    void for_each_image(ThreadTeam& team, const Work& work) {
-        team.for_each(static_cast<int>(image_owner_.size()), shortest_run, work);
+    void for_each_ghost(ThreadTeam& team, const Work& work) {
+        team.for_each(static_cast<int>(ghost_owner_.size()), shortest_run, work);
     }
     template <class Work>
     void for_each_slot(ThreadTeam& team, const Work& work) {
@@ -157,7 +157,7 @@ private:
         });
     }
     static constexpr int shortest_part = 8;    ///< blocks
-    static constexpr int shortest_run = 2048;  ///< particles or images that little is done with; fewer are done before another thread is awake
+    static constexpr int shortest_run = 2048;  ///< particles or ghosts that little is done with; fewer are done before another thread is awake
 
     const Model& model_;
     const WaterKernels<Real>* kernels_;
@@ -167,8 +167,8 @@ private:
     Real fastest_expansion_;  ///< by the velocities, of what is compressed, 1/s
     Real effect_radius_;      ///< R of physics/water_effects.h
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
-    Images<Real> images_;
-    std::vector<physics::Seam<Real>> seams_;
+    Ghosts<Real> ghosts_;
+    std::vector<physics::PeriodicAxis<Real>> periodic_axes_;
     std::vector<Vector3<Real>> in_tank_;  ///< by particle; empty where no axis is periodic
     CellGrid<Real> grid_;
     Vec3<Real> fluid_gravity_;    ///< of the fluid, length/s^2
@@ -176,17 +176,17 @@ private:
     physics::CarriedWeight<Real> carried_;
     Real h_ = 1;
 
-    int particles_, image_begin_, far_slot_ = 0;
+    int particles_, ghost_begin_, far_slot_ = 0;
     std::vector<int> slot_of_, particle_of_;
-    std::vector<int> image_owner_, image_turn_;  ///< by image slot - image_begin_
-    std::vector<int> image_slot_;                ///< by image, as Images has them
-    std::vector<int> cell_begin_, image_cell_begin_;
+    std::vector<int> ghost_owner_, ghost_transform_;  ///< by ghost slot - ghost_begin_
+    std::vector<int> ghost_slot_;                ///< by ghost, as Ghosts has them
+    std::vector<int> cell_begin_, ghost_cell_begin_;
     std::vector<int> cell_of_;  ///< by particle
 
     Vector3Array<Real> position_, velocity_, crowding_;
     Vector3Array<Real> kept_velocity_;  ///< room for the separation of overlaps
-    Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
-    std::vector<Real> strength_;        ///< of the vorticity, also of images
+    Vector3Array<Real> field_;          ///< of add_forces, also of ghosts: normals, then vorticity
+    std::vector<Real> strength_;        ///< of the vorticity, also of ghosts
     std::vector<Vec3<Real>> parting_;   ///< displacement by separate_overlaps, by slot; empty where nothing overlaps
     AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_,
         impulse_sum_, zeroth_order_correction_;

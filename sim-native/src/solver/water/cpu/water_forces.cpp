@@ -47,7 +47,7 @@ void Water<Real>::add_pressure_forces() {
         if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
             const Real* const zeroth_order_correction = &packed_zeroth_order_[4 * static_cast<std::size_t>(of)];
-            return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],
+            return {volume_[of], impulse_sum_[of < ghost_begin_ ? of : ghost_owner_[of - ghost_begin_]],
                     {zeroth_order_correction[0], zeroth_order_correction[1], zeroth_order_correction[2]}};
         };
         const physics::PairSide<Real> own = side(slot);

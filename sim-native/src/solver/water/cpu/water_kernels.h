@@ -7,7 +7,7 @@
 namespace natator::cpu {
 
 /// What the kernels of scheme `conserving` read and write, by slot. Slots of all particles come first, in blocks; behind
-/// them are their images, which have no rows of their own.
+/// them are their ghosts, which have no rows of their own.
 template <class Real>
 struct WaterView {
     int first_block, end_block;     ///< the blocks to work on
@@ -36,7 +36,7 @@ struct WaterView {
     Real* zeroth[3];        ///< sum of G_ij
     Real* zeroth_order_correction;           ///< of the pressure, see physics::zeroth_order_correction
 
-    // By slot, four at a time, also for images: what neighbours gather.
+    // By slot, four at a time, also for ghosts: what neighbours gather.
     Real* packed;             ///< position and volume
     Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy

@@ -14,7 +14,7 @@ __device__ inline int own_lane() {
     return static_cast<int>(threadIdx.x) % pair_lanes;
 }
 
-/// Of a candidate: its slot, with the borders that it is the ghost of.
+/// Of a candidate: its slot, with the boundaries that it is the ghost of.
 template <class Real>
 __device__ unsigned entry_of(const Vec4<Real>& candidate) {
     return static_cast<unsigned>(number_in(candidate.w));

@@ -20,9 +20,9 @@ __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Rea
     const WaterArrays<Real>& water = slots.water;
     const Real strength = viscous_strength(model, slots);
     ViscousPairs<Real> sums(model, water, s, strength);
-    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned boundaries) {
         if (other < model.fluid)
-            sums.add(gradient, borders, water.position[other], water.velocity[other], water.shear[other]);
+            sums.add(gradient, boundaries, water.position[other], water.velocity[other], water.shear[other]);
     });
     const Vec3<Real> sum = sums.impulse();
     if (own_lane() == 0) add_impulse(model, slots, s, strength * sum);
@@ -36,12 +36,12 @@ __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Re
     const Vec4<Real> here = water.position[s];
     const physics::PairSide<Real> own{here.w, water.impulse_sum[s], xyz(water.zeroth_order_correction[s])};
     Vec3<Real> sum{};
-    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned boundaries) {
         if (other >= model.fluid) return;
         const Vec4<Real> there = water.position[other];
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
+        const Vec3<Real> difference = xyz(here) - ghost_position(model.water, xyz(there), boundaries);
         const physics::PairSide<Real> its{there.w, water.impulse_sum[other],
-                                          xyz(seen(model, water.zeroth_order_correction[other], borders))};
+                                          xyz(reflected(model, water.zeroth_order_correction[other], boundaries))};
         sum += pressure_impulse_between(own, its, gradient, model.water.kernel.value(physics::length_of(difference)));
     });
     sum = sum_of_lanes(sum);

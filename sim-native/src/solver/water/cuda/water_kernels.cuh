@@ -17,10 +17,10 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     physics::ResponseSums<Real> sums;
     physics::PassingSpeed<Real> fastest;
     Real rate = 0;
-    const auto add = [&](std::size_t place, int, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+    const auto add = [&](std::size_t place, int, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
                          const Vec4<Real>& shear, const Vec4<Real>& velocity) {
-        auto [gradient, slope] = own.with(borders, there, correction, shear);
-        const Vec3<Real> relative = xyz(seen(model, velocity, borders)) - v;
+        auto [gradient, slope] = own.with(boundaries, there, correction, shear);
+        const Vec3<Real> relative = xyz(reflected(model, velocity, boundaries)) - v;
         const PairGradient<Real> kept = PairGradient<Real>::keep(gradient);
         if constexpr (pairs == Pairs::listed) water.pair[place] = kept;
         sums.add(gradient, shear.z);
@@ -62,8 +62,8 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
         const bool wet = density > Real(physics::wet_density);  // else it has no impulse
         const Vec4<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
-        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned borders, const Vec4<Real>& u) {
-            rates[list] += dot_unfused(xyz(seen(model, u, borders)) - v, gradient);
+        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned boundaries, const Vec4<Real>& u) {
+            rates[list] += dot_unfused(xyz(reflected(model, u, boundaries)) - v, gradient);
         };
         for_each_pass_pair<pairs, lanes, rows_of_velocities<lanes>>(model, slots, s, wet, add, velocity);
     }
@@ -135,10 +135,10 @@ public:
           most_(physics::viscous_limit(model.water.spacing, strength)) {}
 
     /// `there`, `velocity` and `shear`: the other's, as they are laid out.
-    __device__ void add(const Vec3<Real>& gradient, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& velocity,
+    __device__ void add(const Vec3<Real>& gradient, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& velocity,
                         const Vec4<Real>& shear) {
-        const Vec3<Real> difference = xyz(here_) - ghost_of(model_.water, xyz(there), borders);
-        const Vec3<Real> moves = xyz(seen(model_, velocity, borders)) - xyz(moves_);
+        const Vec3<Real> difference = xyz(here_) - ghost_position(model_.water, xyz(there), boundaries);
+        const Vec3<Real> moves = xyz(reflected(model_, velocity, boundaries)) - xyz(moves_);
         const Real share = physics::viscous_share(here_.w * shear_.z, there.w * shear.z, most_) *
                            physics::wall_viscosity_factor(shear_.w, shear.w);
         sums_.add(difference, moves, model_.water.softening, share, gradient);
@@ -164,9 +164,9 @@ __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>&
     const WaterArrays<Real>& water = slots.water;
     const Real strength = viscous_strength(model, slots);
     ViscousPairs<Real> sums(model, water, s, strength);
-    const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Vec4<Real>& there,
+    const auto add = [&](const Vec3<Real>& gradient, int, unsigned boundaries, const Vec4<Real>& there,
                          const Vec4<Real>& velocity, const Vec4<Real>& shear) {
-        sums.add(gradient, borders, there, velocity, shear);
+        sums.add(gradient, boundaries, there, velocity, shear);
     };
     for_each_water_pair<pairs, 2>(model, slots, s, model.particles, add, water.position, water.velocity, water.shear);
     const Vec4<Real> moves = water.velocity[s];
@@ -227,30 +227,30 @@ __device__ void lay_out_zeroth_order_correction(const ModelView<Real>& model, co
 }
 
 /// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
-/// borders, so only what is nearer to a plane than the kernel's support has any for neighbours.
+/// boundaries, so only what is nearer to a plane than the kernel's support has any for neighbours.
 template <Pairs pairs, class Real>
 __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
     const Vec4<Real> here = water.position[s];
     Vec3<Real> given_back{}, weight{};
-    const auto gradient_at = [&](std::size_t place, int other, unsigned borders, const Vec4<Real>& there) {
+    const auto gradient_at = [&](std::size_t place, int other, unsigned boundaries, const Vec4<Real>& there) {
         if constexpr (pairs == Pairs::listed)
             return water.pair[place].value();
         else
-            return GradientsOf<Real>(model, water, s).kept(borders, there, water.correction[other], water.shear[other]);
+            return GradientsOf<Real>(model, water, s).kept(boundaries, there, water.correction[other], water.shear[other]);
     };
-    const auto add = [&](std::size_t place, int other, unsigned borders, const Vec4<Real>& x, const Vec4<Real>& zeroth_order_correction) {
+    const auto add = [&](std::size_t place, int other, unsigned boundaries, const Vec4<Real>& x, const Vec4<Real>& zeroth_order_correction) {
         Vec3<Real> there = xyz(x), its = xyz(zeroth_order_correction);
-        if (borders != 0) {  // all at once: few warps have ghosts
-            there = ghost_of(model.water, there, borders);
-            its = turned(model.water.ghost_map[borders], its);
+        if (boundaries != 0) {  // all at once: few warps have ghosts
+            there = ghost_position(model.water, there, boundaries);
+            its = reflected(model.water.ghost_transform[boundaries], its);
             if (walls && other < model.fluid) {
                 Vec3<Real> gravity = model.water.weight_on_walls;
                 if (const auto& carried = model.water.carried; carried.any())
                     gravity = gravity - carried.part(xyz(x)) * carried.gravity;
                 weight += physics::hydrostatic_ghost_impulse(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
                                                    zeroth_order_correction.w) *
-                          gradient_at(place, other, borders, x);
+                          gradient_at(place, other, boundaries, x);
             }
         }
         given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * its;
