@@ -49,7 +49,7 @@ Eigen::Vector3d gravity_on_walls(const SolverParameters& parameters, const std::
     return gravity;
 }
 
-Eigen::Vector3d shortest_way(const Model& model, Eigen::Vector3d difference) {
+Eigen::Vector3d minimum_image(const Model& model, Eigen::Vector3d difference) {
     for (const PeriodicAxis& periodic : model.periodic) {
         double& along = difference[periodic.axis];
         along -= periodic.length() * std::round(along / periodic.length());

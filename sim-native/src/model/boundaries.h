@@ -20,6 +20,6 @@ Eigen::Vector3d gravity_on_walls(const Model& model);
 Eigen::Vector3d gravity_on_walls(const SolverParameters& parameters, const std::vector<PeriodicAxis>& periodic);
 
 /// The difference of two places by the shortest way, through the ends of periodic axes too.
-Eigen::Vector3d shortest_way(const Model& model, Eigen::Vector3d difference);
+Eigen::Vector3d minimum_image(const Model& model, Eigen::Vector3d difference);
 
 }  // namespace natator

@@ -13,7 +13,7 @@ struct Boundary {
     R shift;  ///< of ghosts along the normal, length; 0 for a wall
 };
 
-/// How many boundaries a ghost may be behind: as many as meet in a corner.
+/// Maximum number of boundaries that a ghost is behind: as many as meet in a corner.
 inline constexpr int max_boundaries_of_ghost = 3;
 
 /// A periodic axis: where the tank begins on it, and how long the tank is. Both are multiples of `grain`, a power

@@ -17,17 +17,17 @@
 
 namespace natator {
 
-/// Of a substep, and of the solids in each of those; the latter in scheme `conserving` alone.
+/// Numbers of iterations: of a substep, and of the solids in each of those, in scheme `conserving` alone.
 struct Iterations {
     int all;
     int of_solids = 1;
-    int most = 0;  ///< of those Stages that go on until they have converged
+    int max = 0;  ///< of those Stages that go on until they have converged
 };
 
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
-    one_by_one,  ///< each group by itself
-    together,    ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
+    separate,  ///< each group by itself
+    fused,     ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
 };
 
 /// The groups of constraints that act on solids, in the order of all schemes.
@@ -53,7 +53,7 @@ NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStag
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.compute_density_and_fits();
         after(Stage::density_and_fits);
         stages.apply_corrections();
@@ -90,7 +90,7 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_it
         stages.apply_density_impulses();
         after(Stage::density_constraint);
     }
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.solve_solids_together();
         after(Stage::solids);
     } else {
@@ -133,7 +133,7 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void end_water(Stages& stages, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.end_water_passes();
     } else {
         stages.return_zeroth_order_correction();
@@ -190,7 +190,7 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
     stages.find_neighbours(after);
     stages.begin_iterations();
     after(Stage::neighbours);
-    for (int i = 0; i < iterations.all || i < iterations.most; ++i) {
+    for (int i = 0; i < iterations.all || i < iterations.max; ++i) {
         if constexpr (requires { stages.has_converged(); })
             if (i >= iterations.all && stages.has_converged()) break;
         if constexpr (Stages::scheme != Scheme::flex)

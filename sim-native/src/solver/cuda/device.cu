@@ -37,8 +37,8 @@ void choose_device(int device) {
 
 std::optional<std::string> refusal(const Model& model) {
     if (model.particles() == 0) return "the scene has no particles; must have some";
-    if (model.planes.size() > most_planes)
-        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
+    if (model.planes.size() > max_planes)
+        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(max_planes);
     if (!make_plan(model).water) return std::nullopt;
     if (model.parameters.conserving.density_tolerance > 0) {
         return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) + "; must be 0: a GPU has numIterations";

@@ -31,7 +31,7 @@ Water<Real>::Water(const Model& model)
     fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
     weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
     carried_ = background_pressure<Real>(model);
-    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
+    max_expansion_rate_ = static_cast<Real>(max_expansion_rate(model.parameters, solved_depth(model)));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
     fluid_density_ = static_cast<Real>(density);
@@ -45,7 +45,7 @@ Water<Real>::Water(const Model& model)
     particle_of_.assign(ghost_begin_, -1);
     row_begin_.assign(ghost_begin_ / lanes + 1, 0);
     neighbour_count_.assign(ghost_begin_, 0);
-    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_, &zeroth_order_correction_}) array->resize(ghost_begin_);
+    for (auto* array : {&solid_, &density_, &max_speed_square_, &response_, &target_, &impulse_sum_, &zeroth_order_correction_}) array->resize(ghost_begin_);
     for (auto& array : correction_) array.resize(ghost_begin_);
     crowding_.resize(ghost_begin_);
     zeroth_.resize(ghost_begin_);
@@ -54,26 +54,26 @@ Water<Real>::Water(const Model& model)
 template <class Real>
 Vec3<Real> Water<Real>::shift(int particle) const {
     const int slot = slot_of_[particle];
-    const Vec3<Real> parting = parting_.empty() ? Vec3<Real>{} : parting_[slot];
-    if (!model_.is_fluid(particle)) return parting;
-    return parting +
-           physics::shift_of(density_[slot], crowding_.at(slot), fastest_square_[slot], radius_, spacing_, h_);
+    const Vec3<Real> separation = separation_.empty() ? Vec3<Real>{} : separation_[slot];
+    if (!model_.is_fluid(particle)) return separation;
+    return separation +
+           physics::shift_of(density_[slot], crowding_.at(slot), max_speed_square_[slot], radius_, spacing_, h_);
 }
 
-/// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
+/// Where particles start too close, see physics::separation_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
 bool Water<Real>::begin_overlap_separation(ThreadTeam& team) {
-    parting_.clear();
-    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
+    separation_.clear();
+    const Real limit = physics::velocity_limit(h_, max_expansion_rate_);
     std::atomic<bool> any = false;
-    team.for_parts(particles_, shortest_run, [&, h = h_](int, int begin, int end) {
+    team.for_parts(particles_, min_run, [&, h = h_](int, int begin, int end) {
         const Real *const volume = volume_.data(), *const density = density_.data();
         Real* const target = target_.data();
         Real densest = 0;
         for (int slot = begin; slot < end; ++slot) {
             densest = std::max(densest, density[slot]);
-            target[slot] = physics::parting_target(volume[slot], density[slot], limit, h);
+            target[slot] = physics::separation_target(volume[slot], density[slot], limit, h);
         }
         if (densest - 1 > Real(physics::overlap_tolerance)) any = true;
     });
@@ -97,9 +97,9 @@ void Water<Real>::separate_overlaps(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::end_overlap_separation(ThreadTeam& team) {
-    parting_.resize(particles_);
+    separation_.resize(particles_);
     for_each_slot(team, [this](int slot) {
-        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::max_separation) * spacing_);
+        separation_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::max_separation) * spacing_);
         velocity_.set(slot, kept_velocity_.at(slot));
         inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
     });
@@ -165,7 +165,7 @@ WaterView<Real> Water<Real>::view() {
                         .density = density_.data(),
                         .correction = {},
                         .crowding = {crowding[0], crowding[1], crowding[2]},
-                        .fastest_square = fastest_square_.data(),
+                        .max_speed_square = max_speed_square_.data(),
                         .response = response_.data(),
                         .target = target_.data(),
                         .impulse = impulse_.data(),
@@ -189,7 +189,7 @@ void Water<Real>::compute_impulses(ThreadTeam& team) {
 }
 
 template <class Real>
-Residual Water<Real>::lacking() const {
+Residual Water<Real>::target_residual() const {
     ResidualSum sum;
     for (int slot = 0; slot < particles_; ++slot) {
         if (!model_.is_fluid(particle_of_[slot])) continue;
@@ -200,11 +200,11 @@ Residual Water<Real>::lacking() const {
 }
 
 template <class Real>
-Residual Water<Real>::unsolved(ThreadTeam& team) {
+Residual Water<Real>::measure_target_residual(ThreadTeam& team) {
     const AlignedVector<Real> sum = impulse_sum_;
     compute_impulses(team);
     impulse_sum_ = sum;
-    return lacking();
+    return target_residual();
 }
 
 template <class Real>
@@ -240,7 +240,7 @@ template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
     std::fill(zeroth_order_correction_.begin(), zeroth_order_correction_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    if (!parting_.empty()) {
+    if (!separation_.empty()) {
         std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
         compute_impulses(team);
     }  // else compute_gradients has computed them
@@ -251,14 +251,14 @@ template <class Real>
 void Water<Real>::add_viscosity(ThreadTeam& team) {
     if (!(dynamic_viscosity_ > 0)) return;
     const Real strength = physics::viscous_strength(h_, dynamic_viscosity_);
-    const Real most = physics::viscous_limit(spacing_, strength);
-    add_viscous_forces(strength, most);
-    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
+    const Real limit = physics::viscous_limit(spacing_, strength);
+    add_viscous_forces(strength, limit);
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, limit); });
 }
 
 template <class Real>
 void Water<Real>::add_gravity(ThreadTeam& team) {
-    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
+    const Real limit = physics::velocity_limit(h_, max_expansion_rate_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const auto acceleration = [&](int slot) {
         const bool fluid = model_.is_fluid(particle_of_[slot]);

@@ -23,7 +23,7 @@ void Water<Real>::for_each_fluid_within_radius(int slot, const Visit& visit) con
 template <class Real>
 template <class Work>
 void Water<Real>::for_fluid_slots(ThreadTeam& team, const Work& work) {
-    team.for_parts(particles_, shortest_part * lanes, [&](int, int begin, int end) {
+    team.for_parts(particles_, min_part * lanes, [&](int, int begin, int end) {
         for (int slot = begin; slot < end; ++slot)
             if (is_fluid_slot(slot)) work(slot);
     });

@@ -100,7 +100,7 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
     for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
 }
 
-/// Of all particles with all particles and ghosts.
+/// Lists the neighbours of all particles: particles and ghosts.
 template <class Real>
 void Water<Real>::list_neighbours(ThreadTeam& team) {
     const auto cell_of = [this](int slot) { return slot < particles_ ? cell_of_[particle_of_[slot]] : -1; };
@@ -111,7 +111,7 @@ void Water<Real>::list_neighbours(ThreadTeam& team) {
                                           .blocks = ghost_begin_ / lanes,
                                           .distance_squared = radius_ * radius_,
                                           .filler = far_slot_,
-                                          .shortest_part = shortest_part,
+                                          .min_part = min_part,
                                           .kernels = neighbour_kernels_},
                                          team, {row_begin_, neighbour_, neighbour_count_}, cell_of, go_to,
                                          [](int, std::int32_t*, int n) { return n; });

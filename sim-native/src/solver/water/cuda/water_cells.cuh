@@ -10,14 +10,14 @@ template <class Real>
 __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (s == 0) slots.shared().high = slots.shared().rows = 0;
     const WaterArrays<Real>& water = slots.water;
-    const Vec4<Real> before = slots.at.state_velocity[s];
+    const Vec4<Real> before = slots.arrays.state_velocity[s];
     const int number = number_in(before.w);
     const bool fluid = number < model.fluid;
-    Vec4<Real> x = slots.at.state_position[s];
+    Vec4<Real> x = slots.arrays.state_position[s];
     if (x.w > 0) {
         const Vec3<Real> there = fluid ? wrapped_water(model.water, xyz(x)) : xyz(x);
         x = quad(put_before_planes(model, there, wall_distance(model, fluid)), x.w);
-        slots.at.state_position[s] = x;
+        slots.arrays.state_position[s] = x;
     }
     const Vec3<Real> in_tank = place_in_tank(model.water, xyz(x));
     water.position[s] = quad(in_tank, model.water.volume[number]);
@@ -32,7 +32,7 @@ __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slo
 template <class Real>
 __device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
+    const auto number = static_cast<std::uint64_t>(number_in(slots.arrays.state_velocity[s].w));
     for_each_copy(model, xyz(water.position[s]), [&](unsigned boundaries, const Vec3<Real>& at) {
         const int place = atomicAdd(water.table + model.water.grid.cell(at), 1);
         if (place < slots.water_room.copies)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Forces and losses that the thesis leaves off, between water and water: water/cpu/water_effects.cpp for a large State.
+// Forces and losses that the thesis leaves off, between water and water: water/cpu/water_effects.cpp by the whole grid.
 // They act on what the viscosity has left in `pushed`. The slots of the fluid are before those of the solids.
 #include "physics/water_effects.h"
 #include "water_kernels.cuh"

@@ -9,11 +9,11 @@ namespace natator::cuda {
 /// Adds an impulse to those on the solid in slot s.
 template <class Real>
 __device__ void add_impulse(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& impulse) {
-    Vec4<Real>& sum = slots.water.impulse_on[number_in(slots.at.state_velocity[s].w) - model.fluid];
+    Vec4<Real>& sum = slots.water.impulse_on[number_in(slots.arrays.state_velocity[s].w) - model.fluid];
     sum = quad(xyz(sum) + impulse, Real(0));
 }
 
-/// As water_viscosity does, on the same velocities; of solid slot `model.fluid + k`, by the water alone.
+/// Adds the viscous impulse of the water alone on solid slot `model.fluid + k`, of the same velocities as water_viscosity.
 template <Pairs pairs, class Real>
 __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;
@@ -28,7 +28,7 @@ __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Rea
     if (own_lane() == 0) add_impulse(model, slots, s, strength * sum);
 }
 
-/// Of all passes of a substep together, and of the zeroth_order_correction that was given back after them; of solid slot `model.fluid + k`.
+/// Adds the pressure impulse on solid slot `model.fluid + k` in all passes of a substep, with the zeroth_order_correction that was given back after them.
 template <Pairs pairs, class Real>
 __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;

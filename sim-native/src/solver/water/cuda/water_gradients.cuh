@@ -40,7 +40,7 @@ public:
         const Real slope = model_.water.kernel.slope(physics::length_of(difference));
         return {physics::pair_gradient(difference, slope, here_.w * there.w, own_ + its), slope};
     }
-    /// The same as if it had been kept.
+    /// G_ij rounded as a listed PairGradient is.
     __device__ Vec3<Real> kept(unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
                                const Vec4<Real>& shear) const {
         Vec3<Real> gradient = with(boundaries, there, correction, shear).gradient;

@@ -9,7 +9,7 @@
 
 namespace natator::cuda {
 
-/// Where sums over pairs have them from, with the same bits.
+/// Source of the pairs in sums, with the same bits.
 enum class Pairs {
     listed,    ///< lists and gradients that are kept for a substep
     searched,  ///< nothing but places: slower, in less memory
@@ -25,7 +25,7 @@ __device__ physics::Symmetric3<Real> sum_of_lanes(const physics::Symmetric3<Real
             sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
 }
 template <class Real>
-__device__ Real largest_of_lanes(Real value) {
+__device__ Real max_of_lanes(Real value) {
     for (int step = pair_lanes / 2; step > 0; step /= 2) {
         const Real other = __shfl_xor_sync(0xffffffff, value, step);
         value = other > value ? other : value;
@@ -33,13 +33,13 @@ __device__ Real largest_of_lanes(Real value) {
     return value;
 }
 
-/// How many of the neighbours of slot s are this thread's share.
+/// Number of neighbours of slot s that are this thread's share.
 template <class Real>
 __device__ int own_neighbours(const Slots<Real>& slots, int s) {
     return (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;
 }
 
-/// What is in each of the arrays at the slot of an entry.
+/// Values of each of the arrays at the slot of an entry.
 template <class... Value>
 __device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*... array) {
     return ::cuda::std::tuple<Value...>(array[entry & slot_mask]...);
