@@ -14,7 +14,7 @@
 namespace natator::bench {
 namespace {
 
-constexpr int fewest_frames = 8;
+constexpr int min_frames = 8;
 
 /// Moves a tank that goes along with its swimmer: whether it did.
 template <class Real>
@@ -30,7 +30,7 @@ bool follow(std::optional<MovingFrame>& follower, const Model& model, State<Real
 /// `solver`: a Solver or a GpuSolver.
 template <class Real, class AnySolver>
 StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const Model& model) {
-    const int frames = std::max(fewest_frames, static_cast<int>(std::lround(subject.scene.duration / model.time_step)));
+    const int frames = std::max(min_frames, static_cast<int>(std::lround(subject.scene.duration / model.time_step)));
     const int first_judged = static_cast<int>(std::lround(subject.judged_from * frames));
     LawWatch laws(model);
     laws.drive_by(subject.gait);
@@ -47,7 +47,7 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
         if (instability) break;
         state.time = frame * model.time_step;
         if (frame >= first_judged) instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
-        if (!instability && follow(follower, model, state)) laws.begin_anew();
+        if (!instability && follow(follower, model, state)) laws.restart();
     }
     if (!instability)
         instability = laws.look_at_compression(conservation_errors(model, state, solver.densities()).density_error_mean, state.time);

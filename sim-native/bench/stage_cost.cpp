@@ -63,7 +63,7 @@ const Feature& find_feature(const std::string& name) {
     throw InputError("unknown feature \"" + name + "\": must be one of " + joined(stage_feature_names(), ", "));
 }
 
-constexpr double least_nothing = std::numeric_limits<double>::infinity();
+constexpr double unmeasured = std::numeric_limits<double>::infinity();
 
 /// One state of a feature, with what was measured so far.
 struct Case {
@@ -71,7 +71,7 @@ struct Case {
     Scene scene;
     std::string stage;
     long calls = 0;
-    double stage_seconds = least_nothing, seconds = least_nothing, unskipped_seconds = least_nothing;
+    double stage_seconds = unmeasured, seconds = unmeasured, unskipped_seconds = unmeasured;
     std::string hash{}, unskipped_hash{};
 };
 

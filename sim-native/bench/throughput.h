@@ -52,7 +52,7 @@ int pair_passes(const Model& model);
 
 /// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU), particles of one scene, substeps of a
 /// frame, iterations, modified_pressure (yes, no, empty in scheme flex; these are the key); frames, repeats; neighbours: mean of the fluid particles
-/// after one frame, with solids and images where they are in the lists; pair_passes: of a substep; kernel_seconds: all
+/// after one frame, with solids and ghosts where they are in the lists; pair_passes: of a substep; kernel_seconds: all
 /// frames on the device, the least of the repeats; ms_per_frame: of all evaluations together;
 /// million_particle_iterations_per_second: evaluations x fluid_particles x frames x substeps x iterations over
 /// kernel_seconds; million_pairs_per_second: evaluations x fluid_particles x neighbours x frames x substeps x

@@ -123,7 +123,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     app.require_subcommand(1);
     refuse_missing_values(app);
     refuse_other_bases(app);
-    return complaining(program, [&] {
+    return report_errors(program, [&] {
         try {
             refuse_empty_values(argc, argv);
             app.parse(argc, argv);
@@ -138,7 +138,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     });
 }
 
-int complaining(const std::string& program, const std::function<int()>& work) {
+int report_errors(const std::string& program, const std::function<int()>& work) {
     hold_closed_streams();
     // A closed pipe and a file that is larger than it may be are errors of who writes, not a death.
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);

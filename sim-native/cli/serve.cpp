@@ -25,7 +25,7 @@ using nlohmann::json;
 struct ServeOptions {
     BackendChoice backend;
     ExecutionOptions execution;
-    std::size_t most = 1024;
+    std::size_t max_lines = 1024;
     bool summary = false;
 };
 
@@ -143,12 +143,12 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
 int serve(ServeOptions& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
-    LineQueue queue(STDIN_FILENO, {.lines = options.most,
+    LineQueue queue(STDIN_FILENO, {.lines = options.max_lines,
                                    .bytes = limits::document_bytes,
                                    .waiting_bytes = limits::waiting_bytes});
     Tally tally;
     for (;;) {
-        const std::vector<std::string> lines = queue.take(options.most, lull);
+        const std::vector<std::string> lines = queue.take(options.max_lines, lull);
         if (lines.empty()) break;
         serve_batch(lines, options, tally);
     }
@@ -168,7 +168,7 @@ void add_serve(CLI::App& app, int& status) {
                            "and once where requests differ in nothing but their ids. Ends with the input.");
     const auto options = std::make_shared<ServeOptions>();
     add_backend_options(command, options->backend);
-    command->add_option("--batch", options->most, "Most requests that are taken together.")
+    command->add_option("--batch", options->max_lines, "Most requests that are taken together.")
         ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     command->add_flag("--summary", options->summary,

@@ -16,7 +16,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 json parse_command(const std::string& line) {
-    if (line.size() > stream::longest_command) throw InputError("command: longer than 1 MiB");
+    if (line.size() > stream::max_command) throw InputError("command: longer than 1 MiB");
     return parse_json(line, "command");
 }
 
@@ -48,7 +48,7 @@ void StreamSession<Real>::run(LineQueue& commands) {
 /// What a command causes comes before its answer.
 template <class Real>
 void StreamSession<Real>::carry_out(const std::string& line) {
-    if (line.size() <= stream::longest_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
+    if (line.size() <= stream::max_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
     answer_ = {{"id", nullptr}};
     try {
         const json value = parse_command(line);

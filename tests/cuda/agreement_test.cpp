@@ -40,7 +40,7 @@ protected:
             ASSERT_FALSE(cpu.frame(on_cpu, gait));
             ASSERT_FALSE(gpu.frame(on_gpu, gait));
             if (frame > 1) continue;
-            const double apart = largest_distance(on_cpu, on_gpu);
+            const double apart = max_distance(on_cpu, on_gpu);
             std::cout << "measured: creature " << creature << ' ' << name_of(scheme) << ' ' << sizeof(Real) * 8
                       << " bits: after a frame " << apart;
             EXPECT_LE(apart, frame_bound);
@@ -52,7 +52,7 @@ protected:
         }
         EXPECT_NEAR(gpu.muscle_work(), cpu.muscle_work(), 0.01 * std::abs(cpu.muscle_work()));
         const double path = std::abs(mean_x(model.body, on_cpu) - mean_x(model.body, on_gpu));
-        std::cout << ", mean x after 0.25 s " << path << ", particles " << largest_distance(on_cpu, on_gpu) << '\n';
+        std::cout << ", mean x after 0.25 s " << path << ", particles " << max_distance(on_cpu, on_gpu) << '\n';
         EXPECT_LE(path, path_bound);
     }
 };

@@ -52,7 +52,7 @@ inline Gait wave(const Scene& scene, int number = 0) {
 
 /// Of a particle's two places.
 template <class Real>
-double largest_distance(const State<Real>& a, const State<Real>& b) {
+double max_distance(const State<Real>& a, const State<Real>& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.position.size(); ++i) {
         const double distance = (a.position[i] - b.position[i]).norm();

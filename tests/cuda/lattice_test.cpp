@@ -23,7 +23,7 @@ void stir(Water& water) {
 }
 
 /// Of velocities and densities, of the greatest velocity.
-double largest_difference(const Water& a, const Water& b) {
+double max_difference(const Water& a, const Water& b) {
     double most = 0, scale = 0;
     for_each_cell(a.box(), [&](const Eigen::Vector3i& at) {
         const Cell p = a.cell(at), q = b.cell(at);
@@ -33,7 +33,7 @@ double largest_difference(const Water& a, const Water& b) {
     });
     return most / scale;
 }
-double largest_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
+double max_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
     double most = 0, scale = 0;
     for (std::size_t p = 0; p < a.size(); ++p)
         for (int k = 0; k < 12; ++k) {
@@ -64,7 +64,7 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
                         stir(*water);
                         for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
                     }
-                    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4)
+                    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4)
                         << size.transpose() << ": " << static_cast<int>(x) << static_cast<int>(y) << static_cast<int>(z);
                 }
 }
@@ -90,10 +90,10 @@ void expect_same_pushes(const Face face, bool shifts) {
         std::vector<Push> by_cpu, by_gpu;
         cpu->advance(bar.cubes(), 1, by_cpu);
         gpu->advance(bar.cubes(), 1, by_gpu);
-        ASSERT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << k;
+        ASSERT_LT(max_difference(by_cpu, by_gpu), 1e-4) << k;
         bar.move(by_cpu);
     }
-    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4);
 }
 TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
     expect_same_pushes(Face::periodic, false);
@@ -149,11 +149,11 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
             bool any = false;
             for (const Push& push : by_cpu) any = any || push.j[0] != 0;
             if (any) {
-                EXPECT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << step;
+                EXPECT_LT(max_difference(by_cpu, by_gpu), 1e-4) << step;
             }
             for (const Push& push : by_gpu) ASSERT_TRUE(any || push.j[0] == 0) << step;
         }
-    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4);
 }
 
 TEST_F(GpuLattice, HasTheSameBitsInEachRun) {

@@ -29,9 +29,9 @@ TEST_F(GpuPeriodic, CornersAreTheCpus) {
             ASSERT_TRUE(both.update(substep, 1));
             EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts()) << k;
         }
-        std::cout << "measured: periodic water, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-        EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-13);
-        EXPECT_GT(largest_distance(initial_state<double>(model), on_gpu), 1e-2);
+        std::cout << "measured: periodic water, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+        EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-13);
+        EXPECT_GT(max_distance(initial_state<double>(model), on_gpu), 1e-2);
     }
 }
 
@@ -68,8 +68,8 @@ TEST_F(GpuPeriodic, ABodyGoesRoundAsOnTheCpu) {
             advance_frames(cpu, model, on_cpu, 1);
             advance_frames(gpu, model, on_gpu, 1);
         }
-        std::cout << "measured: a body through the seam " << largest_distance(on_cpu, on_gpu) << '\n';
-        EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-13);
+        std::cout << "measured: a body through the seam " << max_distance(on_cpu, on_gpu) << '\n';
+        EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-13);
         const auto forces = gpu.forces(), expected = cpu.forces();
         double largest = 0;
         for (const int i : model.clusters.front().particles) {
@@ -91,7 +91,7 @@ TEST_F(GpuPeriodic, EffectsAreTheCpus) {
     for (int k = 0; k < 4; ++k) {
         ASSERT_TRUE(both.update(substep, 1));
     }
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
 }
 
 /// A swim through the end: the same bits alone and in a batch, and as far as on the CPU.
@@ -109,7 +109,7 @@ TEST_F(GpuPeriodic, ASwimIsTheCpus) {
     EXPECT_NEAR(on_cpu.distance, all[0].distance, 1e-12);
 }
 
-TEST_F(GpuPeriodic, MoreBordersThanItHasRoomForAreRefused) {
+TEST_F(GpuPeriodic, MoreBoundariesThanItHasRoomForAreRefused) {
     Model model = stirred_periodic_water({0, 2});
     model.planes.push_back({{0, -1, 0}, 2});
     GpuSolver<float> fits(model);  // six

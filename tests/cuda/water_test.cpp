@@ -88,10 +88,10 @@ TEST_F(GpuWater, CornersAndNarrowGapsAreTheCpus) {
         ASSERT_TRUE(both.update(substep, 1));
         EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts()) << k;
     }
-    std::cout << "measured: corner, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
-    EXPECT_LE(largest_distance(initial_state<double>(model), on_gpu), 1);
-    EXPECT_GT(largest_distance(initial_state<double>(model), on_gpu), 1e-3);
+    std::cout << "measured: corner, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
+    EXPECT_LE(max_distance(initial_state<double>(model), on_gpu), 1);
+    EXPECT_GT(max_distance(initial_state<double>(model), on_gpu), 1e-3);
 }
 
 /// More neighbours than lists have room for at first: the update is done again, with the same outcome as on the CPU.
@@ -108,7 +108,7 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
     for (int k = 0; k < 3; ++k) {
         ASSERT_TRUE(both.update(2 * substep, 2));
     }
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-9);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-9);
 }
 
 /// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The water
@@ -182,7 +182,7 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
     std::cout << "measured: forces on bodies in a corner " << largest / weight.norm() << " of the weight\n";
     EXPECT_LE(largest, 1e-8 * weight.norm());
     EXPECT_TRUE(unasked.forces().empty());
-    EXPECT_EQ(largest_distance(on_gpu, other), 0);
+    EXPECT_EQ(max_distance(on_gpu, other), 0);
     for (int i = 0; i < model.particles(); ++i) EXPECT_EQ(on_gpu.velocity[i], other.velocity[i]) << i;
 }
 
@@ -199,8 +199,8 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     OnBoth both(model, true);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(both.update(2 * substep, 2));
-    std::cout << "measured: modified pressure, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
+    std::cout << "measured: modified pressure, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
     const auto forces = gpu.forces(), expected = cpu.forces();
     const auto pressures = gpu.pressures(), its = cpu.pressures();
     const double largest = *std::max_element(its.begin(), its.end());
@@ -213,7 +213,7 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     State<double> whole = initial_state<double>(model);
     GpuSolver<double> other(model);
     for (int k = 0; k < 5; ++k) ASSERT_FALSE(other.update(whole, 2 * substep, 2));
-    EXPECT_GT(largest_distance(whole, on_gpu), 1e-5);
+    EXPECT_GT(max_distance(whole, on_gpu), 1e-5);
 }
 
 /// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of the mean
@@ -288,9 +288,9 @@ TEST_P(GpuWaterEffects, InACornerAreTheCpus) {
     model.parameters.*GetParam().strength = GetParam().value;
     const State<double> on_cpu = after_a_frame(Solver<double>(model));
     const State<double> on_gpu = after_a_frame(GpuSolver<double>(model));
-    std::cout << "measured: " << GetParam().name << " in a corner " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_GT(largest_distance(on_cpu, without), 1e-4);
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-12);
+    std::cout << "measured: " << GetParam().name << " in a corner " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_GT(max_distance(on_cpu, without), 1e-4);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-12);
     for (int i = 0; i < model.particles(); ++i)
         EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
 }

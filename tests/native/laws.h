@@ -80,7 +80,7 @@ protected:
     }
 
     /// Kinetic and potential energy of settled water in frames on its own, the largest over that at the start.
-    static double largest_energy(Model model, int substeps, int frames) {
+    static double max_energy(Model model, int substeps, int frames) {
         model.parameters.substeps = substeps;
         Solver<float> solver(model);
         State<float> state = initial_state<float>(model);
@@ -324,9 +324,9 @@ TYPED_TEST_P(Laws, WallsGiveNoEnergy) {
     // Exact: 1. Four starts of each: 0.996 to 1.004, with deviations below 0.0015.
     constexpr double bound = 1.01;
     for (const int substeps : {4, 16}) {
-        EXPECT_LE(this->largest_energy(block_in_tank({8, 2, 6}, 16, 0.6), substeps, 240), bound) << "film, " << substeps << " substeps";
-        EXPECT_LE(this->largest_energy(block_in_tank({8, 10, 6}, 6.1, 0.6), substeps, 120), bound) << "dam, " << substeps << " substeps";
-        EXPECT_LE(this->largest_energy(closed, substeps, 120), bound) << "closed, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(block_in_tank({8, 2, 6}, 16, 0.6), substeps, 240), bound) << "film, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(block_in_tank({8, 10, 6}, 6.1, 0.6), substeps, 120), bound) << "dam, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(closed, substeps, 120), bound) << "closed, " << substeps << " substeps";
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "law_models.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/water_volumes.h"
 
 /// Models of periodic tanks that tests share.
@@ -36,11 +36,11 @@ inline Model moved_on(Model model, std::size_t periodic, double way) {
 
 /// Largest distance between places of `b` and those of `a` moved on by `way`, through the ends too.
 template <class Real>
-double largest_difference(const Model& model, const State<Real>& a, const State<Real>& b, const Eigen::Vector3d& way) {
+double max_difference(const Model& model, const State<Real>& a, const State<Real>& b, const Eigen::Vector3d& way) {
     double largest = 0;
     for (std::size_t i = 0; i < a.position.size(); ++i) {
         const Eigen::Vector3d difference = (b.position[i] - a.position[i]).template cast<double>() - way;
-        const double distance = shortest_way(model, difference).norm();
+        const double distance = minimum_image(model, difference).norm();
         if (!(distance <= largest)) largest = distance;  // also for NaN
     }
     return largest;

@@ -32,13 +32,13 @@ State<Real> after_frames(const Model& model, int frames, int threads = 1) {
 }
 
 /// Whatever the tank's place and length, what one of a pair sees of the other through an end is bit for bit the opposite of
-/// what that one sees: the images are nowhere rounded.
+/// what that one sees: ghosts are nowhere rounded.
 template <class Real>
 void expect_exactly_opposite_pairs() {
     for (const PeriodicAxis& axis : {PeriodicAxis{0, 0, 2.4}, {0, -0.7, 1.1}, {0, 0.1, 4.51}, {0, 100.3, 103}}) {
         Model model = box_of_water({1, 1, 1});
         model.periodic = {axis};
-        const auto seam = seams_of<Real>(model).front();
+        const auto seam = periodic_axes_of<Real>(model).front();
         EXPECT_NEAR(static_cast<double>(seam.low), axis.low, 1e-5);
         EXPECT_NEAR(static_cast<double>(seam.length), axis.length(), 1e-5);
         for (int k = 0; k < 1000; ++k) {
@@ -95,8 +95,8 @@ TEST(Periodic, TheEndsCanNotBeTold) {
             const double half = model.periodic[k].length() / 2;
             const State<double> here = after_frames<double>(model, 6);
             const State<double> there = after_frames<double>(moved_on(model, k, half), 6);
-            EXPECT_LE(largest_difference(model, here, there, half * Eigen::Vector3d::Unit(axes[k])), 1e-10) << axes[k];
-            EXPECT_GT(largest_difference(model, initial_state<double>(model), here, {0, 0, 0}), 0.05);
+            EXPECT_LE(max_difference(model, here, there, half * Eigen::Vector3d::Unit(axes[k])), 1e-10) << axes[k];
+            EXPECT_GT(max_difference(model, initial_state<double>(model), here, {0, 0, 0}), 0.05);
         }
     }
 }
@@ -108,7 +108,7 @@ TEST(Periodic, AUniformFlowIsWaterAtRest) {
     const Eigen::Vector3d flow(2, 0, -1.5);
     for (auto& v : model.velocity) v = flow;
     const State<double> flowing = after_frames<double>(model, 30);
-    EXPECT_LE(largest_difference(model, still, flowing, 30 * model.time_step * flow), 1e-9);
+    EXPECT_LE(max_difference(model, still, flowing, 30 * model.time_step * flow), 1e-9);
     for (int i = 0; i < model.particles(); ++i) {
         EXPECT_LE((flowing.velocity[i] - still.velocity[i] - flow).norm(), 1e-9);
         for (const PeriodicAxis& axis : model.periodic) {  // wrapped at the start of a substep, so no further out than its way
@@ -194,8 +194,8 @@ TEST(Periodic, ABodyGoesRoundAndRound) {
         advance_frames(at_the_seam, seam, b, 1);
         advance_frames(laps_away, laps, c, 1);
     }
-    EXPECT_LE(largest_difference(middle, a, b, {0.4, 0, 0}), 1e-10);
-    EXPECT_LE(largest_difference(middle, a, c, {0.4, 0, 0}), 1e-10);
+    EXPECT_LE(max_difference(middle, a, b, {0.4, 0, 0}), 1e-10);
+    EXPECT_LE(max_difference(middle, a, c, {0.4, 0, 0}), 1e-10);
     double largest = 0;
     const auto forces = in_the_middle.forces(), others = at_the_seam.forces();
     for (const int i : middle.clusters.front().particles) {
@@ -272,7 +272,7 @@ const Gait round_beat{2, {0.8, 1}, {0, 0.75}, 1};
 
 TEST(Periodic, DistanceIsCountedAlongTheWay) {
     const Scene scene = round_tank();
-    double first = 0, last = 0, longest_step = 0, most = 0;
+    double first = 0, last = 0, max_step = 0, most = 0;
     bool begun = false;
     EvaluationOptions options;
     options.on_frame = [&](double, const std::vector<Eigen::Vector3d>& places) {
@@ -281,7 +281,7 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
             mean += x.x() / static_cast<double>(places.size());
             most = std::max(most, x.x());
         }
-        if (begun) longest_step = std::max(longest_step, std::abs(mean - last));
+        if (begun) max_step = std::max(max_step, std::abs(mean - last));
         if (!begun) first = mean;
         begun = true;
         last = mean;
@@ -291,7 +291,7 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
     EXPECT_NEAR(swim.distance, last - first, 1e-9);
     EXPECT_GT(swim.distance, 0.02);
     EXPECT_GT(most, 2);  // beyond the end
-    EXPECT_LT(longest_step, 0.05);
+    EXPECT_LT(max_step, 0.05);
 }
 
 TEST(Periodic, AStreamIsWhatAnEvaluationIs) {

@@ -87,7 +87,7 @@ TEST(Water, DeepWaterExpandsSlowly) {
     for (const auto& [layers, expansion, substeps] : cases) {
         Model model = lattice_of_water({2, layers, 2});
         model.parameters.iterations = 4;
-        EXPECT_NEAR(fastest_expansion(model.parameters, depth(model)), expansion * 10, 1e-9) << layers << " layers";
+        EXPECT_NEAR(max_expansion_rate(model.parameters, depth(model)), expansion * 10, 1e-9) << layers << " layers";
         fit_to_water(model);
         EXPECT_EQ(model.parameters.substeps, substeps) << layers << " layers";
     }

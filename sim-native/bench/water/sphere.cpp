@@ -10,13 +10,13 @@ namespace natator::bench {
 namespace {
 
 /// What the curve of a fall shows.
-enum class Fallen { way, speed };
+enum class FallQuantity { way, speed };
 
 /// What a sphere of this density (of the water's) does in a tank as wide and high as long once it is let go.
 struct Fall {
     double density = 1;
     double duration = 1;  ///< s
-    Fallen curve = Fallen::way;
+    FallQuantity curve = FallQuantity::way;
 };
 
 /// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let go.
@@ -42,9 +42,9 @@ Eigen::Vector3d mean_of_sphere(const std::vector<Vector3<Real>>& of_all, const M
 
 /// The curve is how far the sphere has fallen, length, or how fast it falls, length/s.
 template <class Real>
-WaterRun follow(double duration, Fallen what, WaterTank<Real>& tank) {
+WaterRun follow(double duration, FallQuantity what, WaterTank<Real>& tank) {
     const auto height = [&] { return mean_of_sphere(tank.state().position, tank.model()).y(); };
-    if (what == Fallen::speed)
+    if (what == FallQuantity::speed)
         return tank.follow(duration, [&] { return -mean_of_sphere(tank.state().velocity, tank.model()).y(); });
     return tank.follow(duration, [&, start = height()] { return start - height(); });
 }
@@ -128,7 +128,7 @@ WaterRun release(const Release& how, const WaterSetting& setting) {
     const double sphere_diameter = diameter(tank.model());
     if (!tank.set_kinematic_viscosity(release_viscosity)) return tank.run();
     set_density(1 + how.excess, tank);
-    WaterRun run = follow(release_duration, Fallen::way, tank);
+    WaterRun run = follow(release_duration, FallQuantity::way, tank);
     if (run.instability) return run;
     const auto frames_counted = static_cast<std::size_t>(std::lround(counted / tank.model().time_step));
     const WaterSample& begin = run.curve[run.curve.size() - 1 - frames_counted];
@@ -156,7 +156,7 @@ WaterRun run_neutral_sphere(const WaterSetting& setting) {
 /// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as its way is
 /// longer by half a substep, and before it has enough of that for a drag.
 WaterRun run_added_mass(const WaterSetting& setting) {
-    const Fall fall{.density = 2, .duration = 0.05, .curve = Fallen::speed};
+    const Fall fall{.density = 2, .duration = 0.05, .curve = FallQuantity::speed};
     WaterRun run = let_go(fall, setting);
     if (run.instability) return run;
     const double acceleration = run.curve.back().value / fall.duration;

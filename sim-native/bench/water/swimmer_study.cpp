@@ -29,7 +29,7 @@ struct Beat {
     double pressure = 0, thrust = 0;  ///< on a lattice
 };
 
-struct Swum {
+struct SwimResult {
     WaterRun run;
     std::vector<Beat> beats;
     double tail_beat = 0;  ///< in the counted beats
@@ -39,7 +39,7 @@ struct Swum {
 
 /// `height`: of a slab, in lengths.
 template <class AnySwim>
-void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, double height, const SwimmerStudy& study, Swum& swum) {
+void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, double height, const SwimmerStudy& study, SwimResult& swum) {
     const SwimBody& body = swim.body();
     const double length = scene.length, beat = scene.beat;
     const double mass = std::pow(length / swim.spacing(), 3) * (swimmer.slab ? height : 1);  // of a cubic length of water
@@ -74,14 +74,14 @@ void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, doubl
 }
 
 template <class Real>
-Swum swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+SwimResult swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
     SwimScene scene;
     scene.box *= pool.box;
     if (swimmer.slab) scene.box.y() = slab_height;
     const double length = scene.length, beat = scene.beat;
     scene.gravity = 2 * *pool.pressure / scene.box.y() * length / (beat * beat);
     Swim<Real> swim(swimmer, scene, pool.water);
-    Swum swum;
+    SwimResult swum;
     swum.steps = swim.body().frames_per_beat() * pool.water.solver.substeps;
     swum.viscous = !swim.set_kinematic_viscosity(swimmer.viscosity * length * length / beat);
     if (swum.viscous)
@@ -91,12 +91,12 @@ Swum swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, con
     return swum;
 }
 
-Swum swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+SwimResult swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
     const int resolution = pool.water.resolution;
     SwimScene scene;
     scene.box = pool.box * Eigen::Vector3d(4, 1, 2);
     LatticeSwim swim(swimmer, scene, resolution, *pool.mach, pool.water.gpu);
-    Swum swum;
+    SwimResult swum;
     swum.steps = swim.body().frames_per_beat();
     follow(swim, swimmer, scene, 1.0 / resolution, study, swum);
     return swum;
@@ -122,7 +122,7 @@ Row key_of(const SwimCase& one, const std::string& variant, const SwimmerStudy& 
     return key;
 }
 
-Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
+Figures figures_of(const SwimResult& swum, const Swimmer& swimmer, int counted) {
     const auto mean = [&](double Beat::*of) {
         double sum = 0;
         for (auto beat = swum.beats.end() - counted; beat != swum.beats.end(); ++beat) sum += (*beat).*of / counted;
@@ -157,7 +157,7 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
     const Swimmer& swimmer = variant.second;
     const Row key = key_of(one, variant.first, study, pool);
     if (table.has(key)) return;
-    const Swum swum = pool.mach ? swim_on_lattice(swimmer, study, pool) : in_precision(pool.water.solver.precision, [&](auto real) {
+    const SwimResult swum = pool.mach ? swim_on_lattice(swimmer, study, pool) : in_precision(pool.water.solver.precision, [&](auto real) {
         return swim_among_particles<decltype(real)>(swimmer, study, pool);
     });
     for (std::size_t k = 0; k < swum.beats.size(); ++k) {

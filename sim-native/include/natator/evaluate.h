@@ -14,14 +14,14 @@
 
 namespace natator {
 
-/// What States are computed in: float, or double for reference runs.
+/// The type of number that States are computed in: float, or double for reference runs.
 enum class Precision { single_precision, double_precision };
 
-/// Name in requests and results: "flex", "conserving", "lattice".
+/// The name of a scheme in requests and results: "flex", "conserving", "lattice".
 const char* to_string(Scheme scheme);
-/// Name in requests and results: "float", "double".
+/// The name of a precision in requests and results: "float", "double".
 const char* to_string(Precision precision);
-/// Name in results: "completed", "touched-plane", "no-progress", "unstable", "reached".
+/// The name of a reason in results: "completed", "touched-plane", "no-progress", "unstable", "reached".
 const char* to_string(StopReason stopped);
 /// A hash as in results: 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
@@ -45,14 +45,14 @@ struct ConservationErrors {
     double density_error_max = 0;
 };
 
-/// How a swimmer beside the evaluated one did.
+/// Result of a companion, a swimmer beside the evaluated one.
 struct CompanionResult {
     std::string creature;
     double distance = 0;  ///< change of its mean x, length
     Course course;
 };
 
-/// What moving a tank has taken from its water: what is put in front is at rest.
+/// What the water has lost because its tank moves along: water that enters in front is at rest.
 struct WaterRenewal {
     int times = 0;
     long particles = 0;                                      ///< sum over all times
@@ -60,7 +60,7 @@ struct WaterRenewal {
     double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
 };
 
-/// What one evaluation of a gait in a scene gives.
+/// Result of one evaluation of a gait in a scene.
 struct Evaluation {
     StopReason stopped = StopReason::completed;
     double distance = 0;   ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
@@ -78,14 +78,14 @@ struct Evaluation {
     std::optional<WaterRenewal> renewal;    ///< what a moving tank took from its water; none in another tank
     std::vector<CompanionResult> companions;  ///< result of each companion, in the scene's order
 
-    /// What a gait is worth: the weighted sum of the scores of the scene's goals; without goals, the distance.
+    /// The gait's fitness: the weighted sum of the scores of the scene's goals; without goals, the distance.
     double fitness() const;
 };
 
 /// One body position per frame, for callers that want a trajectory.
 using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
 
-/// How an evaluation is run and what is seen of it. Only `precision` and `perturbation` affect the result.
+/// How an evaluation is run, and what it reports while it runs. Only `precision` and `perturbation` affect the result.
 struct EvaluationOptions {
     Precision precision = Precision::single_precision;
     Perturbation perturbation{};

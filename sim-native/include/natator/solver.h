@@ -24,7 +24,7 @@ public:
     };
 
     void add(const char* stage, double seconds);
-    /// In the order in which stages first ran.
+    /// Times by stage, in the order in which stages first ran.
     const std::vector<Entry>& entries() const { return entries_; }
     double seconds() const;
 
@@ -32,21 +32,21 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// What is left of constraints of one kind: 0 if there are none, or if they are met.
+/// Residual of constraints of one kind: 0 if there are none, or if they are met.
 struct Residual {
     double max = 0;
     double mean = 0;  ///< over all of the kind
 };
 
-/// What a substep leaves of its constraints (Execution::residuals).
+/// Residuals of a substep's constraints (Execution::residuals).
 struct Residuals {
     double time = 0;     ///< s, at the substep's start
     int iterations = 0;  ///< that it took
-    /// Of the fluid's particles, in rest densities. Scheme `conserving`: what the velocities would still have to take
+    /// Density error of the fluid's particles, in rest densities. Scheme `conserving`: what the velocities would still have to take
     /// off in the substep, of at most `max_excess` (docs/theory.md, section 4.4). Scheme `flex`: excess over rest
     /// density, as the last iteration found it.
     Residual density{};
-    /// Likewise what the velocities compress it by in a substep, after the pass on their divergence; scheme
+    /// Density that the velocities would add to the fluid in a substep, after the pass on their divergence, in rest densities; scheme
     /// `conserving` alone.
     Residual divergence{};
     /// |C + alpha lambda| over rest length, C = length - rest length: of a stiff spring its stretch. In scheme `flex`
@@ -70,7 +70,7 @@ struct Execution {
     bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };
 
-/// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
+/// The stages that a Model needs, decided once: a stage that is false here does not run and owns no memory.
 struct Plan {
     bool fluid = false;           ///< density constraint of scheme `flex`, fluid neighbour lists
     bool water = false;           ///< pressure solves of scheme `conserving`
@@ -100,7 +100,7 @@ struct Plan {
     bool free_surface_drag = false;
     bool fluid_forces = false;  ///< any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity in `flex`
 
-    /// Does anything act behind the velocities?
+    /// Whether any effect acts after the velocities are computed.
     constexpr bool effects() const {
         return dissipation || (fluid && (free_surface_drag || fluid_forces)) || adhesion || restitution || sleep;
     }
@@ -117,7 +117,7 @@ Plan make_unskipped_plan(const Model& model);
 /// One line per stage in the order of a substep, as `natator-sim info` prints it.
 std::vector<std::string> describe_plan(const Model& model);
 
-/// Where a run stopped being possible.
+/// Where a State stopped being finite.
 struct Instability {
     int particle = 0;   ///< lowest index with a value that is not finite, or the particle that broke a law most
     std::string stage;  ///< first stage whose output was not finite; of the other laws, which look at ends: "settling" or "frame"
@@ -178,11 +178,11 @@ public:
     /// and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what the time
     /// step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
-    /// Counts it anew from here.
+    /// Sets muscle_work() to 0.
     void clear_muscle_work();
 
-    /// Scheme lattice, when a State's particles have been moved along by -by, length, a whole number of cells: so is its water. Nothing in the
-    /// other schemes, whose water is of particles.
+    /// Scheme lattice: moves the water by -by, length, a whole number of cells, as the State's particles have been moved. Does nothing in the
+    /// other schemes, whose water is particles.
     void shift_water(const Eigen::Vector3d& by);
 
     /// The lattice's cells, of scheme `lattice`; at rest before the first update. In the other schemes it has no cells: water_field.
@@ -195,7 +195,7 @@ public:
     /// takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
-    /// viscosity, of the water before walls and of its mirror images behind them. Summed over a body's particles, or over
+    /// viscosity, of the water before walls and of its ghosts behind them. Summed over a body's particles, or over
     /// any part of them, it is the force on that; particles of infinite mass feel it too, though they do not move. What
     /// solids do to each other is not in it; 0 for fluid. Empty without Execution::forces, and in the other schemes.
     std::vector<Vector3<Real>> forces() const;

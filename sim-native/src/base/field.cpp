@@ -53,8 +53,8 @@ void read_vector(const json& value, const Place& place, const Range& range, Vect
 }  // namespace
 
 std::string did_you_mean(std::string_view unknown, const std::vector<std::string_view>& allowed) {
-    constexpr std::size_t longest_compared = 64;
-    if (unknown.size() > longest_compared) return {};
+    constexpr std::size_t max_compared = 64;
+    if (unknown.size() > max_compared) return {};
     std::string_view best;
     std::size_t least = unknown.size();
     for (const std::string_view word : allowed) {

@@ -73,8 +73,8 @@ std::string with_characters(const std::string& ascii) {
     return text;
 }
 
-std::string on_one_line(const json& value, std::size_t longest) {
-    return shortened(with_characters(value.dump(-1, ' ', true, json::error_handler_t::replace)), longest);
+std::string on_one_line(const json& value, std::size_t max_length) {
+    return shortened(with_characters(value.dump(-1, ' ', true, json::error_handler_t::replace)), max_length);
 }
 
 }  // namespace
@@ -87,11 +87,11 @@ std::optional<double> decimal_number(std::string_view text) {
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::string shortened(std::string text, std::size_t longest) {
-    if (text.size() <= longest) return text;
+std::string shortened(std::string text, std::size_t max_length) {
+    if (text.size() <= max_length) return text;
     const auto continues = [&text](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
-    while (longest > 0 && continues(longest)) --longest;
-    return text.substr(0, longest) + "...";
+    while (max_length > 0 && continues(max_length)) --max_length;
+    return text.substr(0, max_length) + "...";
 }
 
 std::string number_text(double value) {

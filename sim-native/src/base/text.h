@@ -32,7 +32,7 @@ std::string quoted(const std::string& text);
 /// shortened.
 std::string as_one_line(const std::string& text);
 
-/// Cuts text to `longest` bytes, and not in the middle of a UTF-8 character.
-std::string shortened(std::string text, std::size_t longest);
+/// Cuts text to `max_length` bytes, and not in the middle of a UTF-8 character.
+std::string shortened(std::string text, std::size_t max_length);
 
 }  // namespace natator

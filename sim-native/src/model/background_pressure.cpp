@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "borders.h"
+#include "boundaries.h"
 #include "natator/error.h"
 #include "physics/dfsph.h"
 #include "tank_ends.h"
@@ -58,13 +58,13 @@ double max_solved_depth(const Model& model) {
     return max_weight * passes * p.fluid_rest_distance * p.fluid_rest_distance / weight_on_walls(model);
 }
 
-/// The depth D that is left to the passes, length: a share of the one at which longest_substep is the Model's, within limits.
+/// The depth D that is left to the passes, length: a share of the one at which max_substep is the Model's, within limits.
 double solved_of(const Model& model, double all) {
     if (!(min_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
     const double h = model.time_step / p.substeps, least = min_supports * support(model);
     const double shallow = physics::shallow_layers * p.fluid_rest_distance;
-    const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, fastest_expansion(p, shallow));
+    const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, max_expansion_rate(p, shallow));
     const double most = std::min(solved_share * held, held - pushed_sideways(model));
     return std::min(all, std::max(least, std::min(most, shallow)));
 }
@@ -123,10 +123,10 @@ double weight_on_walls(const Model& model) {
 }
 
 /// A pass supports g H h^2/s^2 = max_weight times the density excess that it may remove.
-double longest_substep(const Model& model, double depth) {
+double max_substep(const Model& model, double depth) {
     const SolverParameters& p = model.parameters;
     const double held = max_solved_depth(model) / depth;
-    return std::min(std::sqrt(held * physics::max_excess), held * fastest_expansion(p, depth));
+    return std::min(std::sqrt(held * physics::max_excess), held * max_expansion_rate(p, depth));
 }
 
 double min_solved_depth(const Model& model) { return min_solved_of(model, depth(model)); }

@@ -18,7 +18,7 @@ std::optional<std::string> no_tank(const Eigen::Vector3d& gravity, const std::ve
 double weight_on_walls(const Model& model);
 
 /// The longest substep in which the passes of a Model hold up water so deep (length) as is not carried otherwise, s.
-double longest_substep(const Model& model, double depth);
+double max_substep(const Model& model, double depth);
 
 /// The depth of water that weighs as much as what the solver has to carry, length: all of it, but with modified_pressure no more than
 /// two thirds of what the passes hold up in the Model's substep.

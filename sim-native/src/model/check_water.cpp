@@ -4,7 +4,7 @@
 
 #include "background_pressure.h"
 #include "base/text.h"
-#include "borders.h"
+#include "boundaries.h"
 #include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"

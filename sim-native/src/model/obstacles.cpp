@@ -46,10 +46,10 @@ void for_each_place(const Obstacle& obstacle, const Visit& visit) {
 }
 
 /// Places of particles, in cells.
-class Taken {
+class OccupiedPlaces {
 public:
     /// `cell`: the largest distance that is asked for.
-    explicit Taken(double cell) : cell_(cell) {}
+    explicit OccupiedPlaces(double cell) : cell_(cell) {}
 
     void add(const Eigen::Vector3d& place) { places_[cell_of(place)].push_back(place); }
 
@@ -121,7 +121,7 @@ void add_obstacles(const std::vector<Obstacle>& obstacles, Model& model) {
     double widest = 0;
     for (const Obstacle& obstacle : obstacles) widest = std::max(widest, obstacle.spacing);
     const std::vector<bool> alone = which_are_alone(obstacles, apart * widest);
-    Taken taken(apart * widest);
+    OccupiedPlaces taken(apart * widest);
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const std::size_t first = model.position.size();
         for_each_place(obstacles[k], [&](const Eigen::Vector3d& place) {

@@ -8,7 +8,7 @@
 namespace natator::fields {
 namespace {
 
-constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr double max_float = std::numeric_limits<float>::max();
 constexpr double no_limit = 3.5e38;  // values above the largest float mean it; 3.4028235e38 reads as slightly above
 
 }  // namespace
@@ -70,8 +70,8 @@ const std::vector<Field<ConservingParameters>>& conserving_fields() {
 }
 
 void limit_to_float(SolverParameters& solver) {
-    solver.max_speed = std::min(solver.max_speed, largest_float);
-    solver.max_acceleration = std::min(solver.max_acceleration, largest_float);
+    solver.max_speed = std::min(solver.max_speed, max_float);
+    solver.max_acceleration = std::min(solver.max_acceleration, max_float);
 }
 
 void check_rest_distances(const SolverParameters& solver, const Place& place) {

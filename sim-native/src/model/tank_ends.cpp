@@ -13,14 +13,14 @@ const char* name_of_axis(int axis) {
     return axis == 0 ? "x" : "z";
 }
 
-bool stands_across(const Plane& plane, int axis) {
+bool is_across(const Plane& plane, int axis) {
     return std::abs(plane.normal[axis]) > 1 - square;
 }
 
 TankEnds tank_ends(const std::vector<Plane>& planes, int axis) {
     TankEnds ends;
     for (const Plane& plane : planes) {
-        if (!stands_across(plane, axis)) continue;
+        if (!is_across(plane, axis)) continue;
         if (plane.normal[axis] > 0)
             ends.low.push_back(0 - plane.offset);  // not -0
         else

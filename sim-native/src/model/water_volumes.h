@@ -21,7 +21,7 @@ double depth(const Model& model);
 
 /// Rate at which velocities may remove an excess of density, 1/s: see physics::velocity_excess. The surface rises at this
 /// times the depth, so deep water expands more slowly: it would throw itself up without end. `depth`: see there.
-double fastest_expansion(const SolverParameters& parameters, double depth);
+double max_expansion_rate(const SolverParameters& parameters, double depth);
 
 /// R: where the kernel of the water ends, length.
 double support(const Model& model);

@@ -21,7 +21,7 @@ struct CarriedWeight {
     /// The part of the weight that is carried at x.
     NATATOR_HD T part(const Vec3<T>& x) const { return unit_part((dot(down, x) - begin) / width); }
 
-    /// What it subtracts from a particle's acceleration at x, length/s^2. `density`: of the fluid, mass/length^3.
+    /// Acceleration that is subtracted from a particle's at x, length/s^2. `density`: of the fluid, mass/length^3.
     NATATOR_HD Vec3<T> acceleration(const Vec3<T>& x, bool fluid, T density, T volume, T inverse_mass) const {
         return (part(x) * (fluid ? T(1) : density * volume * inverse_mass)) * gravity;
     }
@@ -31,7 +31,7 @@ struct CarriedWeight {
 
     /// q at x, mass/(length s^2).
     NATATOR_HD T pressure(const Vec3<T>& x, T density) const {
-        const T deep = positive_part(dot(down, x) - begin), edge = smaller(deep, width);
+        const T deep = positive_part(dot(down, x) - begin), edge = minimum(deep, width);
         return density * norm(gravity) * (deep - edge + edge * edge / (2 * width));
     }
 };

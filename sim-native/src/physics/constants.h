@@ -17,10 +17,10 @@ inline constexpr double min_fit_determinant = 1e-9;  ///< of the fit's matrix, o
 inline constexpr double centre_dead_band = 1e-5;  ///< of scheme `flex`: less does not move a stored centre, length
 
 // Pairs.
-inline constexpr double least_square = 1e-30;     ///< added to r^2: 1/r stays finite, and no other r^2 changes
+inline constexpr double min_square = 1e-30;     ///< added to r^2: 1/r stays finite, and no other r^2 changes
 inline constexpr double far_away = 1e9;           ///< where the slot is that unused list entries point to
 inline constexpr double min_response = 1e-30;   ///< below it a density constraint's neighbours are where W ends
-inline constexpr double largest_shock_exponent = 20;  ///< keeps the ratio of masses finite
+inline constexpr double max_shock_exponent = 20;  ///< keeps the ratio of masses finite
 
 // Limits.
 inline constexpr double thesis_substep = 1.0 / 240;       ///< h0, s: what stiffness and cohesion are measured at

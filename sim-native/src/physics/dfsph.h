@@ -39,7 +39,7 @@ NATATOR_HD WendlandKernel<R> wendland_kernel(R radius, R scale) {
 /// A number cut to [0, 1].
 template <class T>
 NATATOR_HD T unit_part(T v) {
-    return smaller(positive_part(v), one<T>());
+    return minimum(positive_part(v), one<T>());
 }
 
 // The numbers of the method. What each changes: results/water/README.md#what-each-constant-changes.
@@ -55,11 +55,11 @@ inline constexpr double max_separation = 0.5; ///< of the rest distance, a subst
 inline constexpr double max_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
 inline constexpr double surface_wall_viscosity_factor = 1.63;   ///< of the viscosity between water and solids, see wall_viscosity_factor
 inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
-inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
+inline constexpr double max_shift = 0.05;  ///< of the rest distance, a substep
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
 inline constexpr double partly_corrected_density = 0.9, wholly_corrected_density = 0.95;
 inline constexpr double uncorrected_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
-inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its ghost
 
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
 // determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
@@ -113,7 +113,7 @@ struct MomentSums {
     }
 };
 
-/// How fast neighbours pass a particle.
+/// Largest speed of neighbours relative to a particle.
 template <class T>
 struct PassingSpeed {
     T square{};  ///< largest |v_j - v_i|^2
@@ -122,7 +122,7 @@ struct PassingSpeed {
     NATATOR_HD void add(const Vec3<T>& relative_velocity, T weight) {
         const T its_square = dot_unfused(relative_velocity, relative_velocity);
         const T counted = weight > 0 ? its_square : T{};
-        square = smaller(-square, -counted) * Scalar<T>(-1);
+        square = minimum(-square, -counted) * Scalar<T>(-1);
     }
 };
 
@@ -132,7 +132,7 @@ NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, T slope, T volumes, 
     return (Scalar<T>(-0.5) * volumes * slope) * (both * difference);
 }
 
-/// Of all G_ij of a particle: what a unit of its pressure impulse does to its own rate of expansion.
+/// Sums over all G_ij of a particle: the change of its rate of expansion per unit of its pressure impulse.
 template <class T>
 struct ResponseSums {
     Vec3<T> gradient{};
@@ -150,7 +150,7 @@ struct ResponseSums {
     }
 };
 
-/// What a particle yields to a push by: its inverse mass. One that is held counts as water in the pressure solve: next to
+/// Mobility of a particle under a push: its inverse mass. One that is held counts as water in the pressure solve: next to
 /// nothing but held ones the pressure would have no bound. `fluid_density`: mass/length^3, 0 without water that moves.
 template <class T>
 NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
@@ -159,29 +159,29 @@ NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
 
 /// The largest excess of density that velocities may remove in a substep of length h.
 template <class T>
-NATATOR_HD T velocity_limit(T h, T fastest_expansion) {
-    return smaller(T(max_excess), h * fastest_expansion);
+NATATOR_HD T velocity_limit(T h, T max_expansion_rate) {
+    return minimum(T(max_excess), h * max_expansion_rate);
 }
 
 /// The excess of density that the velocities remove in a substep; negative below rest density. The speed that this gives does
-/// not leave again, so it is at most `most`, a velocity_limit.
+/// not leave again, so it is no more than `limit`, a velocity_limit.
 template <class T>
-NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
-    return smaller(density - 1, T{} + most);
+NATATOR_HD T velocity_excess(T density, Scalar<T> limit) {
+    return minimum(density - 1, T{} + limit);
 }
 
 /// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
 template <class T>
-NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    return volume / h * velocity_excess(density, most);
+NATATOR_HD T density_target(T volume, T density, Scalar<T> limit, Scalar<T> h) {
+    return volume / h * velocity_excess(density, limit);
 }
 
 /// The same of the rest of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they have
 /// moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
 template <class T>
-NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    const T above = smaller(density - 1, T{} + Scalar<T>(max_overlap));
-    return volume / h * positive_part(above - velocity_excess(density, most));
+NATATOR_HD T separation_target(T volume, T density, Scalar<T> limit, Scalar<T> h) {
+    const T above = minimum(density - 1, T{} + Scalar<T>(max_overlap));
+    return volume / h * positive_part(above - velocity_excess(density, limit));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.
@@ -192,7 +192,7 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     return density > R(wet_density) ? all : T{};
 }
 
-/// Of uncorrected_impulse, in a substep of length h. `fluid_density`: mass/length^3.
+/// The factor of uncorrected_impulse in a substep of length h, s. `fluid_density`: mass/length^3.
 template <class T>
 NATATOR_HD T uncorrected_strength(T h, T fluid_density) {
     return T(uncorrected_pressure) * h * fluid_density;
@@ -200,11 +200,11 @@ NATATOR_HD T uncorrected_strength(T h, T fluid_density) {
 
 /// The pressure impulse that a particle may have before zeroth_order_correction sets in. `strength`: see uncorrected_strength.
 template <class T>
-NATATOR_HD T uncorrected_impulse(T fastest_square, Scalar<T> strength) {
-    return strength * fastest_square;
+NATATOR_HD T uncorrected_impulse(T max_speed_square, Scalar<T> strength) {
+    return strength * max_speed_square;
 }
 
-/// What is subtracted from a particle's own pressure push, in units of sum_j G_ij.
+/// Impulse subtracted from a particle's own pressure push, in units of sum_j G_ij.
 ///
 /// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common with
 /// its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles apart, and also
@@ -221,13 +221,13 @@ NATATOR_HD T zeroth_order_correction(T density, T impulse_sum, T kept, T own_res
     using R = Scalar<T>;
     const T wet = unit_part((density - R(partly_corrected_density)) * R(1 / (wholly_corrected_density - partly_corrected_density)));
     const T stable = 1 + R(0.5) * (1 - own_response) / (own_response + R(min_response));
-    return smaller(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
+    return minimum(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
 }
 
 /// The part that a particle's own motion has in its response to its pressure, in [0, 1]; `response`: see ResponseSums.
 template <class T>
 NATATOR_HD T own_response(T inverse_mass, const Vec3<T>& gradient_sum, T response) {
-    return smaller(inverse_mass * dot(gradient_sum, gradient_sum) * response, one<T>());
+    return minimum(inverse_mass * dot(gradient_sum, gradient_sum) * response, one<T>());
 }
 
 /// The part of E_j that a neighbour at distance r has back is this times V_i W_ij: those parts add up to E_j.
@@ -238,22 +238,22 @@ NATATOR_HD T zeroth_order_share(T density, T volume, const WendlandKernel<R>& ke
 }
 
 /// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall, at
-/// most as much as the owner's. The pressure of mirror images has a kink at the wall, of which gradients see but a part:
+/// most as much as the owner's. The pressure of ghosts has a kink at the wall, of which gradients see but a part:
 /// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from owner to
 /// ghost.
 template <class T>
 NATATOR_HD T hydrostatic_ghost_impulse(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
     if (!(own > 0)) return T{};
     const T weight = h / (own * volume) * dot_unfused(gravity, to_ghost);
-    return smaller(-smaller(-weight, impulse), impulse);
+    return minimum(-minimum(-weight, impulse), impulse);
 }
 
-/// What keeps a particle of the fluid evenly spread in its substep, length; no velocity comes with it.
+/// Displacement in a substep that keeps particles of the fluid evenly spread, length; no velocity comes with it.
 template <class T>
-NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square, T radius, T spacing, T h) {
+NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T max_speed_square, T radius, T spacing, T h) {
     if (!(density > T(shifted_density))) return {};
-    const T strength = T(shift_strength) * radius * h * square_root(fastest_square);
-    return clamped(strength * crowding, T(longest_shift) * spacing);
+    const T strength = T(shift_strength) * radius * h * square_root(max_speed_square);
+    return clamped(strength * crowding, T(max_shift) * spacing);
 }
 
 /// The largest kinematic viscosity that an explicit step of h bears between particles `spacing` apart, length^2/s.
@@ -267,7 +267,7 @@ NATATOR_HD T viscous_strength(T h, T viscosity) {
     return 10 * h * viscosity;
 }
 
-/// What keeps them finite between particles at one place, length^2.
+/// Softening that keeps viscous impulses finite between particles at one place, length^2.
 template <class T>
 NATATOR_HD T viscous_softening(T spacing) {
     return T(0.01) * spacing * spacing;
@@ -280,14 +280,14 @@ NATATOR_HD T viscous_limit(T spacing, T strength) {
 }
 
 /// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
-/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `limit`: what that may be.
 template <class T>
-NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
-    const T larger = smaller(-own, -other) * Scalar<T>(-1);
-    return larger > most ? most / larger : one<T>();
+NATATOR_HD T viscous_share(T own, T other, Scalar<T> limit) {
+    const T larger = minimum(-own, -other) * Scalar<T>(-1);
+    return larger > limit ? limit / larger : one<T>();
 }
 
-/// How much stronger the viscosity of a pair is of which one is water, the other solid. 1 for a solid, 0 for water.
+/// Factor of the viscosity of a pair of which one is water, the other solid. 1 for a solid, 0 for water.
 ///
 /// The water's velocity falls to a body's at its surface, but all of a body's particles have the body's velocity, those
 /// deep in it too, where the water's gradient would go on: what they should pull by is lost. With plain pairs, water that

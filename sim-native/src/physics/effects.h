@@ -69,10 +69,10 @@ NATATOR_HD Vec3<T> dragged(const Vec3<T>& v, T density, T step) {
 }
 
 /// Adhesion: of the distance `left` by which a particle that touched a plane at the substep's start has left it, up to
-/// `most` = adhesion h^2 is taken back, so a steady pull is withstood if its acceleration is at most `adhesion`.
+/// `limit` = adhesion h^2 is taken back, so a steady pull is withstood if its acceleration is at most `adhesion`.
 template <class T>
-NATATOR_HD T taken_back(T left, T most) {
-    return smaller(positive_part(left), most);
+NATATOR_HD T taken_back(T left, T limit) {
+    return minimum(positive_part(left), limit);
 }
 
 }  // namespace natator::physics::inline NATATOR_SET

@@ -10,14 +10,14 @@ namespace natator::physics {
 // by (cx, cy, cz) in a step. Moments: density - 1; x y z; xx yy zz xy xz yz; xxy xxz xyy yyz xzz yzz xyz.
 constexpr int lattice_populations = 27, lattice_moments = 17;
 
-/// What is left of each kind of cumulant after a collision.
+/// Part of each kind of cumulant that is left after a collision.
 struct LatticeRates {
     float shear, trace, third;
 };
 
 inline namespace NATATOR_SET {
 
-/// Of a kinematic viscosity, cells^2/step, above 0. Bulk viscosity: the trace is relaxed at once. Third cumulants so that
+/// The relaxation for a kinematic viscosity, cells^2/step, above 0. Bulk viscosity: the trace is relaxed at once. Third cumulants so that
 /// (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells on their centres at any viscosity (d'Humières, Ginzburg: Viscosity
 /// independent numerical errors for lattice Boltzmann models, 2009).
 NATATOR_HD LatticeRates lattice_rates(double viscosity) {

@@ -142,7 +142,7 @@ NATATOR_HD T one() {
     return T{} + 1;
 }
 template <class T>
-NATATOR_HD T smaller(T a, T b) {
+NATATOR_HD T minimum(T a, T b) {
     return b < a ? b : a;
 }
 

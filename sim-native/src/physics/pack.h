@@ -48,7 +48,7 @@ template <>
 struct ScalarOf<Doubles> {
     using Type = double;
 };
-/// As many lanes of Real as an instruction works on.
+/// The lanes of Real that one instruction works on.
 template <class Real>
 using Pack = typename PackOf<Real>::Type;
 

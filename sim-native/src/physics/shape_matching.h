@@ -39,7 +39,7 @@ NATATOR_HD Vec3<T> with_dead_band(const Vec3<T>& centre, const Vec3<T>& mean) {
     return {moved(centre.x, mean.x), moved(centre.y, mean.y), moved(centre.z, mean.z)};
 }
 
-/// From a particle to its goal: c + R r_j - x_j.
+/// The vector from a particle to its goal: c + R r_j - x_j.
 template <class T>
 NATATOR_HD Vec3<T> way_to_goal(const Vec3<T>& centre, const T matrix[9], const Vec3<T>& rest, const Vec3<T>& x) {
     return centre + turned(matrix, rest) - x;

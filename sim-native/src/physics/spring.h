@@ -16,7 +16,7 @@ inline double softness(double stiffness) {
     return left_over >= 1 ? HUGE_VAL : left_over / (1 - left_over);
 }
 
-/// What a Model's spring asks for, but for its rest length, which muscles change.
+/// Parameters of a Model's spring, except its rest length, which muscles change.
 template <class R>
 struct SpringRule {
     R stiffness = 1;
@@ -45,7 +45,7 @@ NATATOR_HD double relative_compliance(double softness, double h) {
     return softness * ratio * ratio;
 }
 
-/// The same spring by XPBD (Macklin, Müller, Chentanez 2016, eq. 18) with split masses, n = springs on a particle:
+/// A spring by XPBD (Macklin, Müller, Chentanez 2016, eq. 18) with split masses, n = springs on a particle:
 ///   Dlambda = (-C - alpha lambda) / (w_a n_a + w_b n_b + alpha), Dx_a = w_a Dlambda n.
 /// `weights` is w_a + w_b, `split` the sum with n. Returns Dx_a / w_a and adds to lambda.
 template <class T>
@@ -56,7 +56,7 @@ NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T spli
     lambda += change;
     return change / length * difference;
 }
-/// Its compliance alpha in a substep of length h, s.
+/// Compliance alpha of a spring in a substep of length h, s.
 template <class T>
 NATATOR_HD T spring_compliance(SpringRule<T> rule, T weights, T h) {
     return static_cast<T>(relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));

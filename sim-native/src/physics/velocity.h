@@ -6,7 +6,7 @@
 
 namespace natator::physics {
 
-/// What makes a velocity out of a displacement in scheme `flex`. The booleans say what applies.
+/// Rule that turns a displacement into a velocity in scheme `flex`. The booleans say which parts apply.
 template <class R>
 struct VelocityRule {
     bool viscosity;

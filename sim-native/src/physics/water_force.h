@@ -5,7 +5,7 @@
 
 namespace natator::physics::inline NATATOR_SET {
 
-/// Of one of a pair, as forces need it.
+/// One particle of a pair, as forces need it.
 template <class T>
 struct PairSide {
     T volume;

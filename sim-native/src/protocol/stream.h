@@ -56,8 +56,8 @@ struct NewScene {
 };
 
 inline constexpr int max_credit = 1000;                 ///< frames
-inline constexpr int longest_step = 1000;                ///< frames
-inline constexpr std::size_t longest_command = 1 << 20;  ///< bytes
+inline constexpr int max_step = 1000;                ///< frames
+inline constexpr std::size_t max_command = 1 << 20;  ///< bytes
 
 /// Whether simulated seconds per second of wall time may be limited to this: 0 (no limit) or in [0.001, 1000].
 bool is_rate(double value);

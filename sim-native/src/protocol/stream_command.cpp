@@ -50,14 +50,14 @@ bool is_for_each_frame(const json& value) {
 
 stream::Step read_step(const json& value) {
     stream::Step step;
-    step.frames = read_frames(value, stream::longest_step);
+    step.frames = read_frames(value, stream::max_step);
     if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, step.sense);
     json other = value;
     if (is_for_each_frame(value)) {
         const json& rows = value.at("drive");
         const std::string has = "has " + std::to_string(rows.size()) + " lists: must have ";
-        if (rows.size() > stream::longest_step)
-            fields::refuse(place.key("drive"), has + std::to_string(stream::longest_step) + " at most");
+        if (rows.size() > stream::max_step)
+            fields::refuse(place.key("drive"), has + std::to_string(stream::max_step) + " at most");
         if (!value.contains("frames")) step.frames = static_cast<int>(rows.size());
         if (rows.size() != static_cast<std::size_t>(step.frames))
             fields::refuse(place.key("drive"), has + "one for each of the " + std::to_string(step.frames) + " frames");

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "base/strict_json.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
 #include "natator/measure.h"
@@ -82,7 +82,7 @@ std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Re
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model.body, state));
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
-        const Eigen::Vector3d way = shortest_way(model, places[i].template cast<double>() - centre);
+        const Eigen::Vector3d way = minimum_image(model, places[i].template cast<double>() - centre);
         for (const PeriodicAxis& axis : model.periodic)
             places[i][axis.axis] = static_cast<Real>(centre[axis.axis] + way[axis.axis]);
     }

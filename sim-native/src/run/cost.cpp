@@ -29,7 +29,7 @@ struct Room {
     double with(const Computing& computing) const { return bytes + numbers * (computing.doubles ? sizeof(double) : sizeof(float)); }
 };
 // As measured, with the room that growing arrays leave.
-constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_image{60, 36}, of_contact{24, 1}, of_spring{80, 4},
+constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_ghost{60, 36}, of_contact{24, 1}, of_spring{80, 4},
     of_member{56, 6}, of_cell{28, 0}, of_neighbour{4, 0}, of_water_neighbour{4, 4};
 constexpr double growth = 1.5;  // of a list that gets too short
 constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several threads put together, an entry
@@ -57,13 +57,13 @@ Grid grid_over(const Model& model, double search_distance) {
 
 /// Of particles in the planes and ends of periodic axes that they are nearer to than `distance`, as scheme `conserving` has
 /// them: as if how near one is to a plane did not depend on the others.
-double images_at_start(const Model& model, double distance) {
+double ghosts_at_start(const Model& model, double distance) {
     const double particles = model.particles();
-    double with_images = particles;
+    double with_ghosts = particles;
     for (const Plane& plane : model.planes) {
         double near = 0;
         for (const Eigen::Vector3d& place : model.position) near += plane.distance(place) < distance ? 1 : 0;
-        with_images *= 1 + near / particles;
+        with_ghosts *= 1 + near / particles;
     }
     for (const PeriodicAxis& periodic : model.periodic) {
         double near = 0;
@@ -71,9 +71,9 @@ double images_at_start(const Model& model, double distance) {
             const double at = place[periodic.axis];
             near += (at - periodic.low < distance ? 1 : 0) + (periodic.high - at < distance ? 1 : 0);
         }
-        with_images *= 1 + near / particles;
+        with_ghosts *= 1 + near / particles;
     }
-    return with_images - particles;
+    return with_ghosts - particles;
 }
 
 /// Mean over some fluid particles of how many are nearer than a distance, fluid ones or all.
@@ -215,8 +215,8 @@ Cost cost_of(const Model& model, const Computing& computing) {
     cost.candidates = std::max(start.fluid, fluid * std::min(20.25 * per_cube, fluid)) + start.contacts;
     const double of_fluid = fluid > 0 ? std::max(start.fluid / fluid / 2, at_rest) : 0;  // half of the cells is near
     const double fluid_neighbours = fluid * std::min(of_fluid, most);
-    const double images = water ? images_at_start(model, support) : 0;
-    cost.neighbours = fluid_neighbours * (1 + images / particles) + 2 * start.contacts;
+    const double ghosts = water ? ghosts_at_start(model, support) : 0;
+    cost.neighbours = fluid_neighbours * (1 + ghosts / particles) + 2 * start.contacts;
 
     double members = 0;
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
@@ -241,7 +241,7 @@ Cost cost_of(const Model& model, const Computing& computing) {
     if (computing.several_threads) add(listed, water ? of_water_part : of_part);
     if (!water) add(std::min(listed, kept_distances), {0, 1});
     if (water) add(particles, of_water_particle);
-    if (water) add(images, of_image);
+    if (water) add(ghosts, of_ghost);
     return cost;
 }
 

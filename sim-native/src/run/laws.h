@@ -51,7 +51,7 @@ public:
     /// The run goes on from what it has come to in another model: that is allowed, and energy counts from here.
     void go_on(const physics::LawMeasures& measures);
     /// The tank has moved: energy counts anew, from the end of the next frame.
-    void begin_anew();
+    void restart();
 
     /// The limits that hold now, without what they grow by with time.
     const physics::LawLimits& limits() const;

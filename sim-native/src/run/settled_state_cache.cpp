@@ -84,15 +84,15 @@ bool is_not_worth_it(const Model& model, const Settling& settling) {
     return settling.updates == 0 || model.particles() > limits::cached_particles;
 }
 
-/// Leaves at most `most` starts, the last written ones.
-void prune(const fs::path& folder, std::size_t most) {
+/// Leaves at most `max_files` starts, the last written ones.
+void prune(const fs::path& folder, std::size_t max_files) {
     std::error_code error;
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     for (const auto& entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".start") files.emplace_back(entry.last_write_time(error), entry.path());
-    if (files.size() <= most) return;
+    if (files.size() <= max_files) return;
     std::sort(files.begin(), files.end());
-    for (std::size_t i = 0; i < files.size() - most; ++i) fs::remove(files[i].second, error);
+    for (std::size_t i = 0; i < files.size() - max_files; ++i) fs::remove(files[i].second, error);
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ template <class Real>
 void Simulation<Real>::follow(MovingFrame& follower) {
     follower.drift(scene().time_step);
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model().body, state_));
-    if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.begin_anew();
+    if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.restart();
 }
 
 template <class Real>

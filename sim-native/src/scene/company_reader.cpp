@@ -6,9 +6,9 @@ namespace {
 
 constexpr std::size_t max_companions = 64, max_obstacles = 1000;
 
-const json& checked_array(const json& value, const Place& place, std::size_t most, const char* what) {
-    if (!value.is_array() || value.size() > most)
-        refuse(place, value, "an array of at most " + std::to_string(most) + " " + what);
+const json& checked_array(const json& value, const Place& place, std::size_t max_size, const char* what) {
+    if (!value.is_array() || value.size() > max_size)
+        refuse(place, value, "an array of at most " + std::to_string(max_size) + " " + what);
     return value;
 }
 

@@ -29,7 +29,7 @@ void place_mesh(json& mesh, const std::string& name, const std::filesystem::path
 
 /// The path of a scene or a creature that a file names is from where that file is; of one that is not there, from the working
 /// directory.
-std::string beside(const std::string& file, const std::string& path) {
+std::string relative_to(const std::string& file, const std::string& path) {
     constexpr std::string_view ending = ".json";
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     if (!file.ends_with(ending) || !path.ends_with(ending) || folder.empty()) return path;
@@ -49,7 +49,7 @@ void place_creature(json& holder, const std::string& name, const std::filesystem
     if (!holder.is_object() || !holder.contains("creature") || !holder.at("creature").is_object()) return;
     json& creature = holder.at("creature");
     if (creature.contains("name") && creature.at("name").is_string())
-        creature["name"] = beside(name, creature.at("name").get<std::string>());
+        creature["name"] = relative_to(name, creature.at("name").get<std::string>());
     if (creature.contains("mesh")) place_mesh(creature.at("mesh"), name, data);
 }
 
@@ -101,7 +101,7 @@ json with_bases(const std::string& name, json document, const std::filesystem::p
     if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
-    const std::string base_name = beside(name, base.get<std::string>());
+    const std::string base_name = relative_to(name, base.get<std::string>());
     json merged = with_bases(base_name, read_named("scenes", base_name, place.key("base"), data), data, level + 1);
     patch_scene(merged, document);
     return merged;

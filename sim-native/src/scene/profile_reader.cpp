@@ -11,7 +11,7 @@
 namespace natator::fields {
 namespace {
 
-constexpr int most_slices = 10000;
+constexpr int max_profile_slices = 10000;
 constexpr int max_across = 1000;  // particles
 constexpr double on_border = 1e-9;  // slices: a part that is written in decimals lies in the slice that begins there
 constexpr Range extent{0, 1000, false, "length"};
@@ -33,9 +33,9 @@ Lattice read_lattice(const json& value, const Place& place, double spacing) {
     double length = 0;
     read(required(value, place, "length"), place.key("length"), {0, 1000, true, "length"}, length);
     const double slices = std::round(length / spacing);
-    if (slices < 2 || slices > most_slices) {
+    if (slices < 2 || slices > max_profile_slices) {
         refuse(place.key("length"), value.at("length"),
-               "2 to " + std::to_string(most_slices) + " spacings of " + number_text(spacing));
+               "2 to " + std::to_string(max_profile_slices) + " spacings of " + number_text(spacing));
     }
     return {static_cast<int>(slices), spacing};
 }

@@ -29,7 +29,7 @@ public:
 
     Trace<Real> view() const { return {predicted_.data(), iterated_.data(), velocity_.data()}; }
 
-    void tell(const DeviceModel<Real>& model, StepObserver<Real>& observer) const {
+    void report_to(const DeviceModel<Real>& model, StepObserver<Real>& observer) const {
         const std::vector<Vec4<Real>> predicted = predicted_.download(), iterated = iterated_.download(),
                                       velocity = velocity_.download();
         for (int k = 0; k < substeps_; ++k) {
@@ -76,7 +76,7 @@ public:
             return cuda::located(model_, state, gait, time_step, substeps, start, {bad, "velocities", state.time});
         }
         state.time = start + time_step;
-        if (observer) trace->tell(device_model(), *observer);
+        if (observer) trace->report_to(device_model(), *observer);
         return std::nullopt;
     }
 
@@ -116,9 +116,9 @@ protected:
 };
 
 template <class Real>
-class GpuSolver<Real>::ByBlock : public Implementation {
+class GpuSolver<Real>::BlockSolver : public Implementation {
 public:
-    explicit ByBlock(const Model& model)
+    explicit BlockSolver(const Model& model)
         : Implementation(model), runner_(model), states_(runner_.model(), 1), end_(states_) {}
 
 private:
@@ -159,9 +159,9 @@ private:
 };
 
 template <class Real>
-class GpuSolver<Real>::ByWholeGpu : public Implementation {
+class GpuSolver<Real>::GridSolver : public Implementation {
 public:
-    ByWholeGpu(const Model& model, const cuda::LargeOptions& options) : Implementation(model), runner_(model, 1, options) {}
+    GridSolver(const Model& model, const cuda::GridOptions& options) : Implementation(model), runner_(model, 1, options) {}
 
     std::vector<Real> pressures() const override {
         const std::vector<Real> of_fluid = h_ > 0 ? runner_.pressures(h_) : std::vector<Real>{};
@@ -225,15 +225,15 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     if (path == GpuPath::block && model.particles() > cuda::max_particles_of_a_block)
         throw InputError("backend cuda: " + std::to_string(model.particles()) + " particles by blocks; must be at most " +
                          std::to_string(cuda::max_particles_of_a_block));
-    cuda::LargeOptions large{.keeps_forces = options.forces};
+    cuda::GridOptions grid{.keeps_forces = options.forces};
     if (path == GpuPath::whole_gpu_search) {
-        large.room = {0, 0};
-        large.lists = cuda::WaterLists::never;
+        grid.room = {0, 0};
+        grid.lists = cuda::WaterLists::never;
     }
     if (path == GpuPath::block)
-        implementation_ = std::make_unique<ByBlock>(model);
+        implementation_ = std::make_unique<BlockSolver>(model);
     else
-        implementation_ = std::make_unique<ByWholeGpu>(model, large);
+        implementation_ = std::make_unique<GridSolver>(model, grid);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;

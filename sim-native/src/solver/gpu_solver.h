@@ -10,7 +10,7 @@
 
 namespace natator {
 
-/// How a State is computed on a GPU. Up to 20 000 particles, by blocks of its own and by the whole GPU have bits of their own.
+/// How a State is computed on a GPU. Below 20 000 particles `block` and `whole_gpu` differ in the last digits.
 enum class GpuPath {
     by_size,           ///< blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
     block,             ///< blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
@@ -25,7 +25,7 @@ struct GpuSolverOptions {
     bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
 };
 
-/// What a Solver is on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the same GPU
+/// A Solver on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the same GPU
 /// and input give the same bits. A library built without CUDA has this class too; making one then throws NoDevice.
 template <class Real>
 class GpuSolver {
@@ -68,8 +68,8 @@ public:
 
 private:
     class Implementation;
-    class ByBlock;
-    class ByWholeGpu;
+    class BlockSolver;
+    class GridSolver;
     std::unique_ptr<Implementation> implementation_;
 };
 

@@ -39,7 +39,7 @@ bool is_uniform_fluid(const Model& model) {
            !(*fluid_phases.begin() & phase::self_collide_filter);
 }
 
-/// What scheme conserving is told of the water's weight.
+/// Description of how scheme conserving carries the water's weight.
 std::string about_weight(const Model& model) {
     if (!model.parameters.conserving.modified_pressure) return "";
     return solved_depth(model) < depth(model) ? ", modified pressure" : ", modified pressure (carries nothing: the water is shallow or weightless)";

@@ -87,7 +87,7 @@ void check_driven(const std::vector<double>& driven, int actuators) {
 }
 
 /// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
-constexpr double most_cells = 0.3;
+constexpr double max_cells_per_substep = 0.3;
 
 /// Does nothing behind a stage.
 struct NoHook {
@@ -213,7 +213,7 @@ private:
             state.time = end;
             if (coupling_) {
                 coupling_->follow(state, static_cast<double>(h), end);
-                if (coupling_->fastest() > most_cells)
+                if (coupling_->fastest() > max_cells_per_substep)
                     return Instability{coupling_->fastest_particle(), "frame", end, name(physics::Law::mach)};
             }
             if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);

@@ -27,8 +27,8 @@ struct Iterations {
 
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
-    one_by_one,  ///< each group by itself
-    together,    ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
+    separate,  ///< each group by itself
+    fused,     ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
 };
 
 /// The groups of constraints that act on solids, in the order of all schemes.
@@ -54,7 +54,7 @@ NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStag
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.compute_density_and_fits();
         after(Stage::density_and_fits);
         stages.apply_corrections();
@@ -92,7 +92,7 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_it
         stages.apply_density_impulses();
         after(Stage::density_constraint);
     }
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.solve_solids_together();
         after(Stage::solids);
     } else {
@@ -135,7 +135,7 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void end_water(Stages& stages, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.end_water_passes();
     } else {
         stages.return_zeroth_order_correction();

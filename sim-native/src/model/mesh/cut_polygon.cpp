@@ -62,7 +62,7 @@ private:
 
 class Ears {
 public:
-    Ears(const Outline& outline, long& work, long most) : outline_(outline), work_(work), most_(most) {
+    Ears(const Outline& outline, long& work, long max_work) : outline_(outline), work_(work), max_work_(max_work) {
         const int count = outline.size();
         for (int i = 0; i < count; ++i) before_.push_back((i + count - 1) % count), behind_.push_back((i + 1) % count);
         quality_.assign(before_.size(), none);
@@ -95,7 +95,7 @@ private:
     bool is_ear(int i) {
         const int a = before_[i], b = behind_[i];
         if (outline_.turn(a, i, b) <= 0) return false;
-        if ((work_ += static_cast<long>(hollow_.size())) > most_)
+        if ((work_ += static_cast<long>(hollow_.size())) > max_work_)
             throw InputError("has an outline of " + std::to_string(outline_.size()) +
                              " corners, too many hollow ones among them; must be cut into smaller faces");
         const auto same = [this](int p, int q) { return outline_.number(p) == outline_.number(q); };
@@ -121,7 +121,7 @@ private:
 
     const Outline& outline_;
     long& work_;
-    long most_;
+    long max_work_;
     std::vector<int> before_, behind_;  // of those that are left
     std::vector<int> hollow_;           // at which the outline does not turn inwards
     std::vector<double> quality_;       // of ears
@@ -161,7 +161,7 @@ void turn_edges(const Outline& outline, std::vector<Three>& triangles) {
 
 }  // namespace
 
-void begin_with_least(std::vector<int>& corners) {
+void rotate_to_canonical(std::vector<int>& corners) {
     // Two beginnings are compared; the loser goes behind the first difference (Shiloach: Fast canonization of circular
     // strings, 1981).
     const std::size_t count = corners.size();
@@ -180,10 +180,10 @@ void begin_with_least(std::vector<int>& corners) {
 }
 
 std::vector<std::array<int, 3>> cut_polygon(std::span<const int> corners, std::span<const GridPoint> points, long& work,
-                                            long most) {
+                                            long max_work) {
     const Outline outline(corners, points);
     if (!outline.has_area()) return {};
-    std::vector<Three> triangles = Ears(outline, work, most).cut();
+    std::vector<Three> triangles = Ears(outline, work, max_work).cut();
     turn_edges(outline, triangles);
     for (Three& triangle : triangles)
         for (int& corner : triangle) corner = outline.number(corner);

@@ -11,7 +11,7 @@
 namespace natator {
 namespace {
 
-constexpr double most_across = 1000;  // spacings
+constexpr double max_across = 1000;  // spacings
 constexpr double max_volume_error = 0.25;
 
 /// On which side of the line from a to b a point of the plane (y, z) is, moved by an infinitesimal amount along y and by one
@@ -28,12 +28,12 @@ MeshLattice::MeshLattice(const TriangleMesh& mesh, double spacing) : grid_(mesh.
     const Eigen::Vector3d extent = grid_.high() - grid_.low();
     for (int axis = 0; axis < 3; ++axis) {
         const double across = extent[axis] / spacing;
-        if (across >= (axis == 0 ? 2 : 1.5) && across <= most_across) continue;
+        if (across >= (axis == 0 ? 2 : 1.5) && across <= max_across) continue;
         std::ostringstream text;
         text << (axis == 0 ? "is " : axis == 1 ? "is high " : "is wide ") << across << " spacings"
              << (axis == 0 ? " long" : "") << ", " << extent[axis] << " units of the file of " << spacing
              << " to a spacing; must be " << (axis == 0 ? "2" : "1.5, which is two particles across,") << " to "
-             << most_across << ": see unit and length";
+             << max_across << ": see unit and length";
         throw InputError(text.str());
     }
     count_ = (extent / spacing).array().round().max(1).cast<int>();

@@ -149,7 +149,7 @@ std::vector<OpenEdge> open_edges(const PolygonMesh& mesh) {
     return open;
 }
 
-double largest_extent(const PolygonMesh& mesh) {
+double max_extent(const PolygonMesh& mesh) {
     const ExactGrid grid(mesh.vertices);
     return (grid.high() - grid.low()).maxCoeff();
 }
@@ -252,7 +252,7 @@ private:
 void close_borders(PolygonMesh& mesh) try {
     PolygonMesh closed = mesh;
     for (double nearby = one_place; nearby < 1.1 * max_nearby; nearby *= 10) {
-        const double distance = nearby * largest_extent(closed);
+        const double distance = nearby * max_extent(closed);
         merge_near(closed, at_open_edges(closed), distance);
         EdgeCorners(closed, distance).add();
         if (!open_edges(closed).empty()) continue;
@@ -269,7 +269,7 @@ TriangleMesh triangles_of(PolygonMesh mesh) {
     leave_out_unused(mesh);
     merge_equal(mesh);
     leave_out_flat_faces(mesh);
-    merge_near(mesh, std::vector<bool>(mesh.vertices.size(), true), one_place * largest_extent(mesh));
+    merge_near(mesh, std::vector<bool>(mesh.vertices.size(), true), one_place * max_extent(mesh));
     if (!open_edges(mesh).empty()) close_borders(mesh);
 
     TriangleMesh triangles;
@@ -277,7 +277,7 @@ TriangleMesh triangles_of(PolygonMesh mesh) {
     const std::vector<GridPoint> points = grid_points(mesh);
     long work = 0;
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        begin_with_least(mesh.faces[i]);
+        rotate_to_canonical(mesh.faces[i]);
         const auto name = [&] { return face_name(mesh.source[i], mesh.has_lines); };
         std::vector<std::array<int, 3>> cut;
         if (const std::vector<int>& face = mesh.faces[i]; face.size() == 3)

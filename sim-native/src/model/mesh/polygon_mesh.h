@@ -6,7 +6,7 @@
 
 namespace natator {
 
-constexpr double largest_coordinate = 1e9;  // of a file's units; a float's 7 digits mean little beyond
+constexpr double max_coordinate = 1e9;  // of a file's units; a float's 7 digits mean little beyond
 
 /// Faces of any number of corners, as a file has them, in its units.
 struct PolygonMesh {

@@ -174,7 +174,7 @@ TriangleMesh read_binary_stl(std::string_view bytes) {
             float place[3];
             std::memcpy(place, bytes.data() + stl_head + stl_facet_size * i + 12 * (k + 1), sizeof place);
             for (const float value : place)
-                if (!(std::abs(value) <= largest_coordinate))
+                if (!(std::abs(value) <= max_coordinate))
                     throw InputError("facet " + std::to_string(i + 1) + ": a coordinate is no number within 1e9");
             reader.mesh.vertices.emplace_back(place[0] + 0.0, place[1] + 0.0, place[2] + 0.0);
             corners.push_back(static_cast<int>(reader.mesh.vertices.size()) - 1);

@@ -98,7 +98,7 @@ void TextWords::refuse(const std::string& what) const {
 
 double TextWords::coordinate(std::string_view word) const {
     const std::optional<double> value = decimal_number(word);
-    if (!value || std::abs(*value) > largest_coordinate)
+    if (!value || std::abs(*value) > max_coordinate)
         refuse((word.empty() ? "a coordinate is missing" : quoted(std::string(word)) + " is no coordinate") +
                "; must be three numbers within 1e9");
     return *value + 0.0;  // -0 is 0

@@ -255,7 +255,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     const std::vector<Evaluation> evaluations = options.precision == Precision::double_precision
                                                     ? cuda::evaluate<double>(scene, model, members, options)
                                                     : cuda::evaluate<float>(scene, model, members, options);
-    if (options.times) options.times->memory = std::max(options.times->memory, memory.most());
+    if (options.times) options.times->memory = std::max(options.times->memory, memory.peak());
     return evaluations;
 }
 

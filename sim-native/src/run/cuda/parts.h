@@ -10,9 +10,9 @@ namespace natator::cuda {
 struct Parts {
     int members, count, streams;
 
-    Parts(int all, int most, int max_streams)
+    Parts(int all, int max_size, int max_streams)
         : members(all),
-          count(std::min(all, ceiling(ceiling(all, most), max_streams) * max_streams)),
+          count(std::min(all, ceiling(ceiling(all, max_size), max_streams) * max_streams)),
           streams(std::min(count, max_streams)) {}
 
     int first(int part) const { return part * (members / count) + std::min(part, members % count); }

@@ -265,7 +265,7 @@ std::optional<Instability> broken_by_compression(double mean_excess, double time
     return Instability{0, "frame", time, name(Law::compression)};
 }
 
-void LawWatch::begin_anew() { parts_->begun = false; }
+void LawWatch::restart() { parts_->begun = false; }
 
 const LawLimits& LawWatch::limits() const { return parts_->limits; }
 const LawMargins& LawWatch::margins() const { return parts_->margins; }

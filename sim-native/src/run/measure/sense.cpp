@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/check_model.h"
 #include "natator/error.h"
 #include "physics/constants.h"
@@ -138,7 +138,7 @@ void feel_water(const Model& model, const State<Real>& state, double within, std
         const Eigen::Vector3d place = state.position[i].template cast<double>();
         if (!reach.contains(place)) continue;
         for (Probe& probe : probes) {
-            const double part = shortest_way(model, place - probe.place).squaredNorm() / (within * within);
+            const double part = minimum_image(model, place - probe.place).squaredNorm() / (within * within);
             if (part >= 1) continue;
             const double weight = (1 - part) * (1 - part) * (1 - part);
             probe.water += weight * state.velocity[i].template cast<double>();

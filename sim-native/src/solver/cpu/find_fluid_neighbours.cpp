@@ -52,7 +52,7 @@ void Substep<Real>::find_fluid_neighbours() {
                                           .blocks = ws_.blocks(),
                                           .distance_squared = constants_.search_distance * constants_.search_distance,
                                           .filler = ws_.slots,
-                                          .shortest_part = shortest_part,
+                                          .min_part = min_part,
                                           .kernels = neighbour_kernels_},
                                          *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, cell_of, go_to, choose);
     const bool keep = size <= max_distances;

@@ -76,7 +76,7 @@ public:
         int blocks;                 ///< that get lists
         Real distance_squared;      ///< neighbours are nearer
         std::int32_t filler;        ///< slot that unused entries point to
-        int shortest_part;          ///< blocks; fewer are done before another thread is awake
+        int min_part;          ///< blocks; fewer are done before another thread is awake
         const NeighbourKernels<Real>* kernels;
     };
 
@@ -89,7 +89,7 @@ public:
         rooms_.resize(team.max_parts());
         for (Room& room : rooms_) room.size = 0;
         // The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
-        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
+        team.for_parts(search.blocks, search.min_part, [&](int part, int begin, int end) {
             list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, cell_of, go_to,
                       choose);
         });
@@ -98,7 +98,7 @@ public:
         if (size > std::numeric_limits<int>::max())
             throw InputError("particles have crowded: " + std::to_string(size) + " neighbours; must be fewer than 2^31");
         if (rows.neighbour.size() < size) rows.neighbour.resize(size + size / 2);
-        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
+        team.for_parts(search.blocks, search.min_part, [&](int part, int begin, int end) {
             if (part == 0) return;
             std::size_t before = 0;
             for (int k = 0; k < part; ++k) before += rooms_[k].size;
@@ -128,7 +128,7 @@ private:
             std::array<int, lanes> count{};
             std::array<const std::int32_t*, lanes> list{};
             std::array<int, lanes> cell{};
-            int used = 0, most = 0;
+            int used = 0, max_count = 0;
             while (used < lanes && (cell[used] = cell_of(block * lanes + used)) >= 0) ++used;
             for (int lane = 0, found = 1; lane < used; lane += found) {
                 go_to(around, cell[lane]);
@@ -138,14 +138,14 @@ private:
                     list[k] = room.found[k].data();
                     count[k] = choose(block * lanes + k, room.found[k].data(), count[k]);
                     rows.count[block * lanes + k] = count[k];
-                    most = std::max(most, count[k]);
+                    max_count = std::max(max_count, count[k]);
                 }
             }
-            const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(most)) * lanes;
+            const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(max_count)) * lanes;
             if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
-            search.kernels->interleave(list.data(), count.data(), most, search.filler, all_rows.data() + end);
+            search.kernels->interleave(list.data(), count.data(), max_count, search.filler, all_rows.data() + end);
             rows.row_begin[block] = static_cast<int>(end / lanes);
-            end += static_cast<std::size_t>(most) * lanes;
+            end += static_cast<std::size_t>(max_count) * lanes;
         }
         room.size = end;
     }

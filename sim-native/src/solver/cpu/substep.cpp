@@ -130,8 +130,8 @@ template <class Real>
 std::vector<int> Substep<Real>::neighbour_counts() const {
     std::vector<int> counts(ws_.particles, 0);
     for (const int i : ws_.fluid_ids) counts[i] = ws_.neighbour_count[ws_.slot_of[i]];
-    for (std::size_t k = 0; k < ws_.touched.size(); ++k)
-        counts[ws_.particle_of[ws_.touched[k]]] += ws_.contact_begin[k + 1] - ws_.contact_begin[k];
+    for (std::size_t k = 0; k < ws_.contact_slots.size(); ++k)
+        counts[ws_.particle_of[ws_.contact_slots[k]]] += ws_.contact_begin[k + 1] - ws_.contact_begin[k];
     return counts;
 }
 

@@ -61,8 +61,8 @@ struct Workspace {
     // Room for the fluid kernels, see FluidView.
     AlignedVector<Real> packed, packed_velocity, distance;
 
-    // Contacts, pairs that are not both fluid: neighbours of touched[k] are contact[contact_begin[k] .. [k+1]).
-    std::vector<int> touched;
+    // Contacts, pairs that are not both fluid: neighbours of contact_slots[k] are contact[contact_begin[k] .. [k+1]).
+    std::vector<int> contact_slots;
     std::vector<int> contact_begin;
     std::vector<int> contact;
 

@@ -23,7 +23,7 @@ struct OnDevice {
     }
     static void free(void* data, std::size_t bytes) {
         cudaFree(data);
-        DeviceMemory::give_back(bytes);
+        DeviceMemory::release(bytes);
     }
 };
 

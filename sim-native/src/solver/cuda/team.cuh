@@ -8,7 +8,7 @@ inline constexpr int max_blocks_of_team = 144;
 /// of so many that several threads share each slot of the fluid.
 enum class TeamKind { block, blocks, many_blocks };
 
-/// Of a block of such a team. Where blocks have little to do, fewer wait for each other, and each has more registers.
+/// Number of threads of a block in a team of several blocks. Where blocks have little to do, fewer wait for each other, and each has more registers.
 constexpr int threads_of(TeamKind kind) {
     return kind == TeamKind::many_blocks ? 512 : 1024;
 }
@@ -28,15 +28,15 @@ struct BlockTeam {
     __device__ static bool any(bool value) { return __syncthreads_or(value); }
 };
 
-/// How many blocks of a team have come so far, where others wait for them.
+/// Counts blocks of a team that have reached a point where others wait for them.
 class Arrivals {
 public:
     __device__ void begin(unsigned* count) { count_ = count; }
-    /// This block has: what its threads wrote before a barrier of the block is seen by all who wait.
+    /// Says that this block has arrived: what its threads wrote before a barrier of the block is seen by all who wait.
     __device__ void add() const {
         if (threadIdx.x == 0) asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(count_) : "memory");
     }
-    /// So many more are waited for from now on.
+    /// Raises the count that is waited for.
     __device__ void expect(int blocks) const { expected_ += static_cast<unsigned>(blocks); }
     /// A barrier of the block, too.
     __device__ void wait() const {

@@ -23,7 +23,7 @@ public:
     void push(State<Real>& state, double h);
     /// The water's step, once the particles have made theirs to `time`, s.
     void follow(const State<Real>& state, double h, double time);
-    /// What is at x comes to x - by, length: a whole number of cells. The State's particles are moved by who calls this.
+    /// Moves all water by -by, length: a whole number of cells. The caller moves the State's particles.
     void shift(const Eigen::Vector3d& by);
     /// All cells of the water; at rest before the first step.
     WaterField field() const;

@@ -31,7 +31,7 @@ public:
 private:
     using Array = cpu::AlignedVector<float>;
     using Populations = std::array<float, physics::lattice_populations>;
-    struct Held {
+    struct BodyCell {
         long cell;
         int cube;
         float xi[3];
@@ -42,13 +42,13 @@ private:
     long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
     View view();
     void hold(const std::vector<Cube>& cubes);
-    void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
-    void hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
+    void update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
     void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void remember();
     void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
     const Populations& after_collision(long cell, const physics::LatticeRates& rates);
-    static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
+    static void add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int cells_[3], stride_;
     Array now_[moments], next_[moments], change_[3];
@@ -61,7 +61,7 @@ private:
     std::vector<Owned> owned_;  ///< those cells
     std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
     std::vector<float> out_;   ///< by place in held_
-    std::vector<Held> held_;   ///< cells in bodies, by cube
+    std::vector<BodyCell> held_;   ///< cells in bodies, by cube
     bool periodic_[3];
     std::vector<int> made_of_;      ///< by cell: place in made_, -1: none
     std::vector<Populations> made_;
@@ -98,7 +98,7 @@ View CpuWater::view() {
 
 /// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near ones the first.
 void CpuWater::hold(const std::vector<Cube>& cubes) {
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         for (Array& change : change_) change[held.cell] = 0;
         row_changes_[static_cast<std::size_t>(held.cell / stride_)] = 0;
         chosen_[held.cell] = -1;
@@ -128,7 +128,7 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
     }
 }
 
-void CpuWater::add(const Held& held, double x, double y, double z, std::vector<Push>& pushes) {
+void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes) {
     Push& push = pushes[held.cube];
     const double j[3] = {x, y, z};
     for (int a = 0; a < 3; ++a) {
@@ -138,20 +138,20 @@ void CpuWater::add(const Held& held, double x, double y, double z, std::vector<P
 }
 
 /// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to the water beside them.
-void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
-    for (const Held& held : held_) {
+void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
+    for (const BodyCell& held : held_) {
         const long at = held.cell;
         now_[0][at] += divergence_of(cubes[held.cube]);
         const float density = 1 + now_[0][at];
         const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) hand_over(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
+        if (begun_ && owner_[at] < 0) transfer_surplus(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
     }
 }
 
 /// Gives a covered cell's surplus to the water beside it, or to the body where there is none.
-void CpuWater::hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
+void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
     const int here[3] = {held.x, held.y, held.z};
     long takers[physics::lattice_populations];
     float sum = 0;
@@ -176,12 +176,12 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         int here[3];
         bool near = true;  // a body that has been put elsewhere is not pushed by what it left
         for (int a = 0; a < 3; ++a) {
-            here[a] = beside(cubes[p].x[a], at[a], cells_[a], periodic_[a]);
+            here[a] = nearest_copy(cubes[p].x[a], at[a], cells_[a], periodic_[a]);
             near = near && std::abs(static_cast<float>(here[a]) - cubes[p].x[a]) <= cubes[p].reach[a] + 1;
         }
         if (!near) continue;
         const PlaceInCube in = place_in(cubes[p], here[0], here[1], here[2]);
-        const Held left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
+        const BodyCell left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
         const float density = 1 + now_[0][one.cell];
         add(left, density * left.velocity.x - now_[1][one.cell], density * left.velocity.y - now_[2][one.cell],
             density * left.velocity.z - now_[3][one.cell], pushes);
@@ -190,7 +190,7 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
 
 void CpuWater::remember() {
     owned_.clear();
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         owner_[held.cell] = held.cube;
         owned_.push_back({held.cell, held.x, held.y, held.z});
     }
@@ -200,7 +200,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     pushes.assign(cubes.size(), {});
     hold(cubes);
     release(cubes, pushes);
-    tell(cubes, pushes);
+    update_bodies(cubes, pushes);
     remember();
     begun_ = true;
 
@@ -233,9 +233,9 @@ const CpuWater::Populations& CpuWater::after_collision(long cell, const physics:
     return made_[made_of_[cell]];
 }
 
-/// What streams between cells of bodies and of water in this step pushes the bodies.
+/// Pushes bodies by what streams between their cells and cells of water in this step.
 void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes) {
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         double j[3] = {};
         const int here[3] = {held.x, held.y, held.z};
         const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};

@@ -32,7 +32,7 @@ NATATOR_HD int wrapped(int at, int cells) {
 }
 
 /// A cell's number as it is nearest to x, where ends are periodic.
-NATATOR_HD int beside(float x, int at, int cells, bool periodic) {
+NATATOR_HD int nearest_copy(float x, int at, int cells, bool periodic) {
     if (!periodic || cells == 1) return at;
     const float half = 0.5f * static_cast<float>(cells), d = static_cast<float>(at) - x;
     return d > half ? at - cells : d < -half ? at + cells : at;

@@ -217,7 +217,7 @@ __global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeR
         owners[cell] = {held ? cube_of(of_cell) : -1, owners[cell].now};
         if (held) {
             const Cube& cube = cubes[cube_of(of_cell)];
-            for (int a = 0; a < 3; ++a) place[a] = beside(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
+            for (int a = 0; a < 3; ++a) place[a] = nearest_copy(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
             told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
             m[0] += divergence_of(cube);
         } else if (Handover& own = keys.handover(*key); own.role == Handover::takes) {

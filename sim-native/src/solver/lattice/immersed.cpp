@@ -39,8 +39,8 @@ void store(const Eigen::Matrix3d& from, float* to) {
 }  // namespace
 
 Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach_in_spacings,
-                   double larger)
-    : spacing_(spacing), larger_(larger), near_(rest.size()) {
+                   double extension)
+    : spacing_(spacing), extension_(extension), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
@@ -75,7 +75,7 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
                                   const Box& box, double step) const {
     std::vector<Cube> cubes(near_.size());
     const double per_step = step / box.cell;
-    const auto edge = static_cast<float>(overlap + 2 * larger_ * box.cell / spacing_);
+    const auto edge = static_cast<float>(overlap + 2 * extension_ * box.cell / spacing_);
     for (std::size_t p = 0; p < near_.size(); ++p) {
         Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
         for (const Neighbour& one : near_[p]) {

@@ -33,9 +33,9 @@ struct Push {
 class Immersed {
 public:
     /// `rest`: places at rest, length; of particles of the same `body` those nearer than `reach` spacings are neighbours. 1.75: those of faces
-    /// and edges, with which soft bodies are stable; 1.2: those of faces alone, for bodies of given shape. `larger`: cells by which the body is
+    /// and edges, with which soft bodies are stable; 1.2: those of faces alone, for bodies of given shape. `extension`: cells by which the body is
     /// larger on each side than its cubes, since water sticks to the centres of its outer cells.
-    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach, double larger);
+    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach, double extension);
 
     int particles() const { return static_cast<int>(near_.size()); }
     /// At these places, length, with these velocities, length/s, in a step of so long, s.
@@ -49,7 +49,7 @@ private:
         int particle;
         Eigen::Vector3d weight;  ///< of its distance or velocity in the gradient by xi
     };
-    double spacing_, larger_;
+    double spacing_, extension_;
     std::vector<std::vector<Neighbour>> near_;
     std::vector<Eigen::Matrix3d> missing_;  ///< projector on what a particle's neighbours do not span
 };

@@ -17,7 +17,7 @@ struct View {
     const unsigned char* row_changes;  ///< by row: whether there is any
 };
 
-/// In one instruction set; of float alone.
+/// Kernels of the lattice in one instruction set, in float.
 template <class Real>
 struct Kernels {
     /// A step of the planes [begin, end) along z. `room`: 3 x 27 x ny x stride numbers and 16 more.

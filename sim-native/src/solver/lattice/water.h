@@ -40,7 +40,7 @@ public:
     const Box& box() const { return box_; }
     /// Goes on by `step`, s, with the bodies where `cubes` says; `pushes`: what it gave each. The same bits for any number of threads.
     virtual void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) = 0;
-    /// What is at cell i comes to i - by; what comes in is at rest.
+    /// Moves the water of each cell i to i - by; water that comes in is at rest.
     virtual void shift(const Eigen::Vector3i& by) = 0;
 
     virtual Cell cell(const Eigen::Vector3i& at) const = 0;

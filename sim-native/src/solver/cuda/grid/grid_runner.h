@@ -22,7 +22,7 @@ template <class Real>
 class GridRunner {
 public:
     /// Throws std::bad_alloc without memory for so many States.
-    explicit GridRunner(const Model& model, int states = 1, const LargeOptions& options = {});
+    explicit GridRunner(const Model& model, int states = 1, const GridOptions& options = {});
     ~GridRunner();
     GridRunner(const GridRunner&) = delete;
     GridRunner& operator=(const GridRunner&) = delete;
@@ -90,7 +90,7 @@ public:
 
 private:
     bool had_room();
-    LargeLaunch<Real> launch_of(const Update& update, int substep) const;
+    GridLaunch<Real> launch_of(const Update& update, int substep) const;
     void launch_substeps(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
     void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
     cudaGraphExec_t graph_of(const Update& update);
@@ -103,14 +103,14 @@ private:
     const Model& host_model_;
     DeviceModel<Real> device_model_;
     Stream stream_;
-    LargeLaunch<Real> base_;
+    GridLaunch<Real> base_;
     GridMemory<Real> memory_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.
     HostBuffer<Real> rest_lengths_;  ///< [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
-    HostBuffer<LargeShared<Real>> end_;  ///< by State
+    HostBuffer<GridShared<Real>> end_;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;
 };
 

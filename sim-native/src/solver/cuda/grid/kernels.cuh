@@ -18,7 +18,7 @@ __device__ bool left_out(const Slots<Real>& slots) {
     return states == Of::running && slots.failed();
 }
 
-// The kernels of a large State are these three: what they do is a device function. The y of the grid is the State's number.
+// The kernels of the whole grid are these three: what they do is a device function. The y of the grid is the State's number.
 // Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
 
 /// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.

@@ -28,7 +28,7 @@ struct PairGradient<float> {
         const unsigned upper = static_cast<unsigned>(exponent) << 25;
         const float one = unit(upper), to_integer = __uint_as_float((254u << 23) - __float_as_uint(one));  // 1 / one
         const auto whole = [&](float component) {
-            return fminf(fmaxf(__fmaf_rn(component, to_integer, zero), zero - most), zero + most);
+            return fminf(fmaxf(__fmaf_rn(component, to_integer, zero), zero - max_integer), zero + max_integer);
         };
         const Vec3<float> integer{whole(gradient.x), whole(gradient.y), whole(gradient.z)};
         gradient = {(integer.x - zero) * one, (integer.y - zero) * one, (integer.z - zero) * one};
@@ -42,7 +42,7 @@ struct PairGradient<float> {
     }
 
 private:
-    static constexpr int most = (1 << 18) - 1;
+    static constexpr int max_integer = (1 << 18) - 1;
     static constexpr float zero = (1 << 23) + (1 << 18);  ///< what stands for 0: floats of 2^23 and more have no fraction
     static constexpr int min_exponent = 40;  // of 2^-87
 

@@ -14,7 +14,7 @@ __global__ void __launch_bounds__(threads_of(kind), 1) advance(const __grid_cons
     Team team(batch.layout, chip, batch.scratch + scratch, batch.arrivals + arrivals_of_team * blockIdx.y);
     auto& shared = team.shared();
     if (team.thread() == 0) shared.watch.totals = batch.profile;
-    if (threadIdx.x == 0) team.of_block().next_unit[0] = team.of_block().next_unit[1] = 0;
+    if (threadIdx.x == 0) team.of_block().next_task[0] = team.of_block().next_task[1] = 0;
     clear_cells(batch.model, team);
     const unsigned all = static_cast<unsigned>(batch.states) * batch.updates;
     for (;;) {

@@ -6,7 +6,7 @@
 
 namespace natator::cuda {
 
-/// What a State carries from frame to frame beside its particles.
+/// Progress of a State from frame to frame, beside its particles.
 struct Progress {
     int stopped = -1;  ///< a value of StopReason, or -1 while it runs
     int frames = 0;
@@ -25,7 +25,7 @@ struct GaitView {
     const double* offset = nullptr;     ///< likewise; null = 0
 };
 
-/// What the teams of a launch work on: `updates` updates of each of `states` States.
+/// Work of the teams of a launch: `updates` updates of each of `states` States.
 template <class Real>
 struct BatchView {
     ModelView<Real> model;

@@ -10,7 +10,7 @@ namespace natator::cuda {
 
 #define NATATOR_CHIP_SOLIDS(X) NATATOR_SOLID_MODEL_ARRAYS(X) NATATOR_SOLID_STATE_ARRAYS(X)
 
-/// Where on the chip the arrays begin, in bytes.
+/// Offsets of the arrays in shared memory, bytes.
 struct SolidLayout {
 #define NATATOR_OFFSET(type, name, ...) unsigned name;
     NATATOR_CHIP_SOLIDS(NATATOR_OFFSET)

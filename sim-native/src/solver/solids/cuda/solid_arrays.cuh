@@ -9,21 +9,21 @@ namespace natator::cuda {
 // X(type, name, how many), see arrays.cuh. Of the Model.
 #define NATATOR_SOLID_MODEL_ARRAYS(X)                  \
     X(SpringView<Real>, spring, size.springs)          \
-    X(int, spring_shares_begin, size.solids + 1)       \
-    X(Incidence, spring_share, 2 * size.springs)           \
+    X(int, spring_incidences_begin, size.solids + 1)       \
+    X(Incidence, spring_incidence, 2 * size.springs)           \
     X(ClusterView<Real>, cluster, size.clusters)       \
     X(int, member, size.members)                       \
     X(Vec3<Real>, offset, size.members)                \
     X(Real, member_mass, size.members)                 \
-    X(int, cluster_shares_begin, size.solids + 1)      \
-    X(Incidence, cluster_share, size.members)
+    X(int, cluster_incidences_begin, size.solids + 1)      \
+    X(Incidence, cluster_incidence, size.members)
 
 // Of the State. By place: in device memory a solid's slot, on the chip its number. The first are what iterations change.
 #define NATATOR_MOVED_SOLID_ARRAYS(X)                  \
     X(Vec4<Real>, position, size.solids)               \
     X(Vec4<Real>, displacement, size.solids)
 #define NATATOR_PLACED_SOLID_ARRAYS(X)                 \
-    X(Vec4<Real>, base, size.solids)                   \
+    X(Vec4<Real>, predicted_position, size.solids)     \
     X(Vec4<Real>, start, size.solids)                  \
     X(int, plane_contact, size.solids)
 

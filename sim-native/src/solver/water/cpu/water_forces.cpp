@@ -21,16 +21,16 @@ void Water<Real>::clear_forces() {
     impulse_time_ = 0;
 }
 
-/// As the kernel add_viscosity does, on the same velocities.
+/// Adds the viscous impulses on solids, of the same velocities as the kernel add_viscosity.
 template <class Real>
-void Water<Real>::add_viscous_forces(Real strength, Real most) {
+void Water<Real>::add_viscous_forces(Real strength, Real limit) {
     const Real softening = view().softening;
     for_each_solid_slot([&](int slot, int particle) {
         const Real own = volume_[slot] * mobility_[slot];
         physics::ViscousSums<Real> sums;
         for_each_neighbour_of(slot, [&](int entry, int other) {
             if (!is_fluid_slot(other)) return;
-            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most) *
+            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], limit) *
                                physics::wall_viscosity_factor(Real(1), Real(0));
             sums.add(position_.at(slot) - position_.at(other), packed_velocity(other) - velocity_.at(slot), softening,
                      share, gradient_.at(entry));
@@ -47,7 +47,7 @@ void Water<Real>::add_pressure_forces() {
         if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
             const Real* const zeroth_order_correction = &packed_zeroth_order_[4 * static_cast<std::size_t>(of)];
-            return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],
+            return {volume_[of], impulse_sum_[of < ghost_begin_ ? of : ghost_owner_[of - ghost_begin_]],
                     {zeroth_order_correction[0], zeroth_order_correction[1], zeroth_order_correction[2]}};
         };
         const physics::PairSide<Real> own = side(slot);

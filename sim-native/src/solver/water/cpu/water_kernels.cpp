@@ -99,7 +99,7 @@ template <class Group, class Real>
             rate += dot(relative, gradient);
         });
         const Lane response = sums.response(Group::get(water.mobility + first));
-        Group::put(water.fastest_square + first, fastest.square);
+        Group::put(water.max_speed_square + first, fastest.square);
         put3<Group>(water.zeroth, first, sums.gradient);
         Group::put(water.response + first, response);
         put_impulse<Group>(water, first, pressure_impulse(Lane{}, rate, response, Group::get(water.density + first)), Lane{});
@@ -107,7 +107,7 @@ template <class Group, class Real>
 }
 
 template <class Group, class Real>
-void add_viscosity(WaterView<Real> water, Real strength, Real most) {
+void add_viscosity(WaterView<Real> water, Real strength, Real limit) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
@@ -119,7 +119,7 @@ void add_viscosity(WaterView<Real> water, Real strength, Real most) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             const Four<Lane> shear = Group::gather(water.packed_shear, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     viscous_share(own, other.w * moves.w, most) * wall_viscosity_factor(solid, shear.z),
+                     viscous_share(own, other.w * moves.w, limit) * wall_viscosity_factor(solid, shear.z),
                      get3<Group>(water.gradient, entry));
         });
         const Lane scale = strength * inverse_mass;
@@ -174,7 +174,7 @@ template <class Group, class Real>
 void apply_zeroth_order_correction(WaterView<Real> water, Real strength) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
-        const Lane kept = uncorrected_impulse(Group::get(water.fastest_square + first), strength);
+        const Lane kept = uncorrected_impulse(Group::get(water.max_speed_square + first), strength);
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
         const Vec3<Lane> zeroth = get3<Group>(water.zeroth, first);
         const Lane own = own_response(inverse_mass, zeroth, Group::get(water.response + first));

@@ -6,8 +6,8 @@
 
 namespace natator::cpu {
 
-/// What the kernels of scheme `conserving` read and write, by slot. Slots of all particles come first, in blocks; behind
-/// them are their images, which have no rows of their own.
+/// Input and output of the kernels of scheme `conserving`, by slot. Slots of all particles come first, in blocks; behind
+/// them are their ghosts, which have no rows of their own.
 template <class Real>
 struct WaterView {
     int first_block, end_block;     ///< the blocks to work on
@@ -28,7 +28,7 @@ struct WaterView {
     Real* density;
     Real* correction[6];    ///< L_i: xx, yy, zz, xy, xz, yz
     Real* crowding[3];      ///< where neighbours crowd, 1/length
-    Real* fastest_square;   ///< largest |v_j - v_i|^2
+    Real* max_speed_square;   ///< largest |v_j - v_i|^2
     Real* response;         ///< see physics::ResponseSums
     Real* target;           ///< rate of expansion that a solve goes for, times V_i
     Real* impulse;          ///< pressure impulse of one pass
@@ -36,7 +36,7 @@ struct WaterView {
     Real* zeroth[3];        ///< sum of G_ij
     Real* zeroth_order_correction;           ///< of the pressure, see physics::zeroth_order_correction
 
-    // By slot, four at a time, also for images: what neighbours gather.
+    // By slot, four at a time, also for ghosts: what neighbours gather.
     Real* packed;             ///< position and volume
     Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy
@@ -56,11 +56,11 @@ struct WaterKernels {
     void (*pack)(WaterView<Real> water);
     /// Density, correction (also laid out), crowding; distance.
     void (*compute_moments)(WaterView<Real> water);
-    /// gradient, zeroth, response and fastest_square; and, while the gradients are at hand, the impulse of a first pass of target 0.
+    /// gradient, zeroth, response and max_speed_square; and, while the gradients are at hand, the impulse of a first pass of target 0.
     void (*compute_gradients)(WaterView<Real> water);
-    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
+    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `limit`: see
     /// physics::viscous_share.
-    void (*add_viscosity)(WaterView<Real> water, Real strength, Real most);
+    void (*add_viscosity)(WaterView<Real> water, Real strength, Real limit);
     /// impulse of a Jacobi pass: what takes a rate of expansion below its target there, never above; in impulse_sum too.
     void (*compute_impulse)(WaterView<Real> water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
@@ -74,7 +74,7 @@ struct WaterKernels {
 };
 
 NATATOR_DECLARE_KERNELS(WaterKernels, water_kernels)
-/// The same particle by particle.
+/// The kernels of scheme `conserving`, particle by particle.
 NATATOR_DECLARE_KERNELS(WaterKernels, scalar_water_kernels)
 
 }  // namespace natator::cpu

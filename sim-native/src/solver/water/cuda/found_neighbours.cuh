@@ -15,11 +15,11 @@ __device__ int hand_out_found(const ModelView<Real>& model, const Slots<Real>& s
                               unsigned* found, const Keep& keep, const Visit& visit) {
     found += kept_value(lanes, threadIdx.x / pair_lanes * found_stride);
     int handed_out = 0;
-    const auto hand_out = [&](int n, int least) {
+    const auto hand_out = [&](int n, int min_count) {
         __syncwarp(lanes);
-        while (__any_sync(lanes, n - handed_out >= least)) {
+        while (__any_sync(lanes, n - handed_out >= min_count)) {
             const int own = handed_out + residue;
-            const bool enough = n - handed_out >= least;
+            const bool enough = n - handed_out >= min_count;
             if (enough && own < n) visit(found[static_cast<unsigned>(own) % found_room]);
             if (enough) handed_out += pair_lanes;
         }

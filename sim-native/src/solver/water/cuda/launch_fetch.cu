@@ -27,7 +27,7 @@ __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slo
 }  // namespace
 
 template <class Real>
-void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums) {
+void launch_fetch(const GridLaunch<Real>& launch, Fetch what, Real* sums) {
     // Of floats as many blocks on a multiprocessor as the passes ask for.
     constexpr bool single = std::is_same_v<Real, float>;
     const int particles = launch.model.particles;
@@ -40,7 +40,7 @@ void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums) {
     check(cudaGetLastError(), "launch");
 }
 
-template void launch_fetch(const LargeLaunch<float>&, Fetch, float*);
-template void launch_fetch(const LargeLaunch<double>&, Fetch, double*);
+template void launch_fetch(const GridLaunch<float>&, Fetch, float*);
+template void launch_fetch(const GridLaunch<double>&, Fetch, double*);
 
 }  // namespace natator::cuda

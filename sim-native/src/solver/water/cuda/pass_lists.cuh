@@ -70,7 +70,7 @@ private:
     Sum of_[own]{};
 };
 
-/// Calls visit(list, G_ij, borders, value) for the neighbours of slot s in the lists of this thread, which are numbered from 0, once
+/// Calls visit(list, G_ij, boundaries, value) for the neighbours of slot s in the lists of this thread, which are numbered from 0, once
 /// gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the lists are under way
 /// at a time.
 template <int lanes, int rows, class Real, class Visit, class Value>
@@ -123,9 +123,9 @@ __device__ void for_each_searched_pair(const ModelView<Real>& model, const Slots
         model, slots, s, model.particles, wanted, reversed_list(own_lane()),
         [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
         [&](unsigned entry) {
-            const auto add = [&](int, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+            const auto add = [&](int, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
                                  const Vec4<Real>& shear, const Value& value) {
-                visit(0, own.kept(borders, there, correction, shear), borders, value);
+                visit(0, own.kept(boundaries, there, correction, shear), boundaries, value);
             };
             visit_entry(entry, values_at(entry, water.position, water.correction, water.shear, array), add);
         });

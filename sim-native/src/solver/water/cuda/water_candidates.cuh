@@ -14,7 +14,7 @@ __device__ inline int own_lane() {
     return static_cast<int>(threadIdx.x) % pair_lanes;
 }
 
-/// Of a candidate: its slot, with the borders that it is the ghost of.
+/// Entry of a candidate: its slot, with the boundaries that it is the ghost of.
 template <class Real>
 __device__ unsigned entry_of(const Vec4<Real>& candidate) {
     return static_cast<unsigned>(number_in(candidate.w));
@@ -55,7 +55,7 @@ __device__ unsigned kept_value(Lanes lanes, unsigned value) {
 
 /// The largest value of the slots that share a warp, whose threads are those of `lanes`.
 template <class Lanes>
-__device__ int largest_of_slots(Lanes lanes, int value) {
+__device__ int max_of_slots(Lanes lanes, int value) {
     int largest = 0;
     for (int first = 0; first < 32; first += pair_lanes) {
         const int its = __shfl_sync(lanes, value, first);
@@ -88,9 +88,9 @@ __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slo
             own = candidates_around(model, slots, x, min(around + lane, rows - 1));
         const int begin = __shfl_sync(lanes, own.begin, around % pair_lanes, pair_lanes);
         const int end = __shfl_sync(lanes, own.end, around % pair_lanes, pair_lanes);
-        int most = largest_of_slots(lanes, end - begin);
+        int left = max_of_slots(lanes, end - begin);
 #pragma unroll unrolled
-        for (int k = begin + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
+        for (int k = begin + lane; left > 0; left -= pair_lanes, k += pair_lanes) {
             const Vec4<Real> there = candidate[min(static_cast<unsigned>(k), last_copy)];
             const Real r2 = physics::squared_length(x - xyz(there));
             const bool near = k < end && r2 < distance_squared && r2 > 0;
