@@ -67,7 +67,8 @@ SettledTankRun run_settled_tank(const Setting& setting, double rest, double wind
     scene.scheme = setting.scheme;
     set_steps(steps_of(setting), scene.solver);
     const Model model = build_model(scene);
-    return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
+    return in_precision(setting.precision,
+                        [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
 }
 
 }  // namespace natator::bench

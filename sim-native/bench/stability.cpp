@@ -46,11 +46,13 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
         instability = solver.frame(state, subject.gait);
         if (instability) break;
         state.time = frame * model.time_step;
-        if (frame >= first_judged) instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
+        if (frame >= first_judged)
+            instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
         if (!instability && follow(follower, model, state)) laws.restart();
     }
     if (!instability)
-        instability = laws.look_at_compression(conservation_errors(model, state, solver.densities()).density_error_mean, state.time);
+        instability = laws.look_at_compression(conservation_errors(model, state, solver.densities()).density_error_mean,
+                                               state.time);
     result.time = state.time;
     result.margins = laws.margins();
     return result;
@@ -58,12 +60,14 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
 
 }  // namespace
 
-StabilityResult run_stability(const StabilityCase& subject, Precision precision, const std::optional<GpuSolverOptions>& gpu) {
+StabilityResult run_stability(const StabilityCase& subject, Precision precision,
+                              const std::optional<GpuSolverOptions>& gpu) {
     Model model = build_model(subject.scene);
     if (subject.rearrange) subject.rearrange(model);
     return in_precision(precision, [&](auto real) {
         using Real = decltype(real);
-        return gpu ? run_by<Real>(GpuSolver<Real>(model, *gpu), subject, model) : run_by<Real>(Solver<Real>(model), subject, model);
+        return gpu ? run_by<Real>(GpuSolver<Real>(model, *gpu), subject, model)
+                   : run_by<Real>(Solver<Real>(model), subject, model);
     });
 }
 

@@ -46,10 +46,8 @@ constexpr std::array features = {
     Feature{"surfaceTension", {"fluid forces", "fluid forces"}, as_it_is, R"({"solver":{"surfaceTension":0.01}})"},
     Feature{
         "vorticityConfinement", {"fluid forces", "fluid forces"}, as_it_is, R"({"solver":{"vorticityConfinement":1}})"},
-    Feature{"freeSurfaceDrag",
-            {"free-surface drag", "fluid forces"},
-            as_it_is,
-            R"({"solver":{"freeSurfaceDrag":0.1}})"},
+    Feature{
+        "freeSurfaceDrag", {"free-surface drag", "fluid forces"}, as_it_is, R"({"solver":{"freeSurfaceDrag":0.1}})"},
     Feature{"dissipation", {"dissipation", nullptr}, as_it_is, R"({"solver":{"dissipation":0.1}})"},
     Feature{"shockPropagation", {"contacts", nullptr}, as_it_is, R"({"solver":{"shockPropagation":1}})"},
     Feature{"adhesion", {"adhesion", "adhesion"}, as_it_is, R"({"solver":{"adhesion":1}})"},

@@ -17,8 +17,8 @@ public:
     using Clock = std::chrono::steady_clock;
 
     struct Limits {
-        std::size_t lines = SIZE_MAX;  ///< that wait; no more is read while they do
-        std::size_t bytes = SIZE_MAX;  ///< of a line; a longer one is cut to one byte more
+        std::size_t lines = SIZE_MAX;          ///< that wait; no more is read while they do
+        std::size_t bytes = SIZE_MAX;          ///< of a line; a longer one is cut to one byte more
         std::size_t waiting_bytes = SIZE_MAX;  ///< of all lines that wait; the last one may go beyond
     };
 

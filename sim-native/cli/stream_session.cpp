@@ -23,7 +23,8 @@ json parse_command(const std::string& line) {
 }  // namespace
 
 template <class Real>
-StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings)
+StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
+                                   const StreamSettings& settings)
     : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
 
 template <class Real>
@@ -265,7 +266,8 @@ void StreamSession<Real>::refuse_if(bool over) const {
     if (over) throw InputError("the stream has reached its end, --until " + number_text(*settings_.until) + " s");
 }
 
-/// After as many frames as `natator-sim run` simulates in that time, the nearest whole number; in no other than no time at least one.
+/// After as many frames as `natator-sim run` simulates in that time, the nearest whole number; in no other than no time
+/// at least one.
 template <class Real>
 bool StreamSession<Real>::at_end() const {
     if (!settings_.until) return false;

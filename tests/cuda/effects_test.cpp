@@ -9,7 +9,7 @@ namespace {
 
 struct Effect {
     const char* name;
-    double SolverParameters::*strength;
+    double SolverParameters::* strength;
     double value;
 };
 

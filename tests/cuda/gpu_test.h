@@ -74,7 +74,9 @@ struct OnBoth {
           on_gpu(on_cpu) {}
 
     /// Advances both; false if one is not stable.
-    bool update(double time, int substeps) { return !cpu.update(on_cpu, time, substeps) && !gpu.update(on_gpu, time, substeps); }
+    bool update(double time, int substeps) {
+        return !cpu.update(on_cpu, time, substeps) && !gpu.update(on_gpu, time, substeps);
+    }
 
 private:
     static Execution execution(bool forces) {

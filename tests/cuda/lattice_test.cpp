@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "gpu_test.h"
 #include "../native/lattice_bar.h"
+#include "gpu_test.h"
 #include "natator/error.h"
 
 namespace natator::lattice {
@@ -18,7 +18,8 @@ void stir(Water& water) {
     for_each_cell(water.box(), [&](const Eigen::Vector3i& at) {
         const Eigen::Array3d wave = 2 * std::numbers::pi * (at.cast<double>().array() + 0.3) / n.cast<double>().array();
         const Eigen::Array3d s = wave.sin(), c = wave.cos();
-        water.set_cell(at, {0.01 * s.x() * c.y(), 0.05 * Eigen::Vector3d(s.y() * c.z(), s.z() * c.x(), s.x() + c.y() * s.z())});
+        water.set_cell(
+            at, {0.01 * s.x() * c.y(), 0.05 * Eigen::Vector3d(s.y() * c.z(), s.z() * c.x(), s.x() + c.y() * s.z())});
     });
 }
 
@@ -47,7 +48,8 @@ double max_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
 
 TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
     constexpr Face kinds[] = {Face::periodic, Face::free_slip, Face::no_slip};
-    for (const Eigen::Vector3i& size : {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
+    for (const Eigen::Vector3i& size :
+         {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
         for (const Face x : kinds)
             for (const Face y : kinds)
                 for (const Face z : kinds) {
@@ -64,13 +66,13 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
                         stir(*water);
                         for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
                     }
-                    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4)
-                        << size.transpose() << ": " << static_cast<int>(x) << static_cast<int>(y) << static_cast<int>(z);
+                    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4) << size.transpose() << ": " << static_cast<int>(x)
+                                                                << static_cast<int>(y) << static_cast<int>(z);
                 }
 }
 
-/// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in a step, then on,
-/// so that it comes to lie in cells that it left.
+/// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in
+/// a step, then on, so that it comes to lie in cells that it left.
 void expect_same_pushes(const Face face, bool shifts) {
     Bar bar;
     for (auto& ends : bar.box_.faces) ends[0] = ends[1] = face;
@@ -131,7 +133,8 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
         std::vector<Cube> cubes(count);
         for (int k = 0; k < count; ++k) {
             Cube& cube = cubes[k];
-            cube.x[0] = static_cast<float>(along + 1.5 * (k % 5)), cube.x[1] = static_cast<float>(5 + 1.5 * (k / 5 % 5)), cube.x[2] = static_cast<float>(-1 + 1.5 * (k / 25));
+            cube.x[0] = static_cast<float>(along + 1.5 * (k % 5)),
+            cube.x[1] = static_cast<float>(5 + 1.5 * (k / 5 % 5)), cube.x[2] = static_cast<float>(-1 + 1.5 * (k / 25));
             for (int a = 0; a < 3; ++a) {
                 cube.v[a] = 0.01f * static_cast<float>(a - 1), cube.to_rest[4 * a] = 1 / 0.8f, cube.reach[a] = 0.8f;
                 cube.rate[4 * a] = 0.003f, cube.rate[(4 * a + 1) % 9] = 0.002f;
@@ -140,7 +143,18 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
         return cubes;
     };
     int step = 0;
-    for (const auto& [count, along] : {std::pair{3, 4.0}, {40, 4.2}, {200, 4.6}, {60, 10.2}, {0, 0.0}, {30, 17.0}, {30, -30.0}, {30, 40.0}, {200, -2.5}, {1, 8.0}, {0, 0.0}, {100, 8.0}})
+    for (const auto& [count, along] : {std::pair{3, 4.0},
+                                       {40, 4.2},
+                                       {200, 4.6},
+                                       {60, 10.2},
+                                       {0, 0.0},
+                                       {30, 17.0},
+                                       {30, -30.0},
+                                       {30, 40.0},
+                                       {200, -2.5},
+                                       {1, 8.0},
+                                       {0, 0.0},
+                                       {100, 8.0}})
         for (int k = 0; k < 3; ++k, ++step) {
             std::vector<Push> by_cpu, by_gpu;
             cpu->advance(cubes_of(count, along), 1, by_cpu);

@@ -44,7 +44,8 @@ void expect_momentum_kept(const Model& model, double bound) {
     advance_frames(gpu, model, state, 20);
     const Eigen::Vector3d change = momentum(model, state) - before;
     const double size = momentum_size(model, initial_state<Real>(model));
-    std::cout << "measured: momentum gained in a periodic tank " << std::max(std::abs(change.x()), std::abs(change.z())) / size << '\n';
+    std::cout << "measured: momentum gained in a periodic tank "
+              << std::max(std::abs(change.x()), std::abs(change.z())) / size << '\n';
     EXPECT_LE(std::abs(change.x()), bound * size);
     EXPECT_LE(std::abs(change.z()), bound * size);
     EXPECT_GT(std::abs(change.y()), 1e-3 * size);  // the floor pushes
@@ -96,7 +97,8 @@ TEST_F(GpuPeriodic, EffectsAreTheCpus) {
 
 /// A swim through the end: the same bits alone and in a batch, and as far as on the CPU.
 TEST_F(GpuPeriodic, ASwimIsTheCpus) {
-    nlohmann::json overrides = nlohmann::json::parse(R"({"duration": 0.25, "stopping": {"noProgressAfter": 0}, "settling": {"updates": 10}})");
+    nlohmann::json overrides =
+        nlohmann::json::parse(R"({"duration": 0.25, "stopping": {"noProgressAfter": 0}, "settling": {"updates": 10}})");
     const Scene scene = load_scene("open-water/periodic", overrides);
     std::vector<BatchMember> members;
     for (int k = 0; k < 3; ++k) members.push_back({wave(scene, k), {}});
@@ -118,7 +120,9 @@ TEST_F(GpuPeriodic, MoreBoundariesThanItHasRoomForAreRefused) {
         GpuSolver<float> refused(model);
         ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("7 planes and ends of periodic axes; must be at most 6"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("7 planes and ends of periodic axes; must be at most 6"),
+                  std::string::npos)
+            << error.what();
     }
 }
 

@@ -111,8 +111,8 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
     EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-9);
 }
 
-/// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The water
-/// turns past both.
+/// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The
+/// water turns past both.
 Model bodies_in_a_corner() {
     Model model = water_in_a_corner(6);
     model.parameters.conserving.kinematic_viscosity = 0.02;
@@ -154,7 +154,8 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
         for (const int i : model.clusters[0].particles) sum += on_gpu.velocity[i] / model.inverse_mass[i];
         return sum;
     };
-    const Eigen::Vector3d weight = model.parameters.gravity * static_cast<double>(model.clusters[0].particles.size()) / 0.8;
+    const Eigen::Vector3d weight =
+        model.parameters.gravity * static_cast<double>(model.clusters[0].particles.size()) / 0.8;
     EXPECT_TRUE(gpu.forces().empty());
     EXPECT_TRUE(gpu.pressures().empty());
     double largest = 0;
@@ -192,7 +193,8 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     model.position = lattice(12, 8, 6, spacing, Eigen::Vector3d(0.54, 0.36, 0.27));
     disorder_fluid(spacing, model);
     model.clusters[0] = make_cluster(model.clusters[0].particles, model.position, 1);
-    model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
+    model.planes = {
+        {{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
     model.parameters.conserving.modified_pressure = true;
     model.parameters.iterations = 1;  // so few, in so long a step, that most of the weight is carried
     model.time_step = 4 * substep;
@@ -216,8 +218,8 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     EXPECT_GT(max_distance(whole, on_gpu), 1e-5);
 }
 
-/// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of the mean
-/// mass does: where the water is of two masses that is neither's own.
+/// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of
+/// the mean mass does: where the water is of two masses that is neither's own.
 TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
     Model model = bodies_in_a_corner();
     model.parameters.conserving.kinematic_viscosity = 0.3 * spacing * spacing / substep;
@@ -234,7 +236,8 @@ TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
         off = std::max(off, (forces[i] - expected[i]).norm());
         largest = std::max(largest, expected[i].norm());
     }
-    std::cout << "measured: limited viscosity beside held bodies: velocities " << apart / fastest << ", forces " << off / largest << '\n';
+    std::cout << "measured: limited viscosity beside held bodies: velocities " << apart / fastest << ", forces "
+              << off / largest << '\n';
     EXPECT_LE(apart, 1e-9 * fastest);
     EXPECT_LE(off, 1e-8 * largest);
     EXPECT_GT(largest, 0);
@@ -259,7 +262,7 @@ TEST_F(GpuWater, ForcesAreSummedAnewWhereAnUpdateIsDoneAgain) {
 
 struct WaterEffect {
     const char* name;
-    double SolverParameters::*strength;
+    double SolverParameters::* strength;
     double value;
 };
 const WaterEffect water_effects[] = {{"Cohesion", &SolverParameters::cohesion, 0.002},
@@ -291,8 +294,7 @@ TEST_P(GpuWaterEffects, InACornerAreTheCpus) {
     std::cout << "measured: " << GetParam().name << " in a corner " << max_distance(on_cpu, on_gpu) << '\n';
     EXPECT_GT(max_distance(on_cpu, without), 1e-4);
     EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-12);
-    for (int i = 0; i < model.particles(); ++i)
-        EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
+    for (int i = 0; i < model.particles(); ++i) EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
 }
 INSTANTIATE_TEST_SUITE_P(All, GpuWaterEffects, testing::ValuesIn(water_effects),
                          [](const auto& test) { return std::string(test.param.name); });

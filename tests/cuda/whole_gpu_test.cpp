@@ -61,7 +61,8 @@ TEST_P(WholeGpu, EightTimesTheFluidAgreesWithTheCpu) {
     expect_agreement<float>(tank(2, GetParam()), 1e-5, 2e-4);
 }
 TEST_P(WholeGpu, SixtyFourTimesTheFluidAgreesWithTheCpu) {
-    expect_agreement<float>(tank(4, GetParam()), 1e-5, GetParam() == Scheme::flex ? 2e-4 : 1e-2);  // as rounding grows by in a frame
+    expect_agreement<float>(tank(4, GetParam()), 1e-5,
+                            GetParam() == Scheme::flex ? 2e-4 : 1e-2);  // as rounding grows by in a frame
 }
 
 /// A member's bits depend on nothing but itself, whatever was computed before it.

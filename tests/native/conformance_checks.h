@@ -114,8 +114,7 @@ inline void expect_every_particle_after_a_frame(const std::string& file, const R
     std::sort(distance.begin(), distance.end());
     EXPECT_LE(distance[distance.size() / 2], 1e-6);
     EXPECT_LE(distance.back(), 2e-4);
-    EXPECT_LT(max_difference(measured["first_substep"]["iterations"], computed["first_substep"]["iterations"]),
-              1e-5);
+    EXPECT_LT(max_difference(measured["first_substep"]["iterations"], computed["first_substep"]["iterations"]), 1e-5);
     EXPECT_LT(max_difference(measured["rot"], computed["rot"]), 1e-4);
     EXPECT_LT(max_difference(measured["trans"], computed["trans"]), 2e-5);
 }

@@ -15,8 +15,10 @@ inline Model made_periodic(Model model, const std::vector<int>& axes) {
     for (const int axis : axes) {
         PeriodicAxis periodic{axis, 0, 0};
         for (const Plane& plane : model.planes)
-            if (plane.normal[axis] == 1) periodic.low = -plane.offset;
-            else if (plane.normal[axis] == -1) periodic.high = plane.offset;
+            if (plane.normal[axis] == 1)
+                periodic.low = -plane.offset;
+            else if (plane.normal[axis] == -1)
+                periodic.high = plane.offset;
         std::erase_if(model.planes, [axis](const Plane& plane) { return std::abs(plane.normal[axis]) == 1; });
         model.periodic.push_back(periodic);
     }
@@ -58,7 +60,8 @@ inline Model stirred_periodic_water(const std::vector<int>& axes) {
     return model;
 }
 
-/// Still water around a rigid cube that flies along x and turns; its middle is at `x`. Weightless, all open to the sides.
+/// Still water around a rigid cube that flies along x and turns; its middle is at `x`. Weightless, all open to the
+/// sides.
 inline Model cube_through_periodic_water(double x) {
     Model model = made_periodic(cube_in_water(1.2, 1), {0, 2});
     model.parameters.gravity.setZero();

@@ -12,7 +12,8 @@
 namespace natator {
 namespace {
 
-/// Particles of water `spacing` apart, each moved by up to `disorder` spacings along each axis, that move as `velocity` says.
+/// Particles of water `spacing` apart, each moved by up to `disorder` spacings along each axis, that move as `velocity`
+/// says.
 struct Block {
     Model model;
     State<double> state;
@@ -47,7 +48,8 @@ double largest_error(const WaterField& field, const Velocity& velocity) {
     lattice::for_each_cell({.cells = field.cells}, [&](const Eigen::Vector3i& at) {
         const std::size_t cell = i++;
         if ((at.array() < 2).any() || (at.array() >= field.cells.array() - 2).any()) return;
-        largest = std::max(largest, (field.velocity[cell].template cast<double>() - velocity(centre(field, at))).norm());
+        largest =
+            std::max(largest, (field.velocity[cell].template cast<double>() - velocity(centre(field, at))).norm());
     });
     return largest;
 }
@@ -72,7 +74,8 @@ TEST(WaterField, ItsCellsAreInOrder) {
 TEST(WaterField, ErrorsFallWithTheSquareOfTheSpacing) {
     const auto velocity = [](const Eigen::Vector3d& x) {
         const double k = 2 * std::numbers::pi;
-        return Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.y()), -std::cos(k * x.x()) * std::sin(k * x.y()), 0);
+        return Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.y()), -std::cos(k * x.x()) * std::sin(k * x.y()),
+                               0);
     };
     double error[2];
     for (int fine = 0; fine < 2; ++fine) {
@@ -87,7 +90,9 @@ TEST(WaterField, ErrorsFallWithTheSquareOfTheSpacing) {
 TEST(WaterField, WaterThatClosesUpHasNoEnds) {
     const auto velocity = [](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, 1); };
     Block block({10, 9, 8}, 0.1, 0, velocity);
-    const auto ends = [&](const WaterField& field) { return field.density.front() / field.density[field.density.size() / 2]; };
+    const auto ends = [&](const WaterField& field) {
+        return field.density.front() / field.density[field.density.size() / 2];
+    };
     EXPECT_LT(ends(water_field(block.model, block.state)), 0.9f);
     block.model.periodic = {{0, 0, 1}, {2, 0, 0.8}};
     const WaterField field = water_field(block.model, block.state);
@@ -108,9 +113,8 @@ TEST(WaterField, ALatticeTellsAllOfItsCells) {
     lattice::Box box = lattice::box_of(5, 3, 4);
     box.viscosity = 0.01;
     const auto water = lattice::Water::on_cpu(box, 1);
-    lattice::for_each_cell(box, [&](const Eigen::Vector3i& at) {
-        water->set_cell(at, {0.01 * at.x(), 0.01 * at.cast<double>()});
-    });
+    lattice::for_each_cell(
+        box, [&](const Eigen::Vector3i& at) { water->set_cell(at, {0.01 * at.x(), 0.01 * at.cast<double>()}); });
     std::vector<lattice::Push> pushes;
     water->advance({}, 1, pushes);
     const std::vector<Eigen::Vector4f> cells = water->cells();

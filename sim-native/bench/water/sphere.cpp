@@ -19,9 +19,11 @@ struct Fall {
     FallQuantity curve = FallQuantity::way;
 };
 
-/// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let go.
+/// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let
+/// go.
 void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
-    const auto sphere = hold([&](const Eigen::Vector3d& x) { return (x - centre).norm() <= 0.15 * water_length; }, model);
+    const auto sphere =
+        hold([&](const Eigen::Vector3d& x) { return (x - centre).norm() <= 0.15 * water_length; }, model);
     model.clusters = {make_cluster(sphere, model.position, 1)};
 }
 
@@ -49,8 +51,8 @@ WaterRun follow(double duration, FallQuantity what, WaterTank<Real>& tank) {
     return tank.follow(duration, [&, start = height()] { return start - height(); });
 }
 
-/// s, before it is let go: without the damping that has brought it to rest, water first bobs up and down, three times a second, and
-/// a sphere that is free goes with it.
+/// s, before it is let go: without the damping that has brought it to rest, water first bobs up and down, three times a
+/// second, and a sphere that is free goes with it.
 constexpr double held = 1.5;
 
 /// Of the sphere, of the water's: lets it go.
@@ -63,9 +65,8 @@ void set_density(double density, WaterTank<Real>& tank) {
 
 template <class Real>
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
-    WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
-        immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model);
-    });
+    WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting,
+                         [&](Model& model) { immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model); });
     for (long k = 0; k < std::lround(held / tank.model().time_step); ++k)
         if (!tank.frame()) return tank.run();
     set_density(fall.density, tank);
@@ -101,7 +102,8 @@ constexpr double release_gravity = 8, release_viscosity = 0.008, release_duratio
 constexpr double release_width = 1.4 * water_length, release_height = 1.8 * water_length;
 constexpr double counted = 2;  ///< s, at the end
 
-/// The same by Schiller and Naumann's drag on a sphere that carries its added mass along: speed over the last `counted`.
+/// The same by Schiller and Naumann's drag on a sphere that carries its added mass along: speed over the last
+/// `counted`.
 double expected_speed(double excess, double sphere_diameter) {
     constexpr double step = 1e-3;
     double speed = 1e-6, way = 0;
@@ -110,8 +112,8 @@ double expected_speed(double excess, double sphere_diameter) {
         const double drag = drag_of_sphere(speed * sphere_diameter / release_viscosity);
         const double between = blockage_of_sphere(drag, sphere_diameter, release_width * release_width);
         const double passing = speed * (1 + std::min(between, 0.2));
-        const double held_back = 0.75 / sphere_diameter * passing * passing *
-                                 drag_of_sphere(passing * sphere_diameter / release_viscosity);
+        const double held_back =
+            0.75 / sphere_diameter * passing * passing * drag_of_sphere(passing * sphere_diameter / release_viscosity);
         speed += step * (excess * release_gravity - held_back) / (1 + excess + added_mass);
         if (time >= release_duration - counted) way += step * speed;
     }
@@ -153,8 +155,8 @@ WaterRun run_neutral_sphere(const WaterSetting& setting) {
     return run;
 }
 
-/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as its way is
-/// longer by half a substep, and before it has enough of that for a drag.
+/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as
+/// its way is longer by half a substep, and before it has enough of that for a drag.
 WaterRun run_added_mass(const WaterSetting& setting) {
     const Fall fall{.density = 2, .duration = 0.05, .curve = FallQuantity::speed};
     WaterRun run = let_go(fall, setting);

@@ -32,9 +32,9 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
-/// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and `lattice` `start` seeds the
-/// arrangement of the water, which is stored in the scene; else the returned perturbation shifts every
-/// coordinate by up to 0.001 of fluid_rest_distance. Throws InputError if `start` is below 0.
+/// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and
+/// `lattice` `start` seeds the arrangement of the water, which is stored in the scene; else the returned perturbation
+/// shifts every coordinate by up to 0.001 of fluid_rest_distance. Throws InputError if `start` is below 0.
 Perturbation choose_start(int start, Scene& scene);
 
 /// How far the final state is from the laws of mechanics; all dimensionless.
@@ -55,9 +55,9 @@ struct CompanionResult {
 /// What the water has lost because its tank moves along: water that enters in front is at rest.
 struct WaterRenewal {
     int times = 0;
-    long particles = 0;                                      ///< sum over all times
-    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();      ///< taken away, mass length/s
-    double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
+    long particles = 0;                                  ///< sum over all times
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< taken away, mass length/s
+    double kinetic_energy = 0;                           ///< taken away, mass length^2/s^2
 };
 
 /// Result of one evaluation of a gait in a scene.
@@ -73,9 +73,9 @@ struct Evaluation {
     /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
-    std::optional<Course> course;  ///< where the body went; none without a body
-    std::vector<GoalResult> goals;          ///< result of each goal, in the scene's order
-    std::optional<WaterRenewal> renewal;    ///< what a moving tank took from its water; none in another tank
+    std::optional<Course> course;             ///< where the body went; none without a body
+    std::vector<GoalResult> goals;            ///< result of each goal, in the scene's order
+    std::optional<WaterRenewal> renewal;      ///< what a moving tank took from its water; none in another tank
     std::vector<CompanionResult> companions;  ///< result of each companion, in the scene's order
 
     /// The gait's fitness: the weighted sum of the scores of the scene's goals; without goals, the distance.
@@ -89,17 +89,17 @@ using FrameObserver = std::function<void(double time, const std::vector<Eigen::V
 struct EvaluationOptions {
     Precision precision = Precision::single_precision;
     Perturbation perturbation{};
-    FrameObserver on_frame{};     ///< called for the settled start and after each frame; empty = not
+    FrameObserver on_frame{};  ///< called for the settled start and after each frame; empty = not
     SnapshotRequest snapshot{};
-    Execution execution{};        ///< what it points to must live until evaluate returns
+    Execution execution{};  ///< what it points to must live until evaluate returns
 };
 
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
-/// stop. The result is the same, bit by bit, with and without the cache. May be called from several threads at once; each calls its own
-/// `on_frame` and `snapshot.take`, and a profile is one thread's. On a GPU (Execution::gpu) the State goes there and back in each frame;
-/// evaluate_on_gpu gives the same bits sooner.
-/// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h), and what
-/// `on_frame` and `snapshot.take` throw.
+/// stop. The result is the same, bit by bit, with and without the cache. May be called from several threads at once;
+/// each calls its own `on_frame` and `snapshot.take`, and a profile is one thread's. On a GPU (Execution::gpu) the
+/// State goes there and back in each frame; evaluate_on_gpu gives the same bits sooner. Throws InputError when the gait
+/// does not fit the scene, or the evaluation would cost too much (cost.h), and what `on_frame` and `snapshot.take`
+/// throw.
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options = {});
 
 }  // namespace natator

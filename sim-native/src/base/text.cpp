@@ -19,12 +19,12 @@ using nlohmann::json;
 constexpr std::size_t max_shown = 60;
 constexpr std::size_t max_quoted = 400;  // paths and names are worth more room than values
 
-/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it, nor
-/// the one that stands for bytes that were no text.
+/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it,
+/// nor the one that stands for bytes that were no text.
 bool is_seen(unsigned code) {
     constexpr std::pair<unsigned, unsigned> unseen[] = {
-        {0x80, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160}, {0x17b4, 0x17b5}, {0x180b, 0x180f},
-        {0x200b, 0x200f}, {0x2028, 0x202e}, {0x2060, 0x206f}, {0x3164, 0x3164}, {0xd800, 0xf8ff}, {0xfe00, 0xfe0f},
+        {0x80, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160},   {0x17b4, 0x17b5}, {0x180b, 0x180f},
+        {0x200b, 0x200f}, {0x2028, 0x202e}, {0x2060, 0x206f}, {0x3164, 0x3164},   {0xd800, 0xf8ff}, {0xfe00, 0xfe0f},
         {0xfeff, 0xfeff}, {0xffa0, 0xffa0}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff}};
     return std::none_of(std::begin(unseen), std::end(unseen),
                         [code](const auto& range) { return range.first <= code && code <= range.second; });

@@ -35,13 +35,15 @@ std::vector<physics::Boundary<Real>> boundaries_of(const Model& model) {
     for (const Plane& plane : model.planes) {
         const auto& n = plane.normal;
         boundaries.push_back({{{static_cast<Real>(n.x()), static_cast<Real>(n.y()), static_cast<Real>(n.z())},
-                            static_cast<Real>(plane.offset)},
-                           Real(0)});
+                               static_cast<Real>(plane.offset)},
+                              Real(0)});
     }
     return boundaries;
 }
 
-Eigen::Vector3d gravity_on_walls(const Model& model) { return gravity_on_walls(model.parameters, model.periodic); }
+Eigen::Vector3d gravity_on_walls(const Model& model) {
+    return gravity_on_walls(model.parameters, model.periodic);
+}
 
 Eigen::Vector3d gravity_on_walls(const SolverParameters& parameters, const std::vector<PeriodicAxis>& periodic) {
     Eigen::Vector3d gravity = parameters.gravity;

@@ -10,8 +10,8 @@ namespace natator {
 namespace {
 
 constexpr std::uint32_t obstacle_phase = phase::group_mask;  // a group that no body has
-constexpr double rounding = 1e-12;  // particles on the very surface belong to it, on all sides
-constexpr double apart = 0.5;  // of a spacing: how near particles of two obstacles may be
+constexpr double rounding = 1e-12;                           // particles on the very surface belong to it, on all sides
+constexpr double apart = 0.5;                                // of a spacing: how near particles of two obstacles may be
 
 Eigen::Vector3d half_size(const Obstacle& obstacle) {
     return obstacle.shape == Obstacle::Shape::sphere ? Eigen::Vector3d::Constant(obstacle.radius)
@@ -40,7 +40,8 @@ void for_each_place(const Obstacle& obstacle, const Visit& visit) {
         for (double y = -aside.y(); y <= aside.y(); ++y)
             for (double z = -aside.z(); z <= aside.z(); ++z) {
                 const Eigen::Vector3d way = obstacle.spacing * Eigen::Vector3d(x, y, z);
-                const bool within = obstacle.shape == Obstacle::Shape::box || way.norm() <= obstacle.radius * (1 + rounding);
+                const bool within =
+                    obstacle.shape == Obstacle::Shape::box || way.norm() <= obstacle.radius * (1 + rounding);
                 if (within) visit((obstacle.centre + way).eval());
             }
 }
@@ -70,7 +71,8 @@ private:
 
     Cell cell_of(const Eigen::Vector3d& place) const {
         const Eigen::Array3d at = (place / cell_).array().floor();
-        return {static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()), static_cast<std::int64_t>(at.z())};
+        return {static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()),
+                static_cast<std::int64_t>(at.z())};
     }
 
     double cell_;
@@ -109,7 +111,8 @@ bool Obstacle::holds(const Eigen::Vector3d& place) const {
             break;
     }
     const double near = std::sqrt(3) / 2 * spacing;
-    return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
+    return std::any_of(points.begin(), points.end(),
+                       [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
 }
 
 double max_particles(const Obstacle& obstacle) {

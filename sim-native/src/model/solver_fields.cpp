@@ -62,7 +62,9 @@ const std::vector<Field<ConservingParameters>>& conserving_fields() {
         {"solidIterations", &P::solid_iterations, {1, 1000}},
         {"densityTolerance", &P::density_tolerance, {0, 1, false, "rest densities"}},
         {"maxIterations", &P::max_iterations, {1, 1000}},
-        {"kernelSupport", &P::kernel_support, {limits::min_kernel_support, limits::max_kernel_support, false, "rest distances of the fluid"}},
+        {"kernelSupport",
+         &P::kernel_support,
+         {limits::min_kernel_support, limits::max_kernel_support, false, "rest distances of the fluid"}},
         {"modifiedPressure", &P::modified_pressure},
         {"kinematicViscosity", &P::kinematic_viscosity, {0, 1000, false, "length^2/s"}},
     };

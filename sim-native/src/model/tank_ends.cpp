@@ -31,7 +31,8 @@ TankEnds tank_ends(const std::vector<Plane>& planes, int axis) {
 
 std::string one_each_needed(const TankEnds& ends, int axis) {
     return std::string("needs one plane at each end of the tank along ") + name_of_axis(axis) + ", found " +
-           std::to_string(ends.low.size()) + " at the low end and " + std::to_string(ends.high.size()) + " at the high end";
+           std::to_string(ends.low.size()) + " at the low end and " + std::to_string(ends.high.size()) +
+           " at the high end";
 }
 
 }  // namespace natator

@@ -96,7 +96,8 @@ double max_expansion_rate(const SolverParameters& parameters, double depth) {
     const double layers = std::max(depth / parameters.fluid_rest_distance, physics::shallow_layers);
     const double slower = std::pow(physics::shallow_layers / layers, 2);
     const double acceleration = std::min(std::max(parameters.max_acceleration / 10, parameters.gravity.norm()), 1e30);
-    return std::max(physics::min_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluid_rest_distance);
+    return std::max(physics::min_expansion, physics::expansion * slower) *
+           std::sqrt(acceleration / parameters.fluid_rest_distance);
 }
 
 }  // namespace natator

@@ -1,14 +1,15 @@
-// Scheme `conserving`: water whose weight is carried by a hydrostatic pressure that is known beforehand, so that its pressure
-// solves look for what is left, the modified pressure (Batchelor: An Introduction to Fluid Dynamics, 1967, section 4.1).
+// Scheme `conserving`: water whose weight is carried by a hydrostatic pressure that is known beforehand, so that its
+// pressure solves look for what is left, the modified pressure (Batchelor: An Introduction to Fluid Dynamics, 1967,
+// section 4.1).
 #pragma once
 
 #include "dfsph.h"
 
 namespace natator::physics::inline NATATOR_SET {
 
-/// The hydrostatic pressure q(d) of a depth d below some level, d = down . x - begin: 0 above it, rho g d^2/(2 w) as far as to
-/// d = w, rho g (d - w/2) beyond. Its gradient subtracts the part min(d/w, 1) from the water's weight, and pushes solids in the
-/// water up by as much as it subtracts from the weight of water of their volume.
+/// The hydrostatic pressure q(d) of a depth d below some level, d = down . x - begin: 0 above it, rho g d^2/(2 w) as
+/// far as to d = w, rho g (d - w/2) beyond. Its gradient subtracts the part min(d/w, 1) from the water's weight, and
+/// pushes solids in the water up by as much as it subtracts from the weight of water of their volume.
 template <class T>
 struct CarriedWeight {
     Vec3<T> gravity{};  ///< what of the fluid's gravity is carried deep down, length/s^2; 0: nothing is
@@ -27,7 +28,9 @@ struct CarriedWeight {
     }
 
     /// Force on a solid of this volume at x, mass length/s^2: against gravity.
-    NATATOR_HD Vec3<T> lift(const Vec3<T>& x, T density, T volume) const { return (part(x) * -density * volume) * gravity; }
+    NATATOR_HD Vec3<T> lift(const Vec3<T>& x, T density, T volume) const {
+        return (part(x) * -density * volume) * gravity;
+    }
 
     /// q at x, mass/(length s^2).
     NATATOR_HD T pressure(const Vec3<T>& x, T density) const {

@@ -5,8 +5,9 @@
 
 namespace natator::physics {
 
-/// A wall or an end of a periodic axis. Each particle in front of it, nearer than the kernel's support, has a ghost behind it: a wall
-/// mirrors the particle, an end moves it along the normal by the length of the tank, to where it lies before the other end.
+/// A wall or an end of a periodic axis. Each particle in front of it, nearer than the kernel's support, has a ghost
+/// behind it: a wall mirrors the particle, an end moves it along the normal by the length of the tank, to where it lies
+/// before the other end.
 template <class R>
 struct Boundary {
     PlaneSurface<R> surface;
@@ -17,8 +18,8 @@ struct Boundary {
 inline constexpr int max_boundaries_of_ghost = 3;
 
 /// A periodic axis: where the tank begins on it, and how long the tank is. Both are multiples of `grain`, a power
-/// of two, and so are the places that to_tank() gives. All sums and differences of these near the tank are then exact: two
-/// particles on either side of an end see each other at exactly opposite distances, as any other two do.
+/// of two, and so are the places that to_tank() gives. All sums and differences of these near the tank are then exact:
+/// two particles on either side of an end see each other at exactly opposite distances, as any other two do.
 template <class R>
 struct PeriodicAxis {
     int axis;  ///< 0 = x, 1 = y, 2 = z

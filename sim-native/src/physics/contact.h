@@ -15,9 +15,10 @@ struct Friction {
 
 inline namespace NATATOR_SET {
 
-/// Friction: the part of the displacement `moved` that a contact of this depth e takes off: the tangential part as a whole if its
-/// length m is below static_friction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim: Unified
-/// Particle Physics for Real-Time Applications (2014), eq. 24, with the limits that NVIDIA Flex was measured to have.
+/// Friction: the part of the displacement `moved` that a contact of this depth e takes off: the tangential part as a
+/// whole if its length m is below static_friction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim:
+/// Unified Particle Physics for Real-Time Applications (2014), eq. 24, with the limits that NVIDIA Flex was measured to
+/// have.
 template <class T, class N, class R>
 NATATOR_HD Vec3<T> friction(const Vec3<T>& moved, const Vec3<N>& normal, T depth, const Friction<R>& rule) {
     const Vec3<T> tangential = moved - dot(moved, normal) * normal;

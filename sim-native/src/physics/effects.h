@@ -61,8 +61,8 @@ NATATOR_HD T dissipated_by_pair(T contacts_of_both, T step) {
     return step / (1 + step * contacts_of_both);
 }
 
-/// Free-surface drag dv/dt = -free_surface_drag max(1 - density, 0) v by implicit Euler, step = h free_surface_drag: full
-/// drag for a particle alone, none where the fluid has its rest density.
+/// Free-surface drag dv/dt = -free_surface_drag max(1 - density, 0) v by implicit Euler, step = h free_surface_drag:
+/// full drag for a particle alone, none where the fluid has its rest density.
 template <class T>
 NATATOR_HD Vec3<T> dragged(const Vec3<T>& v, T density, T step) {
     return v / (1 + step * positive_part(1 - density));

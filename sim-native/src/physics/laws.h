@@ -1,5 +1,5 @@
-// Laws of mechanics by which a State is told from one that has exploded, on the host and on devices. They are one-sided bounds: what
-// breaks them is impossible, what keeps them need not be right.
+// Laws of mechanics by which a State is told from one that has exploded, on the host and on devices. They are one-sided
+// bounds: what breaks them is impossible, what keeps them need not be right.
 #pragma once
 
 #include "number.h"

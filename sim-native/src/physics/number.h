@@ -147,4 +147,3 @@ NATATOR_HD T minimum(T a, T b) {
 }
 
 }  // namespace natator::physics::inline NATATOR_SET
-

@@ -1,5 +1,6 @@
 // Shape matching: Müller, Heidelberger, Teschner, Gross: Meshless Deformations Based on Shape Matching (2005). A
-// cluster pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best rotation.
+// cluster pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best
+// rotation.
 #pragma once
 
 #include "constants.h"

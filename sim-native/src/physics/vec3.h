@@ -60,7 +60,8 @@ NATATOR_HD T dot(const Vec3<T>& a, const Vec3<U>& b) {
 NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-/// The dot product with fixed rounding: on a GPU the same bits in every kernel, where the compiler may else fuse either product.
+/// The dot product with fixed rounding: on a GPU the same bits in every kernel, where the compiler may else fuse either
+/// product.
 template <class T, class U>
 NATATOR_HD T dot_unfused(const Vec3<T>& a, const Vec3<U>& b) {
 #if defined(__CUDA_ARCH__)

@@ -101,7 +101,8 @@ json run_frames(const ParticleExperiment& experiment, const json& requested_fram
 }
 
 /// Refuses what would take too long or too much memory, results included.
-void check_experiment_cost(const ParticleExperiment& experiment, const json& requested_frames, const std::string& where) {
+void check_experiment_cost(const ParticleExperiment& experiment, const json& requested_frames,
+                           const std::string& where) {
     constexpr double bytes_of_row = 120;  // three numbers in JSON
     double rows = 0, updates = 0;
     for (const json& asked : requested_frames) {
@@ -117,11 +118,13 @@ void check_experiment_cost(const ParticleExperiment& experiment, const json& req
 json requested_frames(const json& experiment, const std::string& where) {
     json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
     long last = 0;
-    if (!frames.is_array()) throw InputError(where + ": frames = " + shown(frames) + ": must be an array of objects with a frame number");
+    if (!frames.is_array())
+        throw InputError(where + ": frames = " + shown(frames) + ": must be an array of objects with a frame number");
     for (const json& frame : frames) {
         if (!frame.is_object() || !frame.contains("frame") || !frame["frame"].is_number_integer() ||
             frame["frame"].get<long>() <= last)
-            throw InputError(where + ": frames = " + shown(frames) + ": must be objects whose frame numbers are 1 or more and increase");
+            throw InputError(where + ": frames = " + shown(frames) +
+                             ": must be objects whose frame numbers are 1 or more and increase");
         last = frame["frame"];
     }
     return frames;

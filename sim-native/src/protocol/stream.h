@@ -55,7 +55,7 @@ struct NewScene {
     SimulationSetup setup;
 };
 
-inline constexpr int max_credit = 1000;                 ///< frames
+inline constexpr int max_credit = 1000;              ///< frames
 inline constexpr int max_step = 1000;                ///< frames
 inline constexpr std::size_t max_command = 1 << 20;  ///< bytes
 
@@ -85,9 +85,9 @@ struct FrameHead {
 
 }  // namespace stream
 
-using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
-                                   stream::Reset, stream::NewGait, stream::Steer, stream::Sense, stream::Water, stream::Overrides,
-                                   stream::NewScene>;
+using StreamCommand =
+    std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate, stream::Reset, stream::NewGait,
+                 stream::Steer, stream::Sense, stream::Water, stream::Overrides, stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -100,7 +100,8 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 template <class Real>
 nlohmann::ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head);
 
-/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of `stream_scene`.
+/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of
+/// `stream_scene`.
 nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 /// The FRAM of the present state, as bytes.

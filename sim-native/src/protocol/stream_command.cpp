@@ -35,7 +35,8 @@ stream::Rate read_rate(const json& value) {
 /// The keys `drive`, `scale` and `offset`.
 stream::Steer read_steer(const json& value) {
     stream::Steer steer;
-    for (const auto& [key, list] : {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
+    for (const auto& [key, list] :
+         {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
         if (value.contains(key)) *list = read_actuator_values(value.at(key), place.key(key));
     if (steer.drive && (steer.scale || steer.offset))
         fields::refuse(place.key("drive"), "must not be given together with scale or offset");
@@ -96,7 +97,8 @@ stream::Sense read_sense(const json& value) {
     if (value.contains("target")) {
         sense.target.emplace();
         if (!value.at("target").is_null())
-            fields::read(value.at("target"), place.key("target"), {-1e6, 1e6, false, "length"}, sense.target->emplace());
+            fields::read(value.at("target"), place.key("target"), {-1e6, 1e6, false, "length"},
+                         sense.target->emplace());
     }
     if (value.contains("each")) fields::read(value.at("each"), place.key("each"), {}, sense.each.emplace());
     return sense;
@@ -131,8 +133,7 @@ bool stream::is_rate(double value) {
 
 StreamCommand parse_stream_command(const json& value) {
     if (!value.is_object()) fields::refuse(place, value, "an object");
-    if (value.contains("id") && request_id(value).is_null())
-        fields::refuse(place.key("id"), value.at("id"), id_range);
+    if (value.contains("id") && request_id(value).is_null()) fields::refuse(place.key("id"), value.at("id"), id_range);
     std::string name;
     fields::read(fields::required(value, place, "do"), place.key("do"), {}, name);
 
@@ -151,7 +152,8 @@ StreamCommand parse_stream_command(const json& value) {
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
+    fields::refuse(place.key("do"), name,
+                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
 }
 
 }  // namespace natator

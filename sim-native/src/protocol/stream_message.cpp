@@ -6,8 +6,8 @@
 #include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
-#include "natator/measure.h"
 #include "natator/instruction_set.h"
+#include "natator/measure.h"
 #include "natator/version.h"
 #include "protocol/stream.h"
 #include "run/conservation_errors.h"
@@ -74,7 +74,8 @@ ordered_json periodic_json(const Model& model) {
     return periodic;
 }
 
-/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the swimmer.
+/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the
+/// swimmer.
 template <class Real>
 std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Real>& state) {
     std::vector<Vector3<Real>> places = state.position;
@@ -129,7 +130,8 @@ ordered_json muscles_json(const Scene& scene, const Model& model) {
                            {"actuator", muscle.actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
-        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
+        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical)
+            muscles.back()["bend"] = "vertical";
     }
     return muscles;
 }
@@ -139,7 +141,8 @@ ordered_json companions_json(const Scene& scene, const Model& model) {
     ordered_json companions = ordered_json::array();
     for (std::size_t k = 0; k < model.companions.size(); ++k) {
         const Body& body = model.companions[k].body;
-        companions.push_back({{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
+        companions.push_back(
+            {{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
     }
     return companions;
 }
@@ -163,7 +166,8 @@ ordered_json skin_json(const Scene& scene, const Model& model) {
         shares.push_back(weight.share);
     }
     std::vector<Eigen::Vector3d> rest;
-    for (const int particle : model.body.particles) rest.push_back(model.position[particle] - scene.creature->rear_centre);
+    for (const int particle : model.body.particles)
+        rest.push_back(model.position[particle] - scene.creature->rear_centre);
     return {{"file", skin.file},
             {"digest", skin.digest},
             {"unit", skin.unit},
@@ -177,8 +181,8 @@ ordered_json skin_json(const Scene& scene, const Model& model) {
 }
 
 template <class Real>
-constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Precision::double_precision
-                                                                  : Precision::single_precision;
+constexpr Precision precision_of =
+    sizeof(Real) == sizeof(double) ? Precision::double_precision : Precision::single_precision;
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "natator/evaluate.h"
-#include "run/laws.h"
 #include "physics/laws.h"
+#include "run/laws.h"
 #include "swim_record.h"
 
 namespace natator {
@@ -69,8 +69,8 @@ inline int frames_of(const Scene& scene) {
 /// backend:
 ///   FrameEnds start();                                         by run, before the first frame
 ///   FrameEnds frame(int number, const std::vector<bool>& over);  those that are over stay as they are
-///   void record_frame(std::size_t run, EvaluationRun& its);           its start, or a frame of it, has been noted and is
-///   stable
+///   void record_frame(std::size_t run, EvaluationRun& its);           its start, or a frame of it, has been noted and
+///   is stable
 template <class Stepper>
 void run_frames(const Scene& scene, Stepper& stepper, std::vector<EvaluationRun>& runs) {
     const auto note = [&](const std::vector<FrameEnd>& ends, const std::vector<bool>& over, auto add) {

@@ -66,9 +66,8 @@ bool read_state(const std::string& bytes, State<Real>& state) {
     if (bytes.size() != bytes_of(state).size()) return false;
     const char* at = bytes.data();
     const auto read_vectors = [&at](std::vector<Vector3<Real>>& vectors) {
-        return read_into<Real>(at, vectors.size(), 3, [&](std::size_t i, const Real* v) {
-            vectors[i] = {v[0], v[1], v[2]};
-        });
+        return read_into<Real>(at, vectors.size(), 3,
+                               [&](std::size_t i, const Real* v) { vectors[i] = {v[0], v[1], v[2]}; });
     };
     return read_vectors(state.position) && read_vectors(state.velocity) &&
            read_into<Real>(
@@ -114,7 +113,8 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 }
 
 template <class Real>
-std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
+std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling,
+                                                   const std::string& by) const {
     if (is_not_worth_it(model, settling)) return std::nullopt;
     std::string key = settled_state_key(model, settling, sizeof(Real));
     if (key.empty()) return std::nullopt;
@@ -135,7 +135,8 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 }
 
 template <class Real>
-void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
+void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled,
+                             const std::string& by) const {
     if (is_not_worth_it(model, settling)) return;
     std::string key = settled_state_key(model, settling, sizeof(Real));
     if (key.empty()) return;
@@ -152,9 +153,13 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
     prune(folder_, max_files);
 }
 
-template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&, const std::string&) const;
-template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&, const std::string&) const;
-template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&, const std::string&) const;
-template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&, const std::string&) const;
+template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&,
+                                                                    const std::string&) const;
+template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&,
+                                                                      const std::string&) const;
+template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&,
+                                             const std::string&) const;
+template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&,
+                                              const std::string&) const;
 
 }  // namespace natator

@@ -10,9 +10,10 @@
 
 namespace natator {
 
-/// Calls work(0) .. work(count - 1) on as many threads as there are processors, at most `max_threads`. Throws what one of the calls
-/// threw, after all threads have ended.
-inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t max_threads = SIZE_MAX) {
+/// Calls work(0) .. work(count - 1) on as many threads as there are processors, at most `max_threads`. Throws what one
+/// of the calls threw, after all threads have ended.
+inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work,
+                         std::size_t max_threads = SIZE_MAX) {
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     std::atomic<std::size_t> next = 0;
     std::vector<std::future<void>> workers;

@@ -120,7 +120,8 @@ void Simulation<Real>::set_gait(const Gait& gait) {
 template <class Real>
 void Simulation<Real>::refuse_to_steer_on_gpu() const {
     if (execution_.gpu && model().scheme != Scheme::lattice)
-        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) + "; must be on the CPU");
+        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) +
+                         "; must be on the CPU");
 }
 
 template <class Real>

@@ -41,7 +41,8 @@ Obstacle read_obstacle(const json& value, const Place& place, const std::filesys
 
 /// Whether two fill the same place; a mesh that is sampled otherwise is another one.
 bool coincide(const Obstacle& a, const Obstacle& b) {
-    return a.shape == b.shape && a.centre == b.centre && a.radius == b.radius && a.size == b.size && a.points == b.points;
+    return a.shape == b.shape && a.centre == b.centre && a.radius == b.radius && a.size == b.size &&
+           a.points == b.points;
 }
 
 /// Refuses an obstacle that is one before it once more: its particles would lie in each other.

@@ -20,7 +20,8 @@ __device__ void neighbour_counts_on_grid(const ModelView<Real>& model, const Slo
     if (model.plan.water)
         count = slots.water.count[slots.water.slot_before[s]];
     else
-        count = (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
+        count =
+            (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
 }
 
 template <class Real>
@@ -48,7 +49,8 @@ __device__ void measure_on_grid(const ModelView<Real>& model, const Slots<Real>&
 
 inline constexpr int law_threads = 128;
 
-/// The measures of the laws, each block its own particles; those of the body by the first. Sums are in the same order always.
+/// The measures of the laws, each block its own particles; those of the body by the first. Sums are in the same order
+/// always.
 template <class Real>
 __device__ void measure_laws_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     __shared__ physics::LawMeasures parts[law_threads];
@@ -87,7 +89,8 @@ __device__ void rest_on_grid(const ModelView<Real>&, const Slots<Real>& slots, i
 
 template <class Real>
 __device__ void far_slot_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
-    for (Vec4<Real>* const array : {slots.arrays.state_position, slots.position(), slots.scratch_position(), slots.start()})
+    for (Vec4<Real>* const array :
+         {slots.arrays.state_position, slots.position(), slots.scratch_position(), slots.start()})
         array[model.particles] = far_away<Real>();
 }
 
@@ -121,8 +124,8 @@ void launch_substep(const GridLaunch<Real>& launch) {
 template <class Real>
 void record_positions(const GridLaunch<Real>& launch, Vec4<Real>* to, int row) {
     if (to)
-        launch.template report_slots<record_on_grid<Real>>(
-            launch.model.particles, to + static_cast<std::size_t>(row) * launch.model.particles);
+        launch.template report_slots<record_on_grid<Real>>(launch.model.particles,
+                                                           to + static_cast<std::size_t>(row) * launch.model.particles);
 }
 
 template <class Real>
@@ -148,7 +151,8 @@ void launch_body_places(const GridLaunch<Real>& launch, Vec4<Real>* places) {
 template <class Real>
 void launch_measure(const GridLaunch<Real>& launch) {
     at_the_end(launch).template report_states<measure_on_grid<Real>, BlockTeam::threads>();
-    at_the_end(launch).template report_states<measure_laws_on_grid<Real>, law_threads>(law_blocks(launch.model.particles));
+    at_the_end(launch).template report_states<measure_laws_on_grid<Real>, law_threads>(
+        law_blocks(launch.model.particles));
 }
 
 template <class Real>
@@ -169,7 +173,7 @@ void launch_far_slot(const GridLaunch<Real>& launch) {
     launch.template report_states<far_slot_on_grid<Real>, 1>();
 }
 
-#define NATATOR_INSTANTIATE(Real)                                               \
+#define NATATOR_INSTANTIATE(Real)                                              \
     template void launch_substep(const GridLaunch<Real>&);                     \
     template void record_positions(const GridLaunch<Real>&, Vec4<Real>*, int); \
     template void launch_densities(const GridLaunch<Real>&, Real*);            \

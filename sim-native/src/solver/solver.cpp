@@ -86,7 +86,8 @@ void check_driven(const std::vector<double>& driven, int actuators) {
         if (!(std::abs(driven[i]) <= 2 + rounding)) check_drive(driven, actuators);
 }
 
-/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
+/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is
+/// nothing.
 constexpr double max_cells_per_substep = 0.3;
 
 /// Does nothing behind a stage.
@@ -117,9 +118,7 @@ template <class Real>
 class Solver<Real>::Implementation {
 public:
     Implementation(const Model& model, const Execution& execution)
-        : model_(model),
-          execution_(execution),
-          stages_(stages_for(model, plan_for(model, execution.skip))) {
+        : model_(model), execution_(execution), stages_(stages_for(model, plan_for(model, execution.skip))) {
         check_threads(execution.threads);
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
         if (model.water_box) coupling_.emplace(model, execution.threads, execution.gpu);
@@ -205,10 +204,10 @@ private:
             if (coupling_) coupling_->push(state, static_cast<double>(h));
             stages.begin_substep(state, h);
             Residuals residuals{.time = state.time};
-            const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
+            const bool finite = observer               ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
                                 : execution_.residuals ? advance(stages, ResidualHook<Stages>{stages, residuals})
-                                : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
-                                                     : advance(stages, NoHook{});
+                                : execution_.profile   ? advance(stages, ProfileHook(*execution_.profile))
+                                                       : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
             if (coupling_) {
@@ -234,7 +233,8 @@ private:
 template <class Real>
 Solver<Real>::Solver(const Model& model, const Execution& execution) {
     if (execution.gpu && model.scheme != Scheme::lattice)
-        gpu_ = std::make_unique<GpuSolver<Real>>(model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
+        gpu_ = std::make_unique<GpuSolver<Real>>(
+            model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
     else
         implementation_ = std::make_unique<Implementation>(model, execution);
 }
@@ -261,7 +261,8 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& g
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
-    if (gpu_) throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
+    if (gpu_)
+        throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
     return implementation_->frame(state, [&](double time) {
         std::vector<double> driven = drive(time);
         check_driven(driven, implementation_->model().actuators);

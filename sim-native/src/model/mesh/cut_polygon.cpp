@@ -80,7 +80,8 @@ public:
             triangles.push_back({a, ear, b});
             forget(ear);
             behind_[a] = b, before_[b] = a;
-            std::erase_if(hollow_, [&](int i) { return (i == a || i == b) && outline_.turn(before_[i], i, behind_[i]) > 0; });
+            std::erase_if(hollow_,
+                          [&](int i) { return (i == a || i == b) && outline_.turn(before_[i], i, behind_[i]) > 0; });
             look_at(a), look_at(b);
             last = a;
         }
@@ -99,7 +100,8 @@ private:
             throw InputError("has an outline of " + std::to_string(outline_.size()) +
                              " corners, too many hollow ones among them; must be cut into smaller faces");
         const auto same = [this](int p, int q) { return outline_.number(p) == outline_.number(q); };
-        // What reaches into a triangle has a hollow corner there. Edges that go both ways have two corners in one place.
+        // What reaches into a triangle has a hollow corner there. Edges that go both ways have two corners in one
+        // place.
         return std::none_of(hollow_.begin(), hollow_.end(), [&](int w) {
             if (w == a || w == b) return false;
             if (same(w, a)) return same(before_[w], b) || same(behind_[w], b);
@@ -140,7 +142,8 @@ void turn_edges(const Outline& outline, std::vector<Three>& triangles) {
         }
     };
     const auto tip = [&](std::size_t number, int a, int b) {
-        return *std::find_if(triangles[number].begin(), triangles[number].end(), [&](int i) { return i != a && i != b; });
+        return *std::find_if(triangles[number].begin(), triangles[number].end(),
+                             [&](int i) { return i != a && i != b; });
     };
     for (std::size_t i = 0; i < triangles.size(); ++i) enter(i);
     for (long left = 100L * outline.size(); !edges.empty() && left > 0;) {

@@ -8,8 +8,8 @@
 
 namespace natator {
 
-/// The corners of a polygon in the order of the one among all that go round from another corner which comes first by its
-/// numbers.
+/// The corners of a polygon in the order of the one among all that go round from another corner which comes first by
+/// its numbers.
 void rotate_to_canonical(std::vector<int>& corners);
 
 /// Numbers of the corners of n - 2 triangles that a polygon of n consists of, with exact signs: by cutting ears

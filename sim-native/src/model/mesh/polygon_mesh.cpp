@@ -18,7 +18,7 @@ namespace {
 
 // Of the largest extent: what is one place anywhere, and at borders. A body's finest spacing is 1e-3.
 constexpr double one_place = 1e-6, max_nearby = 1e-4;
-constexpr long max_steps = 10'000'000;    // along borders
+constexpr long max_steps = 10'000'000;     // along borders
 constexpr long max_corners = 200'000'000;  // that are looked at to cut up polygons, some seconds' worth
 
 /// Leaves out vertices that no face uses; the others keep their order.
@@ -95,7 +95,8 @@ void merge_equal(PolygonMesh& mesh) {
     std::vector<int> same;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const Eigen::Vector3d& place = mesh.vertices[i];
-        same.push_back(known.try_emplace(std::tuple(place.x(), place.y(), place.z()), static_cast<int>(i)).first->second);
+        same.push_back(
+            known.try_emplace(std::tuple(place.x(), place.y(), place.z()), static_cast<int>(i)).first->second);
     }
     merge(mesh, same);
 }
@@ -138,10 +139,12 @@ std::vector<OpenEdge> open_edges(const PolygonMesh& mesh) {
         for (std::size_t k = 0; k < mesh.faces[i].size(); ++k)
             edges.push_back({mesh.faces[i][k], mesh.faces[i][(k + 1) % mesh.faces[i].size()], i, k});
     const auto ends = [](const OpenEdge& edge) { return std::minmax(edge.from, edge.to); };
-    std::stable_sort(edges.begin(), edges.end(), [&](const OpenEdge& a, const OpenEdge& b) { return ends(a) < ends(b); });
+    std::stable_sort(edges.begin(), edges.end(),
+                     [&](const OpenEdge& a, const OpenEdge& b) { return ends(a) < ends(b); });
     std::vector<OpenEdge> open;
     for (auto first = edges.begin(); first != edges.end();) {
-        const auto last = std::find_if(first, edges.end(), [&](const OpenEdge& edge) { return ends(edge) != ends(*first); });
+        const auto last =
+            std::find_if(first, edges.end(), [&](const OpenEdge& edge) { return ends(edge) != ends(*first); });
         if (std::all_of(first, last, [&](const OpenEdge& edge) { return edge.from == first->from; }))
             open.insert(open.end(), first, last);
         first = last;
@@ -188,7 +191,8 @@ void merge_near(PolygonMesh& mesh, const std::vector<bool>& some, double distanc
     leave_out_flat_faces(mesh);
 }
 
-/// Vertices in the middle of an open edge, of other open edges that go the other way along it, become corners of its face.
+/// Vertices in the middle of an open edge, of other open edges that go the other way along it, become corners of its
+/// face.
 class EdgeCorners {
 public:
     EdgeCorners(PolygonMesh& mesh, double off_line)
@@ -204,7 +208,8 @@ public:
         }
         for (auto last = between.rbegin(); last != between.rend(); ++last) {  // so that numbers in front of it stay
             std::vector<int>& face = mesh_.faces[last->first.first];
-            face.insert(face.begin() + static_cast<long>(last->first.second) + 1, last->second.rbegin(), last->second.rend());
+            face.insert(face.begin() + static_cast<long>(last->first.second) + 1, last->second.rbegin(),
+                        last->second.rend());
         }
     }
 
@@ -225,7 +230,8 @@ private:
                 if (used_[i] || used_[number]) continue;
                 const Eigen::Vector3d place = mesh_.vertices[edges_[i].to] - begin;
                 const double distance = edges_[i].to == edge.from ? length : place.dot(along) / length;
-                if (distance <= passed || distance > least || (place - along * (distance / length)).norm() > off_line_) continue;
+                if (distance <= passed || distance > least || (place - along * (distance / length)).norm() > off_line_)
+                    continue;
                 least = distance;
                 next = i;
             }

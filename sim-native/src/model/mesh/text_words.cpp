@@ -29,7 +29,8 @@ std::string narrowed(std::string_view bytes, std::size_t width, std::size_t lowe
     text.reserve(bytes.size() / width);
     for (std::size_t at = 0; at + width <= bytes.size(); at += width) {
         const std::string_view one = bytes.substr(at, width);
-        const auto others = static_cast<std::size_t>(std::count(one.begin(), one.end(), '\0')) + (one[lowest] == '\0' ? 0 : 1);
+        const auto others =
+            static_cast<std::size_t>(std::count(one.begin(), one.end(), '\0')) + (one[lowest] == '\0' ? 0 : 1);
         text += others == width && static_cast<unsigned char>(one[lowest]) < 0x80 ? one[lowest] : '?';
     }
     return text;

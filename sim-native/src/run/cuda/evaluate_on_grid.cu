@@ -12,8 +12,8 @@
 namespace natator::cuda {
 namespace {
 
-/// Side by side. While one waits for what takes long but is little, such as the solids of its States, the water of the others
-/// fills the GPU.
+/// Side by side. While one waits for what takes long but is little, such as the solids of its States, the water of the
+/// others fills the GPU.
 constexpr int max_streams = 3;
 /// Of all streams together: so many fill a GPU; more at a time only take more memory.
 constexpr int particles_at_a_time = 2'000'000;
@@ -61,8 +61,8 @@ void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchT
 }
 
 template <class Real>
-std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const ModelGroup& group, const Parts& parts, WaterLists lists,
-                                          const BatchOptions& options) {
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const ModelGroup& group, const Parts& parts,
+                                          WaterLists lists, const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
     SettledStarts<Real> starts(starts_of(scene, group.members));
@@ -84,7 +84,8 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const ModelGroup& 
     return evaluations;
 }
 
-/// Where there is not the memory for it, fewer at a time, and one by itself without lists. Stages are timed in one stream, as those of two overlap.
+/// Where there is not the memory for it, fewer at a time, and one by itself without lists. Stages are timed in one
+/// stream, as those of two overlap.
 template <class Real>
 std::vector<Evaluation> evaluate_group(const Scene& scene, const ModelGroup& group, const BatchOptions& options) {
     const int members = static_cast<int>(group.members.size());
@@ -108,8 +109,8 @@ std::vector<Evaluation> evaluate_group(const Scene& scene, const ModelGroup& gro
 }  // namespace
 
 template <class Real>
-std::vector<Evaluation> evaluate_on_grid(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
-                                       const BatchOptions& options) {
+std::vector<Evaluation> evaluate_on_grid(const Scene& scene, const Model& model,
+                                         const std::vector<BatchMember>& members, const BatchOptions& options) {
     std::vector<Evaluation> evaluations(members.size());
     for (const ModelGroup& group : model_groups(scene, model, members)) {
         if (group.members.empty()) continue;
@@ -120,8 +121,8 @@ std::vector<Evaluation> evaluate_on_grid(const Scene& scene, const Model& model,
 }
 
 template std::vector<Evaluation> evaluate_on_grid<float>(const Scene&, const Model&, const std::vector<BatchMember>&,
-                                                       const BatchOptions&);
+                                                         const BatchOptions&);
 template std::vector<Evaluation> evaluate_on_grid<double>(const Scene&, const Model&, const std::vector<BatchMember>&,
-                                                        const BatchOptions&);
+                                                          const BatchOptions&);
 
 }  // namespace natator::cuda

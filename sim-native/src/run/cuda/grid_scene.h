@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -97,8 +97,8 @@ public:
         evaluations.resize(before + count);
         side_by_side(count, [&](std::size_t k) {
             evaluations[before + k] =
-                finish(runs[k], scene_, group_.model, runner_.model().particle_of(), members[k].gait, !begins_[k]->instability,
-                       begins_[k]->state, ends[k], densities.data() + k * fluid, fluid);
+                finish(runs[k], scene_, group_.model, runner_.model().particle_of(), members[k].gait,
+                       !begins_[k]->instability, begins_[k]->state, ends[k], densities.data() + k * fluid, fluid);
         });
         begins_.clear();
         starts_.release(starts);
@@ -174,7 +174,8 @@ private:
         const std::vector<std::optional<Instability>> found = settle(different);
         for (std::size_t k = 0; k < different; ++k) {
             const State<Real> settled = runner_.download(static_cast<int>(k), initial_state<Real>(group_.model));
-            if (!found[k] && is_kept(unsettled[k])) cache_->keep(model_of(unsettled[k]), scene_.settling, settled, device_);
+            if (!found[k] && is_kept(unsettled[k]))
+                cache_->keep(model_of(unsettled[k]), scene_.settling, settled, device_);
             starts_.publish(unsettled[k], {settled, runner_.room(), found[k]});
         }
     }
@@ -240,9 +241,11 @@ private:
     }
 
     /// Of an update that is not finite; the particle by device number.
-    static std::optional<Instability> instability_of(const typename Runner::End& end, const typename Runner::Update& update) {
+    static std::optional<Instability> instability_of(const typename Runner::End& end,
+                                                     const typename Runner::Update& update) {
         if (end.finite) return std::nullopt;
-        return Instability{end.bad_particle, "velocities", update.start_time + end.bad_substep * update.time_step / update.substeps};
+        return Instability{end.bad_particle, "velocities",
+                           update.start_time + end.bad_substep * update.time_step / update.substeps};
     }
 
     const Scene& scene_;

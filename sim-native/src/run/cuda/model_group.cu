@@ -28,7 +28,8 @@ std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, con
     for (std::size_t k = 0; k < members.size(); ++k) {
         const int arrangement = arrangement_of(members[k], scene);
         if (!group_of.contains(arrangement)) {
-            const Model own = arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
+            const Model own =
+                arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
             const Model& first = all.front().model;
             const bool alike =
                 own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;

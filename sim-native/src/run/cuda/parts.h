@@ -4,9 +4,9 @@
 
 namespace natator::cuda {
 
-/// Members that are computed part by part, in parts of at most `most` and of nearly one size, and these in turn by streams side
-/// by side: part k by stream k % streams. Each stream has as many parts as the others, where there are members enough, since the
-/// GPU waits for the last.
+/// Members that are computed part by part, in parts of at most `most` and of nearly one size, and these in turn by
+/// streams side by side: part k by stream k % streams. Each stream has as many parts as the others, where there are
+/// members enough, since the GPU waits for the last.
 struct Parts {
     int members, count, streams;
 

@@ -11,7 +11,7 @@ namespace natator {
 namespace {
 
 constexpr double max_cells = 1e8;
-constexpr double kernel_cells = 2;  // where the kernel ends
+constexpr double kernel_cells = 2;   // where the kernel ends
 constexpr float min_weight = 1e-6f;  // sum of the kernels, below which there is no water
 
 /// Cells along each axis and the grid's corner: from end to end of a periodic axis, else around all water.
@@ -56,7 +56,8 @@ WaterField water_field(const Model& model, const State<Real>& state) {
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
         // In cells, from the middle of the first.
-        const Eigen::Vector3d at = (state.position[i].template cast<double>() - field.corner) / field.cell - Eigen::Vector3d::Constant(0.5);
+        const Eigen::Vector3d at =
+            (state.position[i].template cast<double>() - field.corner) / field.cell - Eigen::Vector3d::Constant(0.5);
         const Eigen::Vector3i low = (at.array() - kernel_cells).ceil().matrix().template cast<int>();
         const Eigen::Vector3i high = (at.array() + kernel_cells).floor().matrix().template cast<int>();
         for (int z = low.z(); z <= high.z(); ++z)
@@ -72,7 +73,8 @@ WaterField water_field(const Model& model, const State<Real>& state) {
                         inside = inside && to[a] >= 0 && to[a] < count;
                     }
                     if (!inside) continue;
-                    const std::size_t cell = (static_cast<std::size_t>(to[2]) * field.cells[1] + to[1]) * field.cells[0] + to[0];
+                    const std::size_t cell =
+                        (static_cast<std::size_t>(to[2]) * field.cells[1] + to[1]) * field.cells[0] + to[0];
                     field.density[cell] += weight;
                     field.velocity[cell] += weight * state.velocity[i].template cast<float>();
                 }

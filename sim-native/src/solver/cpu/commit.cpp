@@ -34,8 +34,8 @@ template <class Real>
 std::optional<int> Substep<Real>::first_not_finite() const {
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        for (const Vec3<Real>& v : {new_velocity_[i], vec3(ws_.unsorted_position[i]), position_of_slot(slot),
-                                    ws_.correction.at(slot)})
+        for (const Vec3<Real>& v :
+             {new_velocity_[i], vec3(ws_.unsorted_position[i]), position_of_slot(slot), ws_.correction.at(slot)})
             if (!eigen(v).allFinite()) return i;
     }
     return std::nullopt;

@@ -188,10 +188,10 @@ protected:
     template <class Visit>
     void for_each_fluid_neighbour(int slot, const Visit& visit) const;
 
-    int max_neighbours_;                      ///< fluid neighbours kept per particle
-    std::vector<Real> inverse_mass_;           ///< by particle
-    Vec3<Real> up_;                            ///< against gravity; 0 without it
-    std::vector<Vec3<Real>> new_velocity_;     ///< by particle, the substep's outcome
+    int max_neighbours_;                    ///< fluid neighbours kept per particle
+    std::vector<Real> inverse_mass_;        ///< by particle
+    Vec3<Real> up_;                         ///< against gravity; 0 without it
+    std::vector<Vec3<Real>> new_velocity_;  ///< by particle, the substep's outcome
     std::vector<physics::SpringRule<Real>> spring_rules_;
     std::vector<std::vector<Vec3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep

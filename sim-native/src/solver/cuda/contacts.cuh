@@ -1,8 +1,8 @@
 #pragma once
 
-#include "state_team.cuh"
 #include "physics/pair.h"
 #include "physics/plane.h"
+#include "state_team.cuh"
 
 namespace natator::cuda {
 
@@ -82,8 +82,8 @@ template <class Real, class Team>
 __device__ int contact_task_count(const ModelView<Real>& model, const Team& team) {
     return model.plan.contacts ? (team.shared().contact_slot_count * pair_lanes + 31) / 32 : 0;
 }
-/// Calls work(slot, lane) for the slots of such a task, `pair_lanes` threads each, all lanes of a warp together; slot is -1
-/// for those beyond the last.
+/// Calls work(slot, lane) for the slots of such a task, `pair_lanes` threads each, all lanes of a warp together; slot
+/// is -1 for those beyond the last.
 template <class Team, class Work>
 __device__ void for_each_contact_slot(const Team& team, int task, const Work& work) {
     const int lane = threadIdx.x % 32, k = task * (32 / pair_lanes) + lane / pair_lanes;
@@ -105,22 +105,22 @@ template <class Real, class Team>
 __device__ Real partner_weight(const ModelView<Real>& model, const Team& team, int s, int other) {
     const Real w = team.position()[other].w;
     if (!model.plan.shock_propagation) return w;
-    return w * physics::shock_factor(model.up, model.shock_propagation,
-                                     xyz(team.start()[s]) - xyz(team.start()[other]));
+    return w *
+           physics::shock_factor(model.up, model.shock_propagation, xyz(team.start()[s]) - xyz(team.start()[other]));
 }
 
 /// Displacement of slot s by a contact of this depth, before its share is taken.
 template <class Real, class Team>
 __device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Team& team, int s, int other, Real depth) {
     const Vec3<Real> x = xyz(team.position()[s]), there = xyz(team.position()[other]);
-    return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model), [&] {
-        return (x - xyz(team.start()[s])) - (there - xyz(team.start()[other]));
-    });
+    return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model),
+                                 [&] { return (x - xyz(team.start()[s])) - (there - xyz(team.start()[other])); });
 }
 
 /// Calls visit(plane, distance) for the planes of a set, the last plane first; x may change between two calls.
 template <class Real, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near, const Vec3<Real>& x, const Visit& visit) {
+__device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near, const Vec3<Real>& x,
+                                    const Visit& visit) {
     if (near == 0) return;
     for (int k = model.planes - 1; k >= 0; --k)
         if (near >> k & 1) visit(model.plane[k].surface, distance_to(model.plane[k].surface, x));

@@ -41,7 +41,8 @@ std::optional<std::string> refusal(const Model& model) {
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(max_planes);
     if (!make_plan(model).water) return std::nullopt;
     if (model.parameters.conserving.density_tolerance > 0) {
-        return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) + "; must be 0: a GPU has numIterations";
+        return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) +
+               "; must be 0: a GPU has numIterations";
     }
     if (const std::size_t boundaries = model.planes.size() + 2 * model.periodic.size(); boundaries > max_boundaries)
         return std::to_string(boundaries) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +

@@ -288,8 +288,8 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
     return view;
 }
 
-/// The tables of the fluid's and the solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions
-/// where these do.
+/// The tables of the fluid's and the solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of
+/// positions where these do.
 template <class Real>
 int DeviceModel<Real>::cells_on_chip(const Model& model) const {
     constexpr int chip = 223 << 10, elsewhere = 1 << 20;

@@ -12,8 +12,9 @@ namespace natator::cuda {
 template <class Real>
 class DeviceModel {
 public:
-    /// At most `max_planes` planes; a grid of at most so many cells as suit blocks, or, with `whole_gpu` and for what goes either
-    /// way, the whole GPU. Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
+    /// At most `max_planes` planes; a grid of at most so many cells as suit blocks, or, with `whole_gpu` and for what
+    /// goes either way, the whole GPU. Throws InputError for springs or clusters of fluid, std::bad_alloc without
+    /// memory.
     explicit DeviceModel(const Model& model, bool whole_gpu = false);
 
     const ModelView<Real>& view() const { return view_; }
@@ -34,8 +35,8 @@ private:
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
     void set_water(const Model& model);
-    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a periodic
-    /// axis over the tank.
+    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a
+    /// periodic axis over the tank.
     GridView<Real> grid_over(const Model& model, Real distance, Real margin, int max_cells) const;
     int cells_on_chip(const Model& model) const;
 

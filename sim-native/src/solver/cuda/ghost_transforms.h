@@ -32,8 +32,8 @@ GhostTransform<Real> through(const GhostTransform<Real>& transform, const physic
     return both;
 }
 
-/// The transforms from a particle to its ghosts behind each set of `boundaries`: entry k is for those whose bits are set in k, passed in
-/// their order.
+/// The transforms from a particle to its ghosts behind each set of `boundaries`: entry k is for those whose bits are
+/// set in k, passed in their order.
 template <class Real>
 std::vector<GhostTransform<Real>> ghost_transforms(const std::vector<physics::Boundary<Real>>& boundaries) {
     std::vector<GhostTransform<Real>> transforms(std::size_t(1) << boundaries.size());
@@ -45,8 +45,8 @@ std::vector<GhostTransform<Real>> ghost_transforms(const std::vector<physics::Bo
     return transforms;
 }
 
-/// Maximum number of copies of a particle, itself included. Each boundary within `reach` doubles it; of two that face each other the
-/// second does so only if a particle can be near both.
+/// Maximum number of copies of a particle, itself included. Each boundary within `reach` doubles it; of two that face
+/// each other the second does so only if a particle can be near both.
 template <class Real>
 int max_copies(const std::vector<physics::Boundary<Real>>& boundaries, Real reach) {
     int copies = 1;

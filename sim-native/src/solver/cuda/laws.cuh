@@ -7,7 +7,8 @@ namespace natator::cuda {
 
 /// Measures of one particle for the laws of physics/laws.h.
 template <class Real>
-__device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int number, const Vec4<Real>& x, const Vec3<Real>& v) {
+__device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int number, const Vec4<Real>& x,
+                                            const Vec3<Real>& v) {
     physics::LawMeasures measures;
     if (!(x.w > 0)) return measures;
     const Vec3<Real>& gravity = number < model.fluid ? model.bounded_fluid_gravity : model.bounded_gravity;

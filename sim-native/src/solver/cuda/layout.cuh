@@ -28,8 +28,8 @@ private:
     std::size_t used_ = 0;
 };
 
-/// Has one of so many blocks the solids? Where it has a thread for each, and warps left for fits of clusters, and the others are
-/// enough for the fluid, of which none has so much that all had better share it.
+/// Has one of so many blocks the solids? Where it has a thread for each, and warps left for fits of clusters, and the
+/// others are enough for the fluid, of which none has so much that all had better share it.
 template <class Real>
 bool splits_solids(const ModelView<Real>& model, TeamKind kind, int blocks) {
     constexpr int min_blocks = 8, max_fluid = 3000;
@@ -48,8 +48,8 @@ int slots_of_block(const ModelView<Real>& model, int blocks) {
     return (tasks + others - 1) / others * shared_slots_of_warp;
 }
 
-/// Layout of the arrays of a team; each block of one of `blocks` has `staging_rows` neighbours' room for each thread on the chip,
-/// and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
+/// Layout of the arrays of a team; each block of one of `blocks` has `staging_rows` neighbours' room for each thread on
+/// the chip, and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
 template <class Real>
 Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::size_t staging_rows) {
     const bool on_chip = kind == TeamKind::block;
@@ -67,7 +67,8 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
     const auto if_shared = [&](std::size_t count) { return shared ? count : 0; };
     const auto if_split = [&](int count) -> std::size_t { return at.splits_solids ? count : 0; };
     const struct {
-        std::size_t scratch_position, unsorted, contact_slots, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts, staging;
+        std::size_t scratch_position, unsorted, contact_slots, neighbour_counts, cells, neighbours, fluid_contacts,
+            solid_contacts, staging;
         std::size_t solids, solid_bounds, spring_incidences, members, clusters;
         std::size_t ranks, chip_cells, chip_slots, chip_contact_slots;
     } room{on_chip ? std::max(all, min_rows * row / sizeof(Vec4<Real>)) : all,

@@ -45,8 +45,8 @@ struct GridView {
         return physics::positive_part(step > 0 ? 1 - in_cell : in_cell) * size[axis];
     }
 
-    /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to the
-    /// sphere saves a third of the candidates and costs more: runs of the lanes then differ.
+    /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to
+    /// the sphere saves a third of the candidates and costs more: runs of the lanes then differ.
     template <class Visit>
     __device__ void for_each_run(const Vec3<Real>& x, const Visit& visit) const {
         const int cx = coordinate(x.x, 0), cy = coordinate(x.y, 1), cz = coordinate(x.z, 2);
@@ -101,23 +101,23 @@ struct Incidence {
 
 inline constexpr int max_planes = 16;
 
-/// x -> H x + shift: takes a place to that of its ghost through one or more boundaries. H is a product of reflections, and turns
-/// vectors into those of the ghost.
+/// x -> H x + shift: takes a place to that of its ghost through one or more boundaries. H is a product of reflections,
+/// and turns vectors into those of the ghost.
 template <class Real>
 struct GhostTransform {
     Vec4<Real> row[3];  ///< of H; w: of the shift
 };
 
 inline constexpr int max_boundaries = 6;
-inline constexpr int max_slot_bits = 26;   ///< the rest of 32 bits is a set of boundaries
+inline constexpr int max_slot_bits = 26;  ///< the rest of 32 bits is a set of boundaries
 
-/// The water of scheme `conserving`. A ghost is known by its particle and the set of boundaries that it went through, in their order:
-/// bit k for boundary k.
+/// The water of scheme `conserving`. A ghost is known by its particle and the set of boundaries that it went through,
+/// in their order: bit k for boundary k.
 template <class Real>
 struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
-    Real density;            ///< mass/length^3 at rest
-    Real max_expansion_rate;  ///< 1/s, see physics::velocity_excess
+    Real density;                                           ///< mass/length^3 at rest
+    Real max_expansion_rate;                                ///< 1/s, see physics::velocity_excess
     Real effect_radius, cohesion_strength, cohesion_slope;  ///< of physics/water_effects.h
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
@@ -128,8 +128,8 @@ struct WaterModel {
     int periodic_axes, boundaries;
     physics::PeriodicAxis<Real> periodic_axis[2];
     physics::Boundary<Real> boundary[max_boundaries];  ///< see boundaries_of
-    const GhostTransform<Real>* ghost_transform;  ///< by set of boundaries
-    int max_copies;                                        ///< of a particle: itself and its ghosts
+    const GhostTransform<Real>* ghost_transform;       ///< by set of boundaries
+    int max_copies;                                    ///< of a particle: itself and its ghosts
 };
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
@@ -169,9 +169,9 @@ struct ModelView {
     const SpringView<Real>* spring;
     const MuscleView* muscle;
     const ClusterView<Real>* cluster;
-    const int* member;               ///< solid ids, cluster by cluster
-    const Vec3<Real>* offset;        ///< rest position minus the mean of the rest positions, by member
-    const Real* member_mass;         ///< by member, see cpu::SplitCluster; null in scheme flex
+    const int* member;                   ///< solid ids, cluster by cluster
+    const Vec3<Real>* offset;            ///< rest position minus the mean of the rest positions, by member
+    const Real* member_mass;             ///< by member, see cpu::SplitCluster; null in scheme flex
     const int* spring_incidences_begin;  ///< by solid, one more at the end
     const Incidence* spring_incidence;
     const int* cluster_incidences_begin;  ///< by solid, one more at the end

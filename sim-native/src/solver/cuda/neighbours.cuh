@@ -11,10 +11,10 @@ __device__ bool needs_cells(const ModelView<Real>& model) {
 }
 
 template <class Real>
-__device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass, bool fluid,
-                                     Real h) {
+__device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass,
+                                         bool fluid, Real h) {
     return physics::predicted_velocity(v, inverse_mass, fluid ? model.fluid_gravity : model.gravity, h,
-                                   model.plan.clamp_speed, model.max_speed);
+                                       model.plan.clamp_speed, model.max_speed);
 }
 
 /// Nothing is in any cell. Barriers follow before they are counted.
@@ -113,8 +113,8 @@ __device__ void scan_cells_on_chip(const ModelView<Real>& model, const Team& tea
     __syncthreads();
 }
 
-/// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the table. Ends
-/// with a barrier.
+/// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the
+/// table. Ends with a barrier.
 template <class Real, class Team>
 __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
@@ -141,8 +141,8 @@ __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     team.barrier();
 }
 
-/// The slot of the particle whose key is at place k: by how many of its cell come before it, which is the same whatever order the
-/// atomics came in.
+/// The slot of the particle whose key is at place k: by how many of its cell come before it, which is the same whatever
+/// order the atomics came in.
 template <class Real, class Team>
 __device__ int slot_of_key(const ModelView<Real>& model, const Team& team, int k) {
     if (!needs_cells(model)) return k;
@@ -190,8 +190,8 @@ __device__ void note_surroundings(const ModelView<Real>& model, const Team& team
         team.contact_count()[s] = 0;
 }
 
-/// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new place. Ends with
-/// a barrier.
+/// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new
+/// place. Ends with a barrier.
 template <class Real, class Team>
 __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
     if (team.thread() == 0) team.shared().contact_slot_count = team.shared().near = 0;
@@ -244,7 +244,8 @@ __device__ void for_each_candidate(const ModelView<Real>& model, const Team& tea
                                    const Visit& visit) {
     model.grid.for_each_run(x, [&](const CellRun& cells) {
         const SlotRun run = slots_in(model, team, solids, cells);
-        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, x, team.predicted_position()[other]));
+        for (int other = run.begin; other < run.end; ++other)
+            visit(other, is_near(model, x, team.predicted_position()[other]));
     });
 }
 
@@ -279,11 +280,11 @@ __device__ int search_contacts(const ModelView<Real>& model, const Team& team, i
     return n;
 }
 
-/// Calls visit(k, slot) for the slots near x that are wanted(slot), of the fluid first, then of the solids, in the order of their
-/// cells; returns how many there are. By a warp, each of them visited by one lane.
+/// Calls visit(k, slot) for the slots near x that are wanted(slot), of the fluid first, then of the solids, in the
+/// order of their cells; returns how many there are. By a warp, each of them visited by one lane.
 template <class Real, class Team, class Wanted, class Visit>
-__device__ int search_by_warp(const ModelView<Real>& model, const Team& team, const Vec3<Real>& x, bool in_fluid, bool in_solids,
-                              const Wanted& wanted, const Visit& visit) {
+__device__ int search_by_warp(const ModelView<Real>& model, const Team& team, const Vec3<Real>& x, bool in_fluid,
+                              bool in_solids, const Wanted& wanted, const Visit& visit) {
     constexpr unsigned all_lanes = 0xffffffff;
     constexpr int runs = GridView<Real>::runs;
     const int lane = threadIdx.x % 32;
@@ -298,7 +299,8 @@ __device__ int search_by_warp(const ModelView<Real>& model, const Team& team, co
         if (lane >= step) end += before;
     }
     const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
-    constexpr int at_once = Team::shares_slots ? 3 : 1;  // fetched before the first is looked at, where latency is what counts
+    constexpr int at_once =
+        Team::shares_slots ? 3 : 1;  // fetched before the first is looked at, where latency is what counts
     int n = 0;
     for (int first = 0; first < count; first += 32 * at_once) {
         int other[at_once];
@@ -323,12 +325,14 @@ __device__ int search_by_warp(const ModelView<Real>& model, const Team& team, co
     return n;
 }
 
-/// search_contacts by a warp. What a thread finds one after another takes a solid, which is near many, longer than all else takes.
+/// search_contacts by a warp. What a thread finds one after another takes a solid, which is near many, longer than all
+/// else takes.
 template <class Real, class Team, class Visit>
 __device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
     const int i = team.number()[s];
-    return search_by_warp(model, team, xyz(team.predicted_position()[s]), touches_fluid(model, s), true,
-                          [&](int other) { return may_touch(model, team, i, other); }, visit);
+    return search_by_warp(
+        model, team, xyz(team.predicted_position()[s]), touches_fluid(model, s), true,
+        [&](int other) { return may_touch(model, team, i, other); }, visit);
 }
 
 /// What lists the contacts of a slot.
@@ -408,7 +412,8 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
         for (int k = n; k % 8 != 0; ++k) staging[k * Team::threads] = beyond;
         for (int k = 0; k < n; k += 8) {
             const auto two = [&](int e) {
-                return staging[(k + e) * Team::threads] | static_cast<unsigned>(staging[(k + e + 1) * Team::threads]) << 16;
+                return staging[(k + e) * Team::threads] | static_cast<unsigned>(staging[(k + e + 1) * Team::threads])
+                                                              << 16;
             };
             team.neighbour()[static_cast<std::size_t>(k / 8) * model.fluid + s] = {two(0), two(2), two(4), two(6)};
         }
@@ -422,8 +427,7 @@ __device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Te
     if (team.shares_solids()) return find_neighbours_of_solid(model, team, model.fluid + task);
     const int s = model.fluid + task * 32 + threadIdx.x % 32;
     if (s >= model.particles) return;
-    if (model.plan.contacts)
-        note_contacts(team, s, search_contacts(model, team, s, contact_lister(model, team, s)));
+    if (model.plan.contacts) note_contacts(team, s, search_contacts(model, team, s, contact_lister(model, team, s)));
     note_near_planes(model, team, s, team.predicted_position()[s]);
 }
 
@@ -438,8 +442,8 @@ __device__ void find_contacts_of_fluid(const ModelView<Real>& model, const Team&
     note_near_planes(model, team, s, here);
 }
 
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which take
-/// longest, then the contacts of the fluid near them. Ends with a barrier.
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which
+/// take longest, then the contacts of the fluid near them. Ends with a barrier.
 template <class Real, class Team>
 __device__ void find_neighbours(const ModelView<Real>& model, Team& team) {
     const int of_solids = team.shares_solids() ? model.solids : (model.solids + 31) / 32;

@@ -27,7 +27,8 @@ struct ChipSpring {
     physics::SpringRule<Real> rule;
 };
 
-/// Arrays that an observer's view of a State is written to; null without an observer. By slot, with the particles' numbers.
+/// Arrays that an observer's view of a State is written to; null without an observer. By slot, with the particles'
+/// numbers.
 template <class Real>
 struct Trace {
     Vec4<Real>* predicted = nullptr;  ///< [substep * particles + slot]
@@ -40,7 +41,7 @@ inline constexpr int slots_of_warp = 32 / pair_lanes;
 inline constexpr int slot_lanes = 4;  ///< threads that share a slot of the fluid, see shared_slots.cuh
 inline constexpr int shared_slots_of_warp = 32 / slot_lanes;
 inline constexpr int max_contact_slots_on_chip = 32;  ///< slots
-inline constexpr int max_listed_on_chip = 32;  ///< neighbours of a slot, or contacts
+inline constexpr int max_listed_on_chip = 32;         ///< neighbours of a slot, or contacts
 
 /// Slots one behind the other.
 struct SlotRun {
@@ -77,24 +78,24 @@ struct Layout {
 /// Numbers that all threads share which work on a State.
 template <class Real>
 struct Shared {
-    int contact_slot_count;                         ///< slots that have contacts
+    int contact_slot_count;              ///< slots that have contacts
     Real solids_low[3], solids_high[3];  ///< box around the solids
 };
 
 /// Values that the threads of a team share.
 template <class Real>
 struct SharedByTeam : Shared<Real> {
-    int near;                             ///< slots of the fluid that may have contacts, where threads share slots
-    int flags[2];                         ///< of GridTeam::any
+    int near;                            ///< slots of the fluid that may have contacts, where threads share slots
+    int flags[2];                        ///< of GridTeam::any
     int block_sums[max_blocks_of_team];  ///< of exclusive_scan
-    unsigned ticket;                      ///< that the team works on
+    unsigned ticket;                     ///< that the team works on
     Stopwatch watch;
 };
 
 /// Numbers that the threads of one of a team's blocks share, on the chip.
 struct SharedByBlock {
-    int next_task[2];        ///< of work that warps take as they get free, see for_each_warp_task
-    int sums[32];            ///< of sum_before
+    int next_task[2];  ///< of work that warps take as they get free, see for_each_warp_task
+    int sums[32];      ///< of sum_before
 };
 
 /// A team and all that it works on while it advances one State: a block that has the State on its chip, or several
@@ -116,16 +117,19 @@ public:
         if constexpr (StateTeam::of_several_blocks) this->begin(arrivals, shared().flags);
     }
 
-    /// Has each solid several threads? Solids take longest, and several blocks would wait for them; one has enough to do
-    /// meanwhile.
+    /// Has each solid several threads? Solids take longest, and several blocks would wait for them; one has enough to
+    /// do meanwhile.
     __device__ static constexpr bool shares_solids() { return StateTeam::blocks() > 1; }
 
     /// Has one block the solids, and the others the fluid? It is the last.
     __device__ bool splits_solids() const { return shares_slots || (!on_chip && at_.splits_solids); }
     __device__ bool has_solids() const { return splits_solids() && StateTeam::block() == StateTeam::blocks() - 1; }
 
-    // The threads that have springs and their lengths: of the block that has the solids, or all; other blocks call none of these.
-    __device__ int solid_thread() const { return splits_solids() ? static_cast<int>(threadIdx.x) : StateTeam::thread(); }
+    // The threads that have springs and their lengths: of the block that has the solids, or all; other blocks call none
+    // of these.
+    __device__ int solid_thread() const {
+        return splits_solids() ? static_cast<int>(threadIdx.x) : StateTeam::thread();
+    }
     __device__ int solid_threads() const { return splits_solids() ? StateTeam::threads : StateTeam::size(); }
     __device__ void solid_barrier() const {
         if (splits_solids())
@@ -172,10 +176,10 @@ private:
     char* scratch_;
 };
 
-/// Calls work(task) for the tasks 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block of
-/// the team has every so many-th; of the others, which lie side by side in the tank, a row. Each of its warps begins with one
-/// of them and takes more as it gets free. Every thread of the first `blocks` blocks calls it, of all if none are named; a
-/// barrier must lie between two calls.
+/// Calls work(task) for the tasks 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block
+/// of the team has every so many-th; of the others, which lie side by side in the tank, a row. Each of its warps begins
+/// with one of them and takes more as it gets free. Every thread of the first `blocks` blocks calls it, of all if none
+/// are named; a barrier must lie between two calls.
 template <class Team, class Work>
 __device__ void for_each_warp_task(Team& team, int blocks, int few, int many, const Work& work) {
     const int own_few = (few - team.block() + blocks - 1) / blocks;
@@ -204,8 +208,8 @@ __host__ __device__ int fluid_tasks(const ModelView<Real>& model) {
     return (model.fluid + 31) / 32;
 }
 
-/// This lane's slot in task k of the fluid's, which go from the last slots to the first: 3 % faster for batches on an H100
-/// than the other way.
+/// This lane's slot in task k of the fluid's, which go from the last slots to the first: 3 % faster for batches on an
+/// H100 than the other way.
 __device__ inline int fluid_slot(int task, int tasks) {
     return (tasks - 1 - task) * 32 + static_cast<int>(threadIdx.x) % 32;
 }
@@ -282,7 +286,8 @@ __device__ void exclusive_scan(const Team& team, std::uint32_t* table, int count
     if constexpr (Team::of_several_blocks) {
         team.barrier();
         unsigned of_blocks = 0;
-        for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32) of_blocks += static_cast<unsigned>(block_sums[b]);
+        for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32)
+            of_blocks += static_cast<unsigned>(block_sums[b]);
         before += sum_of_warp(of_blocks);
     }
     for (int i = begin; i < end; ++i) {

@@ -9,10 +9,11 @@
 
 namespace natator::lattice {
 
-/// The water of a Model of scheme `lattice` and the particles in it, substep by substep: a substep is a step of the water. What the water
-/// gives a particle comes to it as a running mean, half of it at once, or less of a particle smaller than two cells or lighter than its water:
-/// all at once, particles of two cells swing ever more from step to step (free particles, measured: 1.02 times). Nothing of it is lost. The water is at rest
-/// at first and wherever a State's time does not go on from where the last one ended.
+/// The water of a Model of scheme `lattice` and the particles in it, substep by substep: a substep is a step of the
+/// water. What the water gives a particle comes to it as a running mean, half of it at once, or less of a particle
+/// smaller than two cells or lighter than its water: all at once, particles of two cells swing ever more from step to
+/// step (free particles, measured: 1.02 times). Nothing of it is lost. The water is at rest at first and wherever a
+/// State's time does not go on from where the last one ended.
 template <class Real>
 class Coupling {
 public:

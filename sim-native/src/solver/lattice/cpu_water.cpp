@@ -58,12 +58,12 @@ private:
         long cell;
         int x, y, z;
     };
-    std::vector<Owned> owned_;  ///< those cells
-    std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
-    std::vector<float> out_;   ///< by place in held_
-    std::vector<BodyCell> held_;   ///< cells in bodies, by cube
+    std::vector<Owned> owned_;    ///< those cells
+    std::vector<int> chosen_;     ///< by cell, of this one: place in held_, -1: none
+    std::vector<float> out_;      ///< by place in held_
+    std::vector<BodyCell> held_;  ///< cells in bodies, by cube
     bool periodic_[3];
-    std::vector<int> made_of_;      ///< by cell: place in made_, -1: none
+    std::vector<int> made_of_;  ///< by cell: place in made_, -1: none
     std::vector<Populations> made_;
     std::vector<long> made_cells_;
     std::vector<Array> rooms_;
@@ -72,7 +72,10 @@ private:
 };
 
 CpuWater::CpuWater(const Box& box, int threads)
-    : Water(box), cells_{box.cells.x(), box.cells.y(), box.cells.z()}, stride_(padded(cells_[0]) + 2 * margin), team_(threads) {
+    : Water(box),
+      cells_{box.cells.x(), box.cells.y(), box.cells.z()},
+      stride_(padded(cells_[0]) + 2 * margin),
+      team_(threads) {
     const auto size = static_cast<std::size_t>(stride_) * cells_[1] * cells_[2] + margin;
     for (Array& array : now_) array.assign(size, 0);
     for (Array& array : next_) array.assign(size, 0);
@@ -96,7 +99,8 @@ View CpuWater::view() {
     return view;
 }
 
-/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near ones the first.
+/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near
+/// ones the first.
 void CpuWater::hold(const std::vector<Cube>& cubes) {
     for (const BodyCell& held : held_) {
         for (Array& change : change_) change[held.cell] = 0;
@@ -122,7 +126,13 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
                     } else if (out_[chosen_[at]] <= in.out) {
                         continue;
                     }
-                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi), inside[0], inside[1], inside[2]};
+                    held_[chosen_[at]] = {at,
+                                          static_cast<int>(p),
+                                          {in.xi[0], in.xi[1], in.xi[2]},
+                                          velocity_in(cube, in.xi),
+                                          inside[0],
+                                          inside[1],
+                                          inside[2]};
                     out_[chosen_[at]] = in.out;
                 }
     }
@@ -137,16 +147,19 @@ void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vect
     }
 }
 
-/// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to the water beside them.
+/// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to
+/// the water beside them.
 void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
     for (const BodyCell& held : held_) {
         const long at = held.cell;
         now_[0][at] += divergence_of(cubes[held.cube]);
         const float density = 1 + now_[0][at];
-        const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
+        const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density,
+                             held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) transfer_surplus(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
+        if (begun_ && owner_[at] < 0)
+            transfer_surplus(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
     }
 }
 
@@ -163,7 +176,8 @@ void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>
     }
     if (sum == 0) add(held, surplus[0], surplus[1], surplus[2], pushes);
     for (int i = 0; i < physics::lattice_populations; ++i)
-        for (int a = 0; a < 3 && takers[i] >= 0; ++a) now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
+        for (int a = 0; a < 3 && takers[i] >= 0; ++a)
+            now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
 }
 
 /// Cells that a body has left keep what they have more than it, which it was given.
@@ -181,7 +195,8 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         }
         if (!near) continue;
         const PlaceInCube in = place_in(cubes[p], here[0], here[1], here[2]);
-        const BodyCell left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
+        const BodyCell left{one.cell, p,    {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x,
+                            one.y,    one.z};
         const float density = 1 + now_[0][one.cell];
         add(left, density * left.velocity.x - now_[1][one.cell], density * left.velocity.y - now_[2][one.cell],
             density * left.velocity.z - now_[3][one.cell], pushes);
@@ -227,8 +242,8 @@ const CpuWater::Populations& CpuWater::after_collision(long cell, const physics:
         float m[moments];
         for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
         const float density = 1 + m[0];
-        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell], m[3] / density + change_[2][cell], rates,
-                         [&](int i, float value) { f[i] = value; });
+        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell],
+                         m[3] / density + change_[2][cell], rates, [&](int i, float value) { f[i] = value; });
     }
     return made_[made_of_[cell]];
 }
@@ -249,7 +264,8 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
             if (chosen_[source] >= 0) continue;
             const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
             const float out = after_collision(held.cell, rates)[opposite] - physics::moving_population(opposite, u);
-            for (int a = 0; a < 3; ++a) j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
+            for (int a = 0; a < 3; ++a)
+                j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
             any = true;
         }
         if (any) add(held, j[0], j[1], j[2], pushes);
@@ -261,7 +277,9 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
 
 void CpuWater::shift(const Eigen::Vector3i& by) {
     const Eigen::Vector3i size = box_.cells;
-    const auto inside = [&](const Eigen::Vector3i& c) { return (c.array() >= 0).all() && (c.array() < size.array()).all(); };
+    const auto inside = [&](const Eigen::Vector3i& c) {
+        return (c.array() >= 0).all() && (c.array() < size.array()).all();
+    };
     for (Array& array : now_) {
         const Array old = array;
         for (int z = 0; z < cells_[2]; ++z)

@@ -39,8 +39,8 @@ void Substep<Real>::apply_restitution() {
             const int slot = block * lanes + std::countr_zero(rest);
             if (dot(normal, position_of_slot(slot)) + plane.offset > touching) continue;
             const int i = ws_.particle_of[slot];
-            const Real missing = physics::rebound_speed(normal, vec3(ws_.unsorted_velocity[i]), new_velocity_[i],
-                                                        restitution, slowest);
+            const Real missing =
+                physics::rebound_speed(normal, vec3(ws_.unsorted_velocity[i]), new_velocity_[i], restitution, slowest);
             if (missing > 0) new_velocity_[i] += missing * normal;
         }
     });

@@ -34,7 +34,8 @@ __device__ void predict_on_grid(const ModelView<Real>& model, const Slots<Real>&
 template <class Real>
 __device__ void scatter_into_cells(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const auto number = static_cast<std::uint64_t>(number_in(slots.arrays.unsorted_velocity[s].w));
-    slots.arrays.keys[atomicAdd(slots.arrays.table + slots.arrays.cell[s], 1)] = number << 32 | static_cast<unsigned>(s);
+    slots.arrays.keys[atomicAdd(slots.arrays.table + slots.arrays.cell[s], 1)] =
+        number << 32 | static_cast<unsigned>(s);
 }
 
 /// Numbers the slots anew: a particle's slot is its rank in its cell by number, so that the order depends on positions

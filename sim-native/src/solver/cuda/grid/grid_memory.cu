@@ -44,7 +44,7 @@ void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
 
 template <class Real>
 GridMemory<Real>::GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states,
-                               const GridOptions& options, cudaStream_t stream)
+                             const GridOptions& options, cudaStream_t stream)
     : model_(model),
       device_model_(device_model),
       view_(device_model.view()),
@@ -75,8 +75,14 @@ void GridMemory<Real>::allocate(bool keeps_forces) {
     // Water touches nothing: only its solids are in contacts.
     const std::size_t contact_slots = plan.water ? size.solids : all, not_in_water = plan.water ? 0 : all;
     const struct {
-        std::size_t scratch_position, unsorted, contact_slots, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts;
-    } room{not_in_water, not_in_water, contact_slots, not_in_water, std::size_t(2) * size.grid.cells, 0,
+        std::size_t scratch_position, unsorted, contact_slots, neighbour_counts, cells, neighbours, fluid_contacts,
+            solid_contacts;
+    } room{not_in_water,
+           not_in_water,
+           contact_slots,
+           not_in_water,
+           std::size_t(2) * size.grid.cells,
+           0,
            std::size_t(slots_.room.fluid_rows) * slots_.room.fluid,
            plan.contacts ? std::size_t(size.solids) * slots_.room.solid : 0};
     std::vector<std::pair<void**, std::size_t>> places;
@@ -105,8 +111,8 @@ void GridMemory<Real>::allocate(bool keeps_forces) {
     if (plan.fluid) make_room_in_fluid(std::min(size.max_neighbours, usual_neighbours));
 }
 
-/// What the water needs for a part of a substep lies where something else does in another. Only solids have contacts, whose slots come
-/// last.
+/// What the water needs for a part of a substep lies where something else does in another. Only solids have contacts,
+/// whose slots come last.
 template <class Real>
 void GridMemory<Real>::share_places() {
     StateArrays<Real>& arrays = slots_.arrays;

@@ -26,7 +26,7 @@ public:
     /// `device_model` is the copy of `model`; both must outlive it. All copies are asked of `stream`. Throws
     /// std::bad_alloc without memory for so many States.
     GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const GridOptions& options,
-                cudaStream_t stream);
+               cudaStream_t stream);
 
     /// Pointers to all arrays; valid until the next make_room.
     const Slots<Real>& slots() const { return slots_; }

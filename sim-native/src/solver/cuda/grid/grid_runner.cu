@@ -120,8 +120,9 @@ GridLaunch<Real> GridRunner<Real>::launch_of(const Update& update, int substep) 
 /// The first substeps of an update, whose rest lengths are there.
 template <class Real>
 void GridRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
-                                        const Trace<Real>& trace) const {
-    check(cudaMemsetAsync(base_.slots.arrays.shared, 0xff, base_.states * sizeof(GridShared<Real>), base_.stream), "clear");
+                                       const Trace<Real>& trace) const {
+    check(cudaMemsetAsync(base_.slots.arrays.shared, 0xff, base_.states * sizeof(GridShared<Real>), base_.stream),
+          "clear");
     if (base_.keeps_forces)
         clear_rows(base_.slots.water.impulse_on, base_.slots.stride, base_.model.solids, base_.states, base_.stream);
     if (clock) clock->mark(Stage::load);
@@ -198,7 +199,7 @@ typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
 
 template <class Real>
 std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& update, StageProfile* profile,
-                                                                    const Trace<Real>& trace) {
+                                                                  const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
     for (;;) {
@@ -210,7 +211,8 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
             check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
         wait();
         if (had_room()) break;
-        for (int k = 0; k < base_.states; ++k) memory_.restore_before(k);  // and once more, with room for all neighbours
+        for (int k = 0; k < base_.states; ++k)
+            memory_.restore_before(k);  // and once more, with room for all neighbours
     }
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;

@@ -20,11 +20,11 @@ void launch_sort_into_cells(const GridLaunch<Real>& launch) {
 template <class Real>
 void launch_find_neighbours(const GridLaunch<Real>& launch) {
     launch.template each_thread<find_neighbours_on_grid<Real>, search_threads, 12>(launch.model.fluid +
-                                                                                 32 * launch.model.solids);
+                                                                                   32 * launch.model.solids);
     check(cudaGetLastError(), "launch");
 }
 
-#define NATATOR_INSTANTIATE(Real)                                                   \
+#define NATATOR_INSTANTIATE(Real)                                                    \
     template void launch_predict<Real, Scheme::flex>(const GridLaunch<Real>&);       \
     template void launch_predict<Real, Scheme::conserving>(const GridLaunch<Real>&); \
     template void launch_sort_into_cells(const GridLaunch<Real>&);                   \

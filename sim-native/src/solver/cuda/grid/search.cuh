@@ -8,8 +8,8 @@ inline constexpr int search_threads = 128;
 inline constexpr int staged_neighbours = 32;  ///< that a thread has room for on the chip while it searches
 
 /// Lists the fluid neighbours of a fluid slot, without a branch on what is near: entries are written one behind the
-/// other, and the next one over what was not near. What ends the last chunk is the far slot. Where lists have no room for
-/// all, it notes how much they need.
+/// other, and the next one over what was not near. What ends the last chunk is the far slot. Where lists have no room
+/// for all, it notes how much they need.
 template <class Real>
 __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& x,
                                      int* staging) {
@@ -88,8 +88,8 @@ __device__ void find_neighbours_of_fluid(const ModelView<Real>& model, const Slo
         note_near_planes(model, slots, s, here);
 }
 
-/// Lists the neighbours of every slot at the predicted positions: first a warp for each solid, which takes longest, then a
-/// thread for each fluid slot.
+/// Lists the neighbours of every slot at the predicted positions: first a warp for each solid, which takes longest,
+/// then a thread for each fluid slot.
 template <class Real>
 __device__ void find_neighbours_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     __shared__ int staging[(staged_neighbours + 1) * search_threads];

@@ -13,7 +13,9 @@ namespace natator::cuda {
 
 inline constexpr int max_law_blocks = 32;
 /// Number of blocks that check the laws of a State, the same for a Model in any batch.
-inline int law_blocks(int particles) { return std::clamp(particles / 1024, 1, max_law_blocks); }
+inline int law_blocks(int particles) {
+    return std::clamp(particles / 1024, 1, max_law_blocks);
+}
 
 /// Values of a State that the kernels of the whole grid share with each other and the host.
 template <class Real>
@@ -36,7 +38,8 @@ struct ClusterPose {
     double rotation[9];  ///< matrix, row by row
 };
 
-/// Coefficients of a spring of scheme conserving in a substep, see physics::xpbd_spring_push, and the numbers of its incidences.
+/// Coefficients of a spring of scheme conserving in a substep, see physics::xpbd_spring_push, and the numbers of its
+/// incidences.
 template <class Real>
 struct SpringTerms {
     Real weights, split, compliance;
@@ -45,76 +48,81 @@ struct SpringTerms {
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
 
-// What only the States of a grid have, in device memory: X(type, name, how many), see arrays.cuh. A number is a particle's number of the
-// Model.
-#define NATATOR_GRID_ARRAYS(X)                                                                                       \
+// What only the States of a grid have, in device memory: X(type, name, how many), see arrays.cuh. A number is a
+// particle's number of the Model.
+#define NATATOR_GRID_ARRAYS(X)                                                                                        \
     /* The State, in the order of slots that the last substep left; w: inverse mass, and the number as an integer. */ \
     X(Vec4<Real>, state_position, all)                                                                                \
     X(Vec4<Real>, state_velocity, all)                                                                                \
     /* In the order before slots are numbered. */                                                                     \
     X(int, cell, all)                                                                                                 \
-    X(std::uint64_t, keys, all) /* particle << 32 | slot before, cell by cell */                                      \
-    X(Vec4<Real>, predicted_position, all) /* by slot */                                                                \
-    X(int, contact_row, plan.contacts && plan.fluid ? size.fluid : 0) /* of the list of a slot with contacts, see ContactRoom */   \
+    X(std::uint64_t, keys, all)            /* particle << 32 | slot before, cell by cell */                           \
+    X(Vec4<Real>, predicted_position, all) /* by slot */                                                              \
+    X(int, contact_row,                                                                                               \
+      plan.contacts&& plan.fluid ? size.fluid : 0) /* of the list of a slot with contacts, see ContactRoom */         \
     X(Vec4<Real>, change, plan.dissipation ? all : 0)                                                                 \
     /* Of solids, in scheme conserving. */                                                                            \
-    X(int, constraint_count, conserving ? all : 0)                                                                                   \
-    X(Vec4<Real>, displacement, conserving ? all : 0)                                                                      \
-    X(Vec4<Real>, internal, conserving ? size.solids : 0)                                                                  \
-    X(SpringTerms<Real>, spring_terms, conserving ? size.springs : 0)                                                      \
-    X(Vec4<Real>, spring_push, conserving ? 2 * size.springs : 0) /* by incidence, see ModelView::spring_incidence */              \
-    X(Real, spring_lambda, conserving ? size.springs : 0)                                                                  \
-    X(Real, compliance, conserving ? size.clusters : 0)                                                                    \
-    X(ClusterPose, cluster_pose, conserving ? size.clusters : 0)                                                           \
-    X(Vec4<Real>, member_displacement, conserving ? size.members : 0)                                                      \
+    X(int, constraint_count, conserving ? all : 0)                                                                    \
+    X(Vec4<Real>, displacement, conserving ? all : 0)                                                                 \
+    X(Vec4<Real>, internal, conserving ? size.solids : 0)                                                             \
+    X(SpringTerms<Real>, spring_terms, conserving ? size.springs : 0)                                                 \
+    X(Vec4<Real>, spring_push, conserving ? 2 * size.springs : 0) /* by incidence, see ModelView::spring_incidence */ \
+    X(Real, spring_lambda, conserving ? size.springs : 0)                                                             \
+    X(Real, compliance, conserving ? size.clusters : 0)                                                               \
+    X(ClusterPose, cluster_pose, conserving ? size.clusters : 0)                                                      \
+    X(Vec4<Real>, member_displacement, conserving ? size.members : 0)                                                 \
     X(Vec4<Real>, cluster_push, conserving ? size.members : 0) /* likewise, see ModelView::cluster_incidence */
 
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_GRID_ARRAYS(X)
 
-// The neighbours of a slot of the water are dealt out to lists: neighbour k is entry k / water_lists of list k % water_lists. A row is
-// such an entry of all lists of some slots, which have as many rows as the longest of their lists needs.
+// The neighbours of a slot of the water are dealt out to lists: neighbour k is entry k / water_lists of list k %
+// water_lists. A row is such an entry of all lists of some slots, which have as many rows as the longest of their lists
+// needs.
 inline constexpr int water_lists = pair_lanes, slots_of_row = 16, water_row = slots_of_row * water_lists;
-/// More neighbours than most water has at rest, by the kernel's support in spacings: a lattice has 4/3 pi (R/s)^3. Solids and crowds have
-/// more.
+/// More neighbours than most water has at rest, by the kernel's support in spacings: a lattice has 4/3 pi (R/s)^3.
+/// Solids and crowds have more.
 constexpr int usual_water_neighbours(double support) {
     return static_cast<int>(5 * support * support * support);
 }
-/// Where a list's entry lies in its slot's part of a row, and which list lies there: bits reversed. A thread that has several lists, side
-/// by side, then adds up what threads with one list each would add up first.
+/// Where a list's entry lies in its slot's part of a row, and which list lies there: bits reversed. A thread that has
+/// several lists, side by side, then adds up what threads with one list each would add up first.
 __host__ __device__ constexpr int reversed_list(int list) {
     static_assert(water_lists == 8);
     return (list & 1) << 2 | (list & 2) | list >> 2;
 }
 /// Offset of a slot's neighbour number `neighbour` from the slot's part of its first row.
 __device__ inline int place_of(unsigned neighbour) {
-    return static_cast<int>(neighbour / water_lists * water_row) + reversed_list(static_cast<int>(neighbour % water_lists));
+    return static_cast<int>(neighbour / water_lists * water_row) +
+           reversed_list(static_cast<int>(neighbour % water_lists));
 }
 
-// The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the slots of the
-// fluid. An entry is a slot with the set of boundaries that it is the ghost of: boundaries << max_slot_bits | slot.
-#define NATATOR_WATER_ARRAYS(X)                                                                                       \
-    X(int, table, plan.water ? size.water.grid.cells : 0) /* ends of the cells */                                       \
-    X(int, first_row, (water + slots_of_row - 1) / slots_of_row) /* of the slots that share rows */                     \
-    X(int, count, water) /* of neighbours */                                                                          \
-    X(Vec4<Real>, position, water)   /* w: volume */                                                                  \
-    X(Vec4<Real>, velocity, water)   /* w: inverse mass */                                                            \
-    X(Vec4<Real>, pushed, water)     /* the same with the viscosity and effects of the substep */                     \
-    X(Vec4<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
-    X(Vec4<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
-    X(Vec4<Real>, separation, plan.water ? all : 0) /* velocities that part overlaps; w: inverse mass, 0 for solids */   \
-    X(Vec4<Real>, crowding, water)                                                                                    \
-    X(Vec4<Real>, zeroth_order_correction, 0)         /* in the same place, later: E_j times its zeroth_order_share; w: impulse_sum */       \
-    X(Vec4<Real>, zeroth, water)     /* sum of G_ij; w: physics::zeroth_order_correction */                                            \
-    X(Vec4<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
-    X(Vec4<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
-    X(Real, density, water)                                                                                           \
-    X(Real, max_speed_square, water) /* largest |v_j - v_i|^2 */                                                        \
-    X(Real, response, water)                                                                                          \
-    X(Real, volume, water)                                                                                            \
-    X(Real, impulse_sum, water) /* of the substep so far */                                                           \
-    X(Real, impulse, water)                                                                                           \
-    X(int, slot_before, water) /* by slot of this substep */                                                          \
-    X(int, slot_of_solid, plan.water ? size.solids : 0)                                                               \
+// The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the
+// slots of the fluid. An entry is a slot with the set of boundaries that it is the ghost of: boundaries <<
+// max_slot_bits | slot.
+#define NATATOR_WATER_ARRAYS(X)                                                                                        \
+    X(int, table, plan.water ? size.water.grid.cells : 0)        /* ends of the cells */                               \
+    X(int, first_row, (water + slots_of_row - 1) / slots_of_row) /* of the slots that share rows */                    \
+    X(int, count, water)                                         /* of neighbours */                                   \
+    X(Vec4<Real>, position, water)                               /* w: volume */                                       \
+    X(Vec4<Real>, velocity, water)                               /* w: inverse mass */                                 \
+    X(Vec4<Real>, pushed, water)                    /* the same with the viscosity and effects of the substep */       \
+    X(Vec4<Real>, correction, water)                /* L: xx, yy, zz, xy */                                            \
+    X(Vec4<Real>, shear, water)                     /* xz, yz; mobility, see physics::mobility; 1 for solids */        \
+    X(Vec4<Real>, separation, plan.water ? all : 0) /* velocities that part overlaps; w: inverse mass, 0 for solids */ \
+    X(Vec4<Real>, crowding, water)                                                                                     \
+    X(Vec4<Real>, zeroth_order_correction,                                                                             \
+      0)                         /* in the same place, later: E_j times its zeroth_order_share; w: impulse_sum */      \
+    X(Vec4<Real>, zeroth, water) /* sum of G_ij; w: physics::zeroth_order_correction */                                \
+    X(Vec4<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */       \
+    X(Vec4<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                      \
+    X(Real, density, water)                                                                                            \
+    X(Real, max_speed_square, water) /* largest |v_j - v_i|^2 */                                                       \
+    X(Real, response, water)                                                                                           \
+    X(Real, volume, water)                                                                                             \
+    X(Real, impulse_sum, water) /* of the substep so far */                                                            \
+    X(Real, impulse, water)                                                                                            \
+    X(int, slot_before, water) /* by slot of this substep */                                                           \
+    X(int, slot_of_solid, plan.water ? size.solids : 0)                                                                \
     X(Vec4<Real>, impulse_on, keeps_forces ? size.solids : 0) /* of the water, in the update so far; by solid */
 
 #define NATATOR_MEMBER(type, name, ...) type* name = nullptr;
@@ -129,8 +137,8 @@ struct StateArrays {
 template <class Real>
 struct WaterArrays {
     NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
-    // By themselves, as their room may grow. Of particles and ghosts, cell by cell: boundaries << 58 | number << 32 | slot; their
-    // positions, w: the entry as an integer.
+    // By themselves, as their room may grow. Of particles and ghosts, cell by cell: boundaries << 58 | number << 32 |
+    // slot; their positions, w: the entry as an integer.
     std::uint64_t* keys = nullptr;
     Vec4<Real>* candidate = nullptr;
     // Of neighbour k of slot s at [Slots::water_place(s) + place_of(k)].
@@ -139,9 +147,9 @@ struct WaterArrays {
 };
 #undef NATATOR_MEMBER
 
-/// Contacts that lists have room for; those of slots that have more are searched anew each time. Fluid far from solids has
-/// none, so that its lists are in rows that slots take as they turn out to have contacts: entry k of row r at
-/// [k * fluid_rows + r]. Slots that find no row left are searched anew, too.
+/// Contacts that lists have room for; those of slots that have more are searched anew each time. Fluid far from solids
+/// has none, so that its lists are in rows that slots take as they turn out to have contacts: entry k of row r at [k *
+/// fluid_rows + r]. Slots that find no row left are searched anew, too.
 struct ContactRoom {
     int fluid, solid;
     int fluid_rows = 0;
@@ -225,9 +233,9 @@ public:
     std::size_t rest_length_stride = 0;
     std::size_t list_chunks = 0;  ///< of a State's lists in scheme flex
     ContactRoom room{};
-    int chunks = 0;            ///< of a list of fluid neighbours
-    ListRoom water_room{};     ///< of each State
-    Real h = 0;               ///< substep, s
+    int chunks = 0;         ///< of a list of fluid neighbours
+    ListRoom water_room{};  ///< of each State
+    Real h = 0;             ///< substep, s
     int substep = 0;
 };
 

@@ -23,7 +23,7 @@ struct GridLaunch {
     int states;  ///< side by side
     void* scan_room;
     cudaStream_t stream;
-    Trace<Real> trace;        ///< null where nobody looks
+    Trace<Real> trace;            ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
     bool keeps_forces = false;    ///< sums the impulses of the water on solids
 
@@ -49,7 +49,8 @@ struct GridLaunch {
     void each_particle() const {
         each_slot<work, 1, grid_threads, min_blocks>(model.particles);
     }
-    /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many slots there are.
+    /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many
+    /// slots there are.
     template <auto work, int lanes>
     void each_crowded_slot(int count) const {
         constexpr int filling = 2048;
@@ -61,8 +62,7 @@ struct GridLaunch {
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.
     template <auto work, int block = grid_threads, int min_blocks = 0, class... More>
     void each_state(int blocks, More... more) const {
-        for_each_state<work, Of::running, block, min_blocks>
-            <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
+        for_each_state<work, Of::running, block, min_blocks><<<grid(blocks), block, 0, stream>>>(model, slots, more...);
     }
     /// Has a block so many bytes on its chip?
     static bool has_room_on_chip(unsigned bytes) {
@@ -100,13 +100,9 @@ struct GridLaunch {
     }
 
     /// Sets a table of each State to 0.
-    void clear(int* table, int count) const {
-        clear_rows(table, slots.stride, count, states, stream);
-    }
+    void clear(int* table, int count) const { clear_rows(table, slots.stride, count, states, stream); }
     /// Replaces its counts by the sums of all before each.
-    void add_up(int* table, int count) const {
-        exclusive_scan(table, count, states, slots.stride, scan_room, stream);
-    }
+    void add_up(int* table, int count) const { exclusive_scan(table, count, states, slots.stride, scan_room, stream); }
 
     void mark(Stage stage) const {
         if (clock) clock->mark(stage);
@@ -129,7 +125,8 @@ void launch_sort_into_cells(const GridLaunch<Real>& launch);
 template <class Real>
 void launch_find_neighbours(const GridLaunch<Real>& launch);
 
-/// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
+/// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view
+/// if there is one.
 template <class Real>
 void record_positions(const GridLaunch<Real>& launch, Vec4<Real>* to, int row);
 

@@ -19,8 +19,8 @@ __device__ void set_velocity(const Team& team, int s, const Vec3<Real>& v) {
 
 /// Calls visit(slot, vector from it to s, r, q = r/R) for the fluid neighbours of fluid slot s with 0 < r < R.
 template <class Real, class Team, class Visit>
-__device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team& team, int s,
-                                        const Vec4<Real>* places, const Visit& visit) {
+__device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>* places,
+                                        const Visit& visit) {
     const Vec3<Real> x = xyz(places[s]);
     for_each_neighbour(model, team, s, [&](int other) {
         const Vec3<Real> difference = x - xyz(places[other]);
@@ -77,8 +77,8 @@ __device__ void apply_change(const ModelView<Real>&, const Team& team, int s) {
 template <class Real, class Team>
 __device__ void drag(const ModelView<Real>& model, const Team& team, int s) {
     if (!(team.position()[s].w > 0)) return;
-    set_velocity(team, s, physics::dragged(velocity_of<Real>(team, s), team.density()[s],
-                                            team.h * model.free_surface_drag));
+    set_velocity(team, s,
+                 physics::dragged(velocity_of<Real>(team, s), team.density()[s], team.h * model.free_surface_drag));
 }
 
 /// Normals and curls of the fluid.
@@ -94,8 +94,7 @@ __device__ void measure_fluid(const ModelView<Real>& model, const Team& team, in
                                     curl += physics::curl_part(difference, r, q, velocity_of<Real>(team, other) - v);
                             });
     if (model.plan.surface_tension) team.normal()[s] = quad(model.gradient_estimate * normal, Real(0));
-    if (model.plan.vorticity)
-        team.curl()[s] = quad(model.gradient_estimate * model.inverse_radius * curl, Real(0));
+    if (model.plan.vorticity) team.curl()[s] = quad(model.gradient_estimate * model.inverse_radius * curl, Real(0));
 }
 
 /// Surface tension and vorticity confinement of fluid slot s.

@@ -52,8 +52,8 @@ __device__ inline double rounded_product(double a, double b) {
     return __dmul_rn(a, b);
 }
 
-/// physics::rotation_matrix with its products rounded in the same places in every kernel. Which of two products a sum is fused
-/// with is else the compiler's choice, and another one in a block of a State's own than on the whole GPU.
+/// physics::rotation_matrix with its products rounded in the same places in every kernel. Which of two products a sum
+/// is fused with is else the compiler's choice, and another one in a block of a State's own than on the whole GPU.
 template <class T>
 __device__ void rotation_matrix(const T q[4], T m[9]) {
     const T x = q[0], y = q[1], z = q[2], w = q[3];
@@ -70,8 +70,8 @@ __device__ void rotation_matrix(const T q[4], T m[9]) {
     m[8] = 1 - 2 * fma(y, y, xx);
 }
 
-/// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m) its
-/// rest offset.
+/// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m)
+/// its rest offset.
 template <class Real, class Place, class Offset>
 __device__ void fit_members(int count, ClusterFit<Real>& fit, const Place& place, const Offset& offset) {
     const int lane = threadIdx.x % 32;
@@ -117,11 +117,11 @@ struct Correction {
     }
 };
 
-/// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is called if they
-/// touch; start_of(slot) is where a slot was.
+/// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is
+/// called if they touch; start_of(slot) is where a slot was.
 template <class Real, class Team, class StartOf, class Push>
-__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here, int other,
-                                const Vec4<Real>& there, const StartOf& start_of, const Push& push) {
+__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here,
+                                int other, const Vec4<Real>& there, const StartOf& start_of, const Push& push) {
     const Vec3<Real> difference = xyz(here) - xyz(there);
     const Real r = norm(difference);
     const Real depth = model.solid_rest_distance - r;
@@ -140,9 +140,9 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Team& team, i
         if (s >= 0) {
             const Vec4<Real> here = team.position()[s];
             for_each_contact_of(model, team, s, lane, pair_lanes, [&](int other) {
-                push_by_contact(model, team, s, here, other, team.position()[other],
-                                [&](int slot) { return xyz(team.start()[slot]); },
-                                [&](const Vec4<Real>& by) { push.add(by); });
+                push_by_contact(
+                    model, team, s, here, other, team.position()[other],
+                    [&](int slot) { return xyz(team.start()[slot]); }, [&](const Vec4<Real>& by) { push.add(by); });
             });
         }
         const Vec4<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
@@ -153,7 +153,8 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Team& team, i
 
 /// Writes rho_i - 1, but at least 0, of slot s, which is in x, beside its position in `scratch_position`.
 template <class Real, class Team>
-__device__ void set_compression(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real above) {
+__device__ void set_compression(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                                Real above) {
     if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
     team.scratch_position()[s] = quad(x, s < model.fluid ? max(above, Real(0)) : Real(0));
 }
@@ -163,8 +164,8 @@ __device__ void compute_density_of(const ModelView<Real>& model, const Team& tea
     set_compression(model, team, s, x, s < model.fluid ? compression_of(model, team, s, x) : Real(0));
 }
 
-/// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends with a
-/// barrier.
+/// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends
+/// with a barrier.
 template <class Real, class Team>
 __device__ void compute_density(const ModelView<Real>& model, Team& team) {
     const int contact_tasks = contact_task_count<Real>(model, team), slots = (model.particles + 31) / 32;
@@ -223,7 +224,8 @@ struct ClusterMember {
 };
 /// Adds clusters `begin` .. `end` - 1 of one solid likewise; member_of(e) is how it sees cluster e.
 template <int lanes, class Real, class MemberOf>
-__device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end, const MemberOf& member_of) {
+__device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end,
+                             const MemberOf& member_of) {
     add_in_order<lanes, Real>(
         begin, end,
         [&](int e) {
@@ -240,8 +242,8 @@ __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, c
     Correction<Real> correction;
     const auto begin = [solid](const int* incidences_begin) { return solid < 0 ? 0 : incidences_begin[solid]; };
     const auto end = [solid](const int* incidences_begin) { return solid < 0 ? 0 : incidences_begin[solid + 1]; };
-    add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_incidences_begin), end(model.spring_incidences_begin),
-                       [&](int e) {
+    add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_incidences_begin),
+                       end(model.spring_incidences_begin), [&](int e) {
                            const Incidence incidence = model.spring_incidence[e];
                            return SpringEnd<Real>{xyz(team.scratch_position()[team.slot_of_solid()[incidence.other]]),
                                                   model.inverse_mass[model.fluid + incidence.other],
@@ -280,8 +282,8 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& tea
 
 /// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last. Returns where it is then.
 template <class Real, class Team>
-__device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
-                            Correction<Real> correction, const SlotContacts& touch) {
+__device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                            Real inverse_mass, Correction<Real> correction, const SlotContacts& touch) {
     if (touch.contacts) {
         const Vec4<Real> push = team.contact_push()[s];
         correction.sum = correction.sum + xyz(push);
@@ -328,7 +330,8 @@ template <class Real, class Team>
 __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
     correct_fluid(model, team, s, [&](const Vec4<Real>& here) {
         physics::FlexPush<Real> push;
-        for_each_neighbour(model, team, s, [&](int other) { push_part(model, here, team.scratch_position()[other]).add_to(push); });
+        for_each_neighbour(model, team, s,
+                           [&](int other) { push_part(model, here, team.scratch_position()[other]).add_to(push); });
         return push;
     });
 }
@@ -391,7 +394,8 @@ __device__ Vec3<Real> velocity_with(const ModelView<Real>& model, const Team& te
 
 /// The velocity that slot s leaves the substep with; movement_of(slot) is the displacement of a fluid slot per second.
 template <class Real, class Team, class MovementOf>
-__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s, const MovementOf& movement_of) {
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s,
+                                   const MovementOf& movement_of) {
     const Vec3<Real> x = xyz(team.position()[s]), u = displacement_rate<Real>(team, s);
     physics::FlexSmoothing<Real> smoothing;
     if (is_viscous(model, s))
@@ -419,7 +423,9 @@ __device__ bool update_velocities(const ModelView<Real>& model, Team& team) {
             team.scratch_position()[s] = quad(displacement_rate<Real>(team, s), Real(0));
         team.barrier();
     }
-    const auto movement_of = [&](int s) { return stored ? xyz(team.scratch_position()[s]) : displacement_rate<Real>(team, s); };
+    const auto movement_of = [&](int s) {
+        return stored ? xyz(team.scratch_position()[s]) : displacement_rate<Real>(team, s);
+    };
     bool finite = true;
     for_each_warp_task(team, 0, (model.particles + 31) / 32, [&](int task) {
         const int s = task * 32 + threadIdx.x % 32;

@@ -25,12 +25,14 @@ __device__ void commit_on_grid(const Slots<Real>& slots, int s, const Vec3<Real>
     const Vec4<Real> x = slots.position()[s];
     note_if_bad(slots, s, xyz(x), v);
     slots.arrays.state_position[s] = x.w > 0 ? x : slots.start()[s];
-    slots.arrays.state_velocity[s] = quad(x.w > 0 ? v : xyz(slots.predicted_velocity()[s]), as_number<Real>(slots.number()[s]));
+    slots.arrays.state_velocity[s] =
+        quad(x.w > 0 ? v : xyz(slots.predicted_velocity()[s]), as_number<Real>(slots.number()[s]));
 }
 
 template <class Real>
 __device__ void velocities_on_grid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    commit_on_grid(slots, s, new_velocity(model, slots, s, [&](int other) { return xyz(slots.scratch_position()[other]); }));
+    commit_on_grid(slots, s,
+                   new_velocity(model, slots, s, [&](int other) { return xyz(slots.scratch_position()[other]); }));
 }
 
 }  // namespace natator::cuda

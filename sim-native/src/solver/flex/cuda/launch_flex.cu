@@ -12,7 +12,8 @@ struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
     static constexpr bool effects = true;
 
     void compute_density_and_fits() {
-        constexpr int blocks = sizeof(Real) == sizeof(float) ? 3 : 2;  // registers for fits would leave too few warps at a time
+        constexpr int blocks =
+            sizeof(Real) == sizeof(float) ? 3 : 2;  // registers for fits would leave too few warps at a time
         launch.template each_thread<compute_density<Real, const Slots<Real>>, grid_threads, blocks>(
             model.particles + 32 * model.clusters);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The search of a team whose threads share slots (shared_slots.cuh), and what its blocks keep of it on their chips: the same lists
-// as those of neighbours.cuh, in the same order.
+// The search of a team whose threads share slots (shared_slots.cuh), and what its blocks keep of it on their chips: the
+// same lists as those of neighbours.cuh, in the same order.
 #include "solver/cuda/neighbours.cuh"
 
 namespace natator::cuda {
@@ -34,8 +34,10 @@ __device__ int shared_fluid_slot(const ModelView<Real>& model, int task) {
 template <class Real, class Team>
 __device__ void list_fluid_neighbours_of_task(const ModelView<Real>& model, const Team& team, int task) {
     constexpr unsigned all_lanes = 0xffffffff;
-    constexpr int rows = 3, at_once = 2;  // of cells side by side, and slots of a run for each thread, that are fetched at a time
-    const int s = shared_fluid_slot<pair_lanes>(model, task), there = s < 0 ? model.particles : s, own = s - team.first_slot();
+    constexpr int rows = 3,
+                  at_once = 2;  // of cells side by side, and slots of a run for each thread, that are fetched at a time
+    const int s = shared_fluid_slot<pair_lanes>(model, task), there = s < 0 ? model.particles : s,
+              own = s - team.first_slot();
     const int lane = static_cast<int>(threadIdx.x) % pair_lanes, first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
     const Vec3<Real> x = xyz(team.predicted_position()[there]);
     const int i = model.plan.uniform_fluid ? 0 : team.number()[there];
@@ -86,8 +88,8 @@ __device__ void list_fluid_neighbours_of_task(const ModelView<Real>& model, cons
         team.neighbour()[static_cast<std::size_t>(lane) * model.fluid + s] = reinterpret_cast<const uint4*>(list)[lane];
 }
 
-/// find_neighbours by a warp for each slot that may have contacts, and `pair_lanes` threads for each slot's fluid neighbours. Ends
-/// with a barrier.
+/// find_neighbours by a warp for each slot that may have contacts, and `pair_lanes` threads for each slot's fluid
+/// neighbours. Ends with a barrier.
 template <class Real, class Team>
 __device__ void find_neighbours_by_lanes(const ModelView<Real>& model, Team& team) {
     const int others = team.blocks() - 1;
@@ -103,12 +105,14 @@ __device__ void find_neighbours_by_lanes(const ModelView<Real>& model, Team& tea
 
 /// The list of contacts of slot s, whose entries lie `stride` apart.
 template <class Real, class Team>
-__device__ const std::uint16_t* contacts_of(const ModelView<Real>& model, const Team& team, int s, std::size_t& stride) {
+__device__ const std::uint16_t* contacts_of(const ModelView<Real>& model, const Team& team, int s,
+                                            std::size_t& stride) {
     stride = s < model.fluid ? model.fluid : model.solids;
     return s < model.fluid ? team.fluid_contact() + s : team.solid_contact() + (s - model.fluid);
 }
 
-/// Puts the first of this block's `contact_slot_count` slots, and the first contacts of each, on its chip. Ends with a barrier of the block.
+/// Puts the first of this block's `contact_slot_count` slots, and the first contacts of each, on its chip. Ends with a
+/// barrier of the block.
 template <class Real, class Team>
 __device__ void load_contacts(const ModelView<Real>& model, const Team& team, int contact_slot_count) {
     const int lane = static_cast<int>(threadIdx.x) % 32;
@@ -118,7 +122,8 @@ __device__ void load_contacts(const ModelView<Real>& model, const Team& team, in
         const int s = team.contact_slots()[task], count = team.contact_count()[s];
         std::size_t stride;
         const std::uint16_t* const list = contacts_of(model, team, s, stride);
-        if (lane < min(count, max_listed_on_chip)) team.chip_contact()[max_listed_on_chip * own + lane] = list[lane * stride];
+        if (lane < min(count, max_listed_on_chip))
+            team.chip_contact()[max_listed_on_chip * own + lane] = list[lane * stride];
         if (lane == 0) {
             team.chip_contact_slots()[own] = static_cast<std::uint16_t>(s);
             team.chip_contact_count()[own] = static_cast<std::uint16_t>(count);

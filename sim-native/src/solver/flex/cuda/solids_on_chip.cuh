@@ -1,8 +1,8 @@
 #pragma once
 
-// Where a team has many blocks, the last of them computes springs and clusters by itself, with the solids on its chip, and the
-// others have the fluid meanwhile: a fit, four steps in double one after the other, takes as long as the densities of the fluid,
-// and nothing but solids waits for it. The formulas and the bits are those of flex.cuh.
+// Where a team has many blocks, the last of them computes springs and clusters by itself, with the solids on its chip,
+// and the others have the fluid meanwhile: a fit, four steps in double one after the other, takes as long as the
+// densities of the fluid, and nothing but solids waits for it. The formulas and the bits are those of flex.cuh.
 #include "shared_slots.cuh"
 
 namespace natator::cuda {
@@ -24,7 +24,8 @@ __device__ void load_constraints_of_solids(const ModelView<Real>& model, const T
     });
     for_each_in_block(team, 2 * model.springs, [&](int e) {
         const Incidence incidence = model.spring_incidence[e];
-        team.chip_spring()[e] = {incidence.other, team.rest_length()[incidence.constraint], model.spring[incidence.constraint].rule};
+        team.chip_spring()[e] = {incidence.other, team.rest_length()[incidence.constraint],
+                                 model.spring[incidence.constraint].rule};
     });
     for_each_in_block(team, model.members, [&](int e) {
         team.chip_member_incidence()[e] = model.cluster_incidence[e];
@@ -36,7 +37,8 @@ __device__ void load_constraints_of_solids(const ModelView<Real>& model, const T
 /// Where the solids are, and the fits as they are. Ends with a barrier of the block.
 template <class Real, class Team>
 __device__ void load_solids(const ModelView<Real>& model, const Team& team) {
-    for_each_in_block(team, model.solids, [&](int i) { team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]]; });
+    for_each_in_block(team, model.solids,
+                      [&](int i) { team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]]; });
     for_each_in_block(team, model.clusters, [&](int k) { team.chip_fit()[k] = team.fit()[k]; });
     __syncthreads();
 }
@@ -79,17 +81,16 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
     }
     team.wait_for_others();
     if (!there) return;
-    add_clusters<1>(correction, xyz(here), team.chip_members_begin()[i], team.chip_members_begin()[i + 1],
-                    [&](int e) {
-                        const Incidence incidence = team.chip_member_incidence()[e];
-                        return ClusterMember<Real>{team.chip_fit()[incidence.constraint], xyz(team.chip_member()[incidence.other]),
-                                                   team.chip_cluster()[incidence.constraint].stiffness};
-                    });
+    add_clusters<1>(correction, xyz(here), team.chip_members_begin()[i], team.chip_members_begin()[i + 1], [&](int e) {
+        const Incidence incidence = team.chip_member_incidence()[e];
+        return ClusterMember<Real>{team.chip_fit()[incidence.constraint], xyz(team.chip_member()[incidence.other]),
+                                   team.chip_cluster()[incidence.constraint].stiffness};
+    });
     team.chip_solid()[i] = apply(model, team, s, xyz(here), here.w, correction, touch);
 }
 
-/// The first half of an iteration of a team that is split so: densities and pushes of contacts, of so many tasks; fits have
-/// begun. Ends with a barrier of the blocks that have the fluid.
+/// The first half of an iteration of a team that is split so: densities and pushes of contacts, of so many tasks; fits
+/// have begun. Ends with a barrier of the blocks that have the fluid.
 template <class Real, class Team>
 __device__ void compute_density_beside_solids(const ModelView<Real>& model, Team& team, int contact_tasks) {
     if (team.has_solids()) return fit_clusters_on_chip(model, team);

@@ -36,9 +36,9 @@ __device__ void actuate(const BatchView<Real>& batch, int state, int number, dou
             continue;
         }
         const int a = state * model.actuators + muscle.actuator;
-        const double activation =
-            physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        const double drive = physics::muscle_drive(gait.amplitude[a], activation, gait.offset ? gait.offset + a : nullptr);
+        const double activation = physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
+        const double drive =
+            physics::muscle_drive(gait.amplitude[a], activation, gait.offset ? gait.offset + a : nullptr);
         team.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
@@ -66,7 +66,8 @@ struct TeamStages {
     Team& team;
     int number;
     int iteration = 0;
-    int contact_tasks = 0;  ///< tasks that the slots with contacts make, where a team has several blocks; a slot each where threads share
+    /// tasks that the slots with contacts make, where a team has several blocks; a slot each where threads share
+    int contact_tasks = 0;
     bool finite = true;  ///< of all velocities, before what acts behind them
 
     __device__ void predict() { cuda::predict(model, team); }
@@ -80,7 +81,8 @@ struct TeamStages {
     }
     __device__ void begin_iterations() {
         if constexpr (Team::of_several_blocks) {
-            contact_tasks = Team::shares_slots ? team.shared().contact_slot_count : contact_task_count<Real>(model, team);
+            contact_tasks =
+                Team::shares_slots ? team.shared().contact_slot_count : contact_task_count<Real>(model, team);
             if (team.has_solids())
                 load_solids(model, team);
             else if constexpr (Team::shares_slots)
@@ -221,8 +223,8 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
     if (batch.neighbours) {
         int* const counts = batch.neighbours + static_cast<std::size_t>(state) * model.particles;
         for (int s = team.thread(); s < model.particles; s += team.size())
-            counts[team.number()[s]] = (s < model.fluid ? team.neighbour_count()[s] : 0) +
-                                        (model.plan.contacts ? team.contact_count()[s] : 0);
+            counts[team.number()[s]] =
+                (s < model.fluid ? team.neighbour_count()[s] : 0) + (model.plan.contacts ? team.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
     for (int s = team.thread(); s < model.fluid; s += team.size())
@@ -230,7 +232,8 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
             compression_of(model, team, s, xyz(team.position()[s])) + 1;
 }
 
-/// Notes the law that a State has broken at the end of a frame, or of settling, if there is one. Begins and ends with a barrier.
+/// Notes the law that a State has broken at the end of a frame, or of settling, if there is one. Begins and ends with a
+/// barrier.
 template <class Real, class Team>
 __device__ void look_at_laws(const BatchView<Real>& batch, int state, double time, Team& team) {
     team.barrier();
@@ -242,7 +245,8 @@ __device__ void look_at_laws(const BatchView<Real>& batch, int state, double tim
         return measures_of(model, team.number()[s], team.position()[s], v);
     };
     bool bad = false;
-    for (int s = team.thread(); s < model.particles; s += team.size()) bad |= breach(measured(s), limits).law != physics::Law::none;
+    for (int s = team.thread(); s < model.particles; s += team.size())
+        bad |= breach(measured(s), limits).law != physics::Law::none;
     for (int b = team.thread(); b < model.body; b += team.size())
         bad |= breach(reach_of(model, team, b), limits).law != physics::Law::none;
     if (!team.any(bad)) return;
@@ -298,7 +302,8 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
         if (s >= model.fluid) team.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
     if (team.thread() == 0)
-        team.position()[model.particles] = team.start()[model.particles] = team.scratch_position()[model.particles] = far_away<Real>();
+        team.position()[model.particles] = team.start()[model.particles] = team.scratch_position()[model.particles] =
+            far_away<Real>();
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = fit[k];
     team.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;

@@ -8,8 +8,8 @@
 
 namespace natator::cpu {
 
-/// The stages of scheme `conserving`. Each iteration is a pass of the water's density solve, on velocities, and then one
-/// of the solids' constraints, on positions, so that both see what the other has done. Of the solids each group of
+/// The stages of scheme `conserving`. Each iteration is a pass of the water's density solve, on velocities, and then
+/// one of the solids' constraints, on positions, so that both see what the other has done. Of the solids each group of
 /// constraints comes in turn, within a group all at once with split masses (Tonge, Benevolenski, Voroshilov: Mass
 /// Splitting for Jitter-Free Parallel Rigid Body Simulation, 2012), so that internal forces keep linear and angular
 /// momentum. Stiffness enters as XPBD compliance (Macklin, Müller, Chentanez: XPBD, 2016), so that it means the same at
@@ -58,7 +58,9 @@ public:
     std::vector<int> neighbour_counts() const;
 
     /// Measures the residual of the divergence after its stage, and of all other constraints after an iteration.
-    void measure_divergence(Residuals& residuals) { residuals.divergence = water_->measure_target_residual(*this->team_); }
+    void measure_divergence(Residuals& residuals) {
+        residuals.divergence = water_->measure_target_residual(*this->team_);
+    }
     void measure_constraints(Residuals& residuals);
 
     /// See Solver::forces; empty without water.
@@ -111,9 +113,9 @@ private:
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
     std::vector<Real> contact_depth_;  ///< by contact
 
-    std::vector<int> bonded_;           ///< particles in springs or clusters
-    std::vector<Vec3<Real>> internal_;  ///< by particle: its displacement by springs and clusters
-    std::vector<std::vector<int>> bodies_;  ///< see free_bodies
+    std::vector<int> bonded_;                ///< particles in springs or clusters
+    std::vector<Vec3<Real>> internal_;       ///< by particle: its displacement by springs and clusters
+    std::vector<std::vector<int>> bodies_;   ///< see free_bodies
     std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
     std::vector<Real> spring_lambda_;
     std::vector<std::vector<Real>> member_mass_;                ///< m_j / n_j per member

@@ -2,8 +2,8 @@
 
 namespace natator::cpu {
 
-/// Starts that overlap, what a scene, a request or a hand put too close, are pushed apart at a limited acceleration (see
-/// overlap_acceleration) instead of within one substep, which would fling it away.
+/// Starts that overlap, what a scene, a request or a hand put too close, are pushed apart at a limited acceleration
+/// (see overlap_acceleration) instead of within one substep, which would fling it away.
 template <class Real>
 Real ConservingStages<Real>::contact_depth(int i, int j) const {
     return physics::limited_depth(
@@ -33,8 +33,7 @@ void ConservingStages<Real>::solve_contacts() {
             const int j = ws_.contact[c];
             const Real depth = contact_depth_[c];
             if (!(depth > 0)) continue;
-            const Real share =
-                physics::split_share(wi, contacts, this->partner_weight(i, j), ws_.constraint_count[j]);
+            const Real share = physics::split_share(wi, contacts, this->partner_weight(i, j), ws_.constraint_count[j]);
             ws_.correction.add(i, share * this->contact_push(i, j, depth));
         }
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-// Springs, clusters and planes of scheme conserving, by one block of threads: in device memory or on its chip, as `Solids` has them
-// (solid_arrays.cuh). What is done to a solid is done by one thread, always the same.
+// Springs, clusters and planes of scheme conserving, by one block of threads: in device memory or on its chip, as
+// `Solids` has them (solid_arrays.cuh). What is done to a solid is done by one thread, always the same.
 #include "physics/spring.h"
 #include "solid_arrays.cuh"
 #include "solver/cuda/contacts.cuh"
@@ -20,7 +20,8 @@ __device__ void move(const Solids& solids, int place, const Vec3<Real>& by) {
 
 /// Moves a solid by what its springs or clusters ask for, and books it as internal to its body.
 template <class Real, class Solids>
-__device__ void move_by_internal(const ModelView<Real>& model, const Solids& solids, int solid, const Vec3<Real>& correction) {
+__device__ void move_by_internal(const ModelView<Real>& model, const Solids& solids, int solid,
+                                 const Vec3<Real>& correction) {
     const Vec3<Real> by = model.relaxation_factor * correction;
     solids.internal()[solid] = quad(xyz(solids.internal()[solid]) + by, Real(0));
     move(solids, solids.place(solid), by);
@@ -32,8 +33,8 @@ __device__ auto position_of(const Solids& solids, int solid) {
     return solids.position()[solids.place(solid)];
 }
 
-/// What stays the same in all iterations of a substep of length h, s: what springs go by, and the compliances of clusters relative to
-/// their masses, not finite for those that ask for nothing. Ends with a barrier.
+/// What stays the same in all iterations of a substep of length h, s: what springs go by, and the compliances of
+/// clusters relative to their masses, not finite for those that ask for nothing. Ends with a barrier.
 template <class Real, class Solids>
 __device__ void prepare_constraints(const ModelView<Real>& model, const Solids& solids, Real h) {
     const auto count = [&](int solid) {
@@ -69,9 +70,9 @@ __device__ void solve_springs(const ModelView<Real>& model, const Solids& solids
     for_each_in_block(model.springs, [&](int k) {
         const int a = solids.spring()[k].a, b = solids.spring()[k].b;
         const SpringTerms<Real> terms = solids.spring_terms()[k];
-        const Vec3<Real> push =
-            physics::xpbd_spring_push(xyz(position_of(solids, a)) - xyz(position_of(solids, b)), terms.weights, terms.split,
-                                      solids.rest_length()[k], terms.compliance, solids.spring_lambda()[k]);
+        const Vec3<Real> push = physics::xpbd_spring_push(xyz(position_of(solids, a)) - xyz(position_of(solids, b)),
+                                                          terms.weights, terms.split, solids.rest_length()[k],
+                                                          terms.compliance, solids.spring_lambda()[k]);
         solids.spring_push()[terms.incidence_of_a] = quad(push, Real(0));
         solids.spring_push()[terms.incidence_of_b] = {-push.x, -push.y, -push.z, Real(0)};
     });
@@ -118,8 +119,9 @@ __device__ void sum_up_clusters(const ModelView<Real>& model, const Solids& soli
     }
 }
 
-/// Rotations of all clusters, a thread for each: a fit is one chain of arithmetic in double, and where all threads of a warp do the same,
-/// warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to different schedulers.
+/// Rotations of all clusters, a thread for each: a fit is one chain of arithmetic in double, and where all threads of a
+/// warp do the same, warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to
+/// different schedulers.
 template <class Real, class Solids>
 __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids) {
     constexpr int schedulers = 4;
@@ -201,7 +203,8 @@ __device__ void solve_planes_of(const ModelView<Real>& model, const Solids& soli
 
 /// All iterations of a substep of length h, s. solve_contacts() ends with a barrier, as this does.
 template <class Real, class Solids, class Contacts>
-__device__ void iterate_solids(const ModelView<Real>& model, const Solids& solids, Real h, const Contacts& solve_contacts) {
+__device__ void iterate_solids(const ModelView<Real>& model, const Solids& solids, Real h,
+                               const Contacts& solve_contacts) {
     prepare_constraints(model, solids, h);
     for (int k = 0; k < model.solid_iterations; ++k) {
         solve_contacts();

@@ -15,7 +15,8 @@ int Ghosts<Real>::composed(int transform, int boundary) {
         composed_[place] = static_cast<int>(matrices_.size());
         const Eigen::Matrix<Real, 3, 1> normal = eigen(boundaries_[boundary].surface.normal);
         const Matrix before = matrices_[transform];
-        matrices_.push_back(boundaries_[boundary].shift > 0 ? before : (Matrix::Identity() - 2 * normal * normal.transpose()) * before);
+        matrices_.push_back(
+            boundaries_[boundary].shift > 0 ? before : (Matrix::Identity() - 2 * normal * normal.transpose()) * before);
         composed_.resize(composed_.size() + boundaries_.size(), -1);
     }
     return composed_[place];
@@ -28,8 +29,9 @@ const std::vector<typename Ghosts<Real>::Ghost>& Ghosts<Real>::find(const std::v
     constexpr int min_part = 2048;  // fewer are done before another thread is awake
     ghosts_.clear();
     for (int boundary = 0; boundary < static_cast<int>(boundaries_.size()); ++boundary) {
-        const auto add = [distance, &through = boundaries_[boundary]](std::vector<Ghost>& to, int particle, int boundaries,
-                                                                      const Vector& x, const auto& transform) {
+        const auto add = [distance, &through = boundaries_[boundary]](std::vector<Ghost>& to, int particle,
+                                                                      int boundaries, const Vector& x,
+                                                                      const auto& transform) {
             const Real before = distance_to(through.surface, vec3(x));
             if (before >= 0 && before < distance)
                 to.push_back({particle, transform(), boundaries,

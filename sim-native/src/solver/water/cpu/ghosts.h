@@ -9,9 +9,9 @@
 
 namespace natator::cpu {
 
-/// Ghosts of the water: copies of particles behind its boundaries. Behind walls, along which water slips, they are mirrored; behind an end
-/// of a periodic axis they are what is at the other end. Ghosts of ghosts fill edges, and those of these corners,
-/// where three boundaries meet; there are no further ones.
+/// Ghosts of the water: copies of particles behind its boundaries. Behind walls, along which water slips, they are
+/// mirrored; behind an end of a periodic axis they are what is at the other end. Ghosts of ghosts fill edges, and those
+/// of these corners, where three boundaries meet; there are no further ones.
 template <class Real>
 class Ghosts {
 public:
@@ -40,7 +40,8 @@ private:
 
     std::vector<physics::Boundary<Real>> boundaries_;
     std::vector<Matrix> matrices_{Matrix::Identity()};
-    std::vector<int> composed_;  ///< by transform * boundaries + boundary: the transform through both, -1 until it is needed
+    /// by transform * boundaries + boundary: the transform through both, -1 until it is needed
+    std::vector<int> composed_;
     std::vector<Ghost> ghosts_;
     std::vector<std::vector<Ghost>> found_;  ///< through one boundary, by part of the particles
 };

@@ -45,7 +45,9 @@ Water<Real>::Water(const Model& model)
     particle_of_.assign(ghost_begin_, -1);
     row_begin_.assign(ghost_begin_ / lanes + 1, 0);
     neighbour_count_.assign(ghost_begin_, 0);
-    for (auto* array : {&solid_, &density_, &max_speed_square_, &response_, &target_, &impulse_sum_, &zeroth_order_correction_}) array->resize(ghost_begin_);
+    for (auto* array :
+         {&solid_, &density_, &max_speed_square_, &response_, &target_, &impulse_sum_, &zeroth_order_correction_})
+        array->resize(ghost_begin_);
     for (auto& array : correction_) array.resize(ghost_begin_);
     crowding_.resize(ghost_begin_);
     zeroth_.resize(ghost_begin_);
@@ -60,8 +62,8 @@ Vec3<Real> Water<Real>::shift(int particle) const {
            physics::shift_of(density_[slot], crowding_.at(slot), max_speed_square_[slot], radius_, spacing_, h_);
 }
 
-/// Where particles start too close, see physics::separation_target. Bodies stay where they are, as pushing their particles
-/// would bend them.
+/// Where particles start too close, see physics::separation_target. Bodies stay where they are, as pushing their
+/// particles would bend them.
 template <class Real>
 bool Water<Real>::begin_overlap_separation(ThreadTeam& team) {
     separation_.clear();
@@ -193,7 +195,8 @@ Residual Water<Real>::target_residual() const {
     ResidualSum sum;
     for (int slot = 0; slot < particles_; ++slot) {
         if (!model_.is_fluid(particle_of_[slot])) continue;
-        const Real rate = impulse_[slot] > 0 ? impulse_[slot] / (Real(physics::jacobi_relaxation) * response_[slot]) : Real(0);
+        const Real rate =
+            impulse_[slot] > 0 ? impulse_[slot] / (Real(physics::jacobi_relaxation) * response_[slot]) : Real(0);
         sum.add(rate * h_ / volume_[slot]);
     }
     return sum.residual();
@@ -264,7 +267,8 @@ void Water<Real>::add_gravity(ThreadTeam& team) {
         const bool fluid = model_.is_fluid(particle_of_[slot]);
         const Vec3<Real> all = fluid ? fluid_gravity_ : gravity;
         if (!carried_.any()) return all;
-        return all - carried_.acceleration(position_.at(slot), fluid, fluid_density_, volume_[slot], inverse_mass_[slot]);
+        return all -
+               carried_.acceleration(position_.at(slot), fluid, fluid_density_, volume_[slot], inverse_mass_[slot]);
     };
     for_each_slot(team, [&](int slot) {
         if (inverse_mass_[slot] > 0) velocity_.add(slot, h_ * acceleration(slot));
@@ -284,9 +288,9 @@ void Water<Real>::apply_wall_pressure(ThreadTeam& team) {
     };
     for_each_ghost(team, [&](int k) {
         const int slot = ghost_begin_ + k, owner = ghost_owner_[k];
-        impulse_[slot] = is_fluid_slot(owner) ? physics::hydrostatic_ghost_impulse(inverse_mass_[owner], volume_[owner], h_, weight(owner),
-                                                                         position_.at(slot) - position_.at(owner),
-                                                                         impulse_sum_[owner])
+        impulse_[slot] = is_fluid_slot(owner) ? physics::hydrostatic_ghost_impulse(
+                                                    inverse_mass_[owner], volume_[owner], h_, weight(owner),
+                                                    position_.at(slot) - position_.at(owner), impulse_sum_[owner])
                                               : Real(0);
     });
     const auto at_wall = [this](int block) {

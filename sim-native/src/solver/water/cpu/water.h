@@ -15,9 +15,9 @@
 
 namespace natator::cpu {
 
-/// The water of scheme `conserving` and the bodies in it: what a substep's pressure and viscosity do to the velocities of all
-/// particles. Solids take part like fluid that has their mass, volume and velocity: that is the coupling of body and
-/// water, pressure and no-slip viscosity alike, with equal and opposite impulses.
+/// The water of scheme `conserving` and the bodies in it: what a substep's pressure and viscosity do to the velocities
+/// of all particles. Solids take part like fluid that has their mass, volume and velocity: that is the coupling of body
+/// and water, pressure and no-slip viscosity alike, with equal and opposite impulses.
 template <class Real>
 class Water {
 public:
@@ -40,10 +40,11 @@ public:
     /// Cohesion, surface tension, vorticity confinement and free-surface drag.
     void add_forces(ThreadTeam& team);
     void add_gravity(ThreadTeam& team);
-    /// One Jacobi pass: the impulses that push apart where the velocities compress more than target_ allows, which after
-    /// add_gravity() is where they lead to more than rest density.
+    /// One Jacobi pass: the impulses that push apart where the velocities compress more than target_ allows, which
+    /// after add_gravity() is where they lead to more than rest density.
     void compute_impulses(ThreadTeam& team);
-    /// How far the velocities were from target_ when compute_impulses ran, as a change of the fluid's density in the substep, in rest densities.
+    /// How far the velocities were from target_ when compute_impulses ran, as a change of the fluid's density in the
+    /// substep, in rest densities.
     Residual target_residual() const;
     /// How far the velocities are from target_ now, without applying impulses; in rest densities.
     Residual measure_target_residual(ThreadTeam& team);
@@ -66,7 +67,8 @@ public:
     void apply_wall_pressure(ThreadTeam& team);
     /// Gives the ghosts the reflected velocities of their owners.
     void update_ghost_velocities(ThreadTeam& team);
-    /// The displacement of a particle that keeps particles evenly spread and separates overlaps, length; no velocity comes with it.
+    /// The displacement of a particle that keeps particles evenly spread and separates overlaps, length; no velocity
+    /// comes with it.
     Vec3<Real> shift(int particle) const;
 
     /// The density of a particle at the last substep's start, in rest densities.
@@ -93,7 +95,8 @@ private:
     /// Positions of the particles as the water has them: in a periodic tank all within its ends.
     const std::vector<Vector3<Real>>& places_in_tank(const State<Real>& state);
     void lay_out(const State<Real>& state, ThreadTeam& team);
-    void sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Ghost>& ghosts, ThreadTeam& team);
+    void sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Ghost>& ghosts,
+                         ThreadTeam& team);
     void make_room(std::size_t slots);
     void list_neighbours(ThreadTeam& team);
     void update_ghost_corrections(ThreadTeam& team);
@@ -156,16 +159,17 @@ private:
             work(part);
         });
     }
-    static constexpr int min_part = 8;    ///< blocks
-    static constexpr int min_run = 2048;  ///< particles or ghosts that little is done with; fewer are done before another thread is awake
+    static constexpr int min_part = 8;  ///< blocks
+    /// particles or ghosts that little is done with; fewer are done before another thread is awake
+    static constexpr int min_run = 2048;
 
     const Model& model_;
     const WaterKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
     Real radius_, spacing_, kernel_scale_, at_spacing_, dynamic_viscosity_;
-    Real fluid_density_;      ///< mass/length^3
-    Real max_expansion_rate_;  ///< by the velocities, of what is compressed, 1/s
-    Real effect_radius_;      ///< R of physics/water_effects.h
+    Real fluid_density_;                                           ///< mass/length^3
+    Real max_expansion_rate_;                                      ///< by the velocities, of what is compressed, 1/s
+    Real effect_radius_;                                           ///< R of physics/water_effects.h
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
     Ghosts<Real> ghosts_;
     std::vector<physics::PeriodicAxis<Real>> periodic_axes_;
@@ -179,17 +183,17 @@ private:
     int particles_, ghost_begin_, far_slot_ = 0;
     std::vector<int> slot_of_, particle_of_;
     std::vector<int> ghost_owner_, ghost_transform_;  ///< by ghost slot - ghost_begin_
-    std::vector<int> ghost_slot_;                ///< by ghost, as Ghosts has them
+    std::vector<int> ghost_slot_;                     ///< by ghost, as Ghosts has them
     std::vector<int> cell_begin_, ghost_cell_begin_;
     std::vector<int> cell_of_;  ///< by particle
 
     Vector3Array<Real> position_, velocity_, crowding_;
-    Vector3Array<Real> kept_velocity_;  ///< room for the separation of overlaps
-    Vector3Array<Real> field_;          ///< of add_forces, also of ghosts: normals, then vorticity
-    std::vector<Real> strength_;        ///< of the vorticity, also of ghosts
-    std::vector<Vec3<Real>> separation_;   ///< displacement by separate_overlaps, by slot; empty where nothing overlaps
-    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, max_speed_square_, response_, target_, impulse_,
-        impulse_sum_, zeroth_order_correction_;
+    Vector3Array<Real> kept_velocity_;    ///< room for the separation of overlaps
+    Vector3Array<Real> field_;            ///< of add_forces, also of ghosts: normals, then vorticity
+    std::vector<Real> strength_;          ///< of the vorticity, also of ghosts
+    std::vector<Vec3<Real>> separation_;  ///< displacement by separate_overlaps, by slot; empty where nothing overlaps
+    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, max_speed_square_, response_, target_,
+        impulse_, impulse_sum_, zeroth_order_correction_;
     Vector3Array<Real> zeroth_;
     std::array<AlignedVector<Real>, 6> correction_;
     AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_, packed_zeroth_order_;

@@ -39,8 +39,8 @@ void Water<Real>::add_cohesion(ThreadTeam& team) {
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
         for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>& difference, Real r) {
-            sum += physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot],
-                                          inverse_mass_[other]);
+            sum +=
+                physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot], inverse_mass_[other]);
         });
         push(slot, -step * sum);
     });
@@ -95,9 +95,8 @@ void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::drag_free_surface(ThreadTeam& team) {
     const Real step = h_ * static_cast<Real>(model_.parameters.free_surface_drag);
-    for_fluid_slots(team, [&](int slot) {
-        velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step));
-    });
+    for_fluid_slots(team,
+                    [&](int slot) { velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step)); });
 }
 
 template <class Real>

@@ -1,6 +1,6 @@
-// What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs keep
-// their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the zeroth_order_correction
-// that is given back once they are over.
+// What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs
+// keep their gradients through a substep, so all of its passes together are one with the sums of their impulses, and
+// the zeroth_order_correction that is given back once they are over.
 #include "physics/dfsph.h"
 #include "physics/water_force.h"
 #include "water.h"
@@ -44,10 +44,12 @@ void Water<Real>::add_pressure_forces() {
     const WaterView<Real> all = view();
     const physics::WendlandKernel<Real> kernel{all.inverse_radius, all.kernel_scale, all.slope_scale};
     for_each_solid_slot([&](int slot, int particle) {
-        if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
+        if (carried_.any())
+            impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
             const Real* const zeroth_order_correction = &packed_zeroth_order_[4 * static_cast<std::size_t>(of)];
-            return {volume_[of], impulse_sum_[of < ghost_begin_ ? of : ghost_owner_[of - ghost_begin_]],
+            return {volume_[of],
+                    impulse_sum_[of < ghost_begin_ ? of : ghost_owner_[of - ghost_begin_]],
                     {zeroth_order_correction[0], zeroth_order_correction[1], zeroth_order_correction[2]}};
         };
         const physics::PairSide<Real> own = side(slot);

@@ -47,7 +47,8 @@ void Water<Real>::make_room(std::size_t slots) {
     const std::size_t room = round_up_to_block(static_cast<int>(slots + slots / 8));
     for (auto* array : {&position_, &velocity_}) array->resize(room);
     for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
-    for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_zeroth_order_}) array->resize(4 * room);
+    for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_zeroth_order_})
+        array->resize(4 * room);
 }
 
 /// Numbers the slots by cell, first of the particles, then of the ghosts.

@@ -31,8 +31,8 @@ __device__ void send_velocities_to_water(const ModelView<Real>& model, const Slo
     });
 }
 
-/// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by then.
-/// One block.
+/// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by
+/// then. One block.
 template <class Real>
 __device__ void solids_in_memory(const ModelView<Real>& model, const Slots<Real>& slots) {
     iterate_solids(model, SolidsInMemory<Real>(model, slots), slots.h, [&] {

@@ -43,14 +43,16 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if constexpr (pairs == Pairs::searched)
             each_pair<water_impulses<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 3, water_impulses<which, pairs, many_lanes, Real>, 6>();
+            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 3,
+                               water_impulses<which, pairs, many_lanes, Real>, 6>();
     }
     template <Pass which>
     void push_apart() const {
         if constexpr (pairs == Pairs::searched)
             each_pair<push_water_apart<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, 4, push_water_apart<which, pairs, many_lanes, Real>, 8>();
+            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, 4,
+                               push_water_apart<which, pairs, many_lanes, Real>, 8>();
     }
     /// By few threads for a slot where that is enough to fill the GPU. Each with its own least blocks.
     template <auto by_few, int few_at_once, auto by_many, int many_at_once>
@@ -65,7 +67,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     template <Pass which>
     void rare_pass() const {
         launch.template each_crowded_slot<water_impulses<which, pairs, many_lanes, Real>, many_lanes>(model.particles);
-        launch.template each_crowded_slot<push_water_apart<which, pairs, many_lanes, Real>, many_lanes>(model.particles);
+        launch.template each_crowded_slot<push_water_apart<which, pairs, many_lanes, Real>, many_lanes>(
+            model.particles);
     }
 
     /// And their densities.
@@ -84,7 +87,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void list_water_neighbours() const {
         const int rows = blocks_for(model.particles, slots_of_row);
-        constexpr int few = 192, many = 448;  // neighbours that a list on the chip has room for: fewer let more blocks run at once
+        constexpr int few = 192,
+                      many = 448;  // neighbours that a list on the chip has room for: fewer let more blocks run at once
         if (usual_water_neighbours(model.water.radius / model.water.spacing) < few * 3 / 4)
             launch.template each_state<find_water_neighbours_on_grid<few, Real>, water_row>(rows);
         else

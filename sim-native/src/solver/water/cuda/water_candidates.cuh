@@ -25,7 +25,8 @@ struct Candidates {
     int begin, end;
 };
 
-/// Those of row `around` of the nine rows of cells around x, but for cells that are further away than the kernel's support.
+/// Those of row `around` of the nine rows of cells around x, but for cells that are further away than the kernel's
+/// support.
 template <class Real>
 __device__ Candidates candidates_around(const ModelView<Real>& model, const Slots<Real>& slots, const Vec3<Real>& x,
                                         int around) {
@@ -44,7 +45,8 @@ __device__ Candidates candidates_around(const ModelView<Real>& model, const Slot
     return {low > 0 ? table[low - 1] : 0, min(table[high], slots.water_room.copies)};
 }
 
-/// All threads of a warp, for functions that take some of them: with a number that the compiler knows they take half of the time.
+/// All threads of a warp, for functions that take some of them: with a number that the compiler knows they take half of
+/// the time.
 using AllLanes = std::integral_constant<unsigned, 0xffffffff>;
 
 /// A thread's value, from the thread itself: the compiler would compute it anew wherever it is used, if it knew how.
@@ -64,10 +66,11 @@ __device__ int max_of_slots(Lanes lanes, int value) {
     return largest;
 }
 
-/// Calls keep(before, near, n, k, candidate) for candidates k of a slot, in the order of the cells. Those that are `near` are its neighbours n: what
-/// is within the kernel's support of it, solids and ghosts too; `before` is how many were found already, the same for all that share the
-/// slot. Returns how many there are, 0 if they are not `wanted`. A lane looks up a row of cells for all that share the slot. The threads
-/// of a warp that are in `lanes` call it and stay together, those that have no candidate left as well.
+/// Calls keep(before, near, n, k, candidate) for candidates k of a slot, in the order of the cells. Those that are
+/// `near` are its neighbours n: what is within the kernel's support of it, solids and ghosts too; `before` is how many
+/// were found already, the same for all that share the slot. Returns how many there are, 0 if they are not `wanted`. A
+/// lane looks up a row of cells for all that share the slot. The threads of a warp that are in `lanes` call it and stay
+/// together, those that have no candidate left as well.
 template <int unrolled, class Real, class Lanes, class Keep>
 __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slots, int slot, bool wanted, Lanes lanes,
                             const Keep& keep) {
@@ -84,8 +87,7 @@ __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slo
     int n = 0;
 #pragma unroll 1
     for (int around = 0; around < rows; ++around) {
-        if (around % pair_lanes == 0 && wanted)
-            own = candidates_around(model, slots, x, min(around + lane, rows - 1));
+        if (around % pair_lanes == 0 && wanted) own = candidates_around(model, slots, x, min(around + lane, rows - 1));
         const int begin = __shfl_sync(lanes, own.begin, around % pair_lanes, pair_lanes);
         const int end = __shfl_sync(lanes, own.end, around % pair_lanes, pair_lanes);
         int left = max_of_slots(lanes, end - begin);

@@ -5,7 +5,8 @@
 
 namespace natator::cuda {
 
-/// Wraps water that has left a periodic tank, puts what is behind planes before them, and counts particles and ghosts by cell.
+/// Wraps water that has left a periodic tank, puts what is behind planes before them, and counts particles and ghosts
+/// by cell.
 template <class Real>
 __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (s == 0) slots.shared().high = slots.shared().rows = 0;
@@ -23,12 +24,12 @@ __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slo
     water.position[s] = quad(in_tank, model.water.volume[number]);
     water.velocity[s] = quad(xyz(before), x.w);
     if (!fluid) water.slot_of_solid[number - model.fluid] = s;
-    for_each_copy(model, in_tank, [&](unsigned, const Vec3<Real>& at) {
-        atomicAdd(water.table + model.water.grid.cell(at), 1);
-    });
+    for_each_copy(model, in_tank,
+                  [&](unsigned, const Vec3<Real>& at) { atomicAdd(water.table + model.water.grid.cell(at), 1); });
 }
 
-/// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their ends.
+/// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their
+/// ends.
 template <class Real>
 __device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
@@ -40,8 +41,8 @@ __device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& s
     });
 }
 
-/// Lays out what searches read, in each cell by set of boundaries and then by particle: the order depends on positions alone. Where there
-/// is no room for all, it notes how much they need.
+/// Lays out what searches read, in each cell by set of boundaries and then by particle: the order depends on positions
+/// alone. Where there is no room for all, it notes how much they need.
 template <class Real>
 __device__ void order_water(const ModelView<Real>& model, const Slots<Real>& slots) {
     const WaterArrays<Real>& water = slots.water;

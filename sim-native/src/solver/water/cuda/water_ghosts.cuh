@@ -13,7 +13,8 @@ __device__ Vec3<Real> reflected(const GhostTransform<Real>& transform, const Vec
 }
 /// H L H^T.
 template <class Real>
-__device__ physics::Symmetric3<Real> reflected(const GhostTransform<Real>& transform, const physics::Symmetric3<Real>& l) {
+__device__ physics::Symmetric3<Real> reflected(const GhostTransform<Real>& transform,
+                                               const physics::Symmetric3<Real>& l) {
     const Vec3<Real> a = xyz(transform.row[0]), b = xyz(transform.row[1]), c = xyz(transform.row[2]);
     const Vec3<Real> x = l * a, y = l * b, z = l * c;
     return {dot(a, x), dot(b, y), dot(c, z), dot(a, y), dot(a, z), dot(b, z)};
@@ -31,11 +32,11 @@ __device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
     return fluid ? Real(physics::min_wall_distance) * model.water.spacing : model.collision_distance;
 }
 
-/// Calls visit(boundaries, position) for the ghosts of what is at x, itself a ghost of `boundaries` or none, in up to `max_more` more
-/// boundaries from number `first` on: in those that it is before, nearer than the kernel's support.
+/// Calls visit(boundaries, position) for the ghosts of what is at x, itself a ghost of `boundaries` or none, in up to
+/// `max_more` more boundaries from number `first` on: in those that it is before, nearer than the kernel's support.
 template <int max_more, class Real, class Visit>
-__device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& of, unsigned boundaries,
-                               int first, const Visit& visit) {
+__device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& of,
+                               unsigned boundaries, int first, const Visit& visit) {
     for (int k = first; k < model.water.boundaries; ++k) {
         const Real distance = distance_to(model.water.boundary[k].surface, x);
         if (!(distance >= 0 && distance < model.water.radius)) continue;

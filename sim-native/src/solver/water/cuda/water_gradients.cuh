@@ -29,7 +29,8 @@ public:
     __device__ GradientsOf(const ModelView<Real>& model, const WaterArrays<Real>& water, int s)
         : model_(model), here_(water.position[s]), own_(correction_of(water.correction[s], water.shear[s])) {}
 
-    __device__ Pair with(unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction, const Vec4<Real>& shear) const {
+    __device__ Pair with(unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
+                         const Vec4<Real>& shear) const {
         Vec3<Real> x = xyz(there);
         physics::Symmetric3<Real> its = correction_of(correction, shear);
         if (boundaries != 0) {  // few warps have ghosts
@@ -54,11 +55,11 @@ private:
     const physics::Symmetric3<Real> own_;
 };
 
-/// Calls visit(G_ij, slot, boundaries, values...) for this thread's share of the neighbours of slot s, once gradients are known, with what
-/// is at their slots in each of the arrays; as for_each_water_neighbour.
+/// Calls visit(G_ij, slot, boundaries, values...) for this thread's share of the neighbours of slot s, once gradients
+/// are known, with what is at their slots in each of the arrays; as for_each_water_neighbour.
 template <Pairs pairs, int batch = 4, class Real, class Visit, class... Value>
-__device__ void for_each_water_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end, const Visit& visit,
-                                    const Value*... array) {
+__device__ void for_each_water_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end,
+                                    const Visit& visit, const Value*... array) {
     const WaterArrays<Real>& water = slots.water;
     if constexpr (pairs == Pairs::listed) {
         for_each_water_entry<batch>(

@@ -8,7 +8,8 @@
 
 namespace natator::cuda {
 
-/// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so far.
+/// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so
+/// far.
 template <Pairs pairs, class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
@@ -17,8 +18,8 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     physics::ResponseSums<Real> sums;
     physics::PassingSpeed<Real> fastest;
     Real rate = 0;
-    const auto add = [&](std::size_t place, int, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
-                         const Vec4<Real>& shear, const Vec4<Real>& velocity) {
+    const auto add = [&](std::size_t place, int, unsigned boundaries, const Vec4<Real>& there,
+                         const Vec4<Real>& correction, const Vec4<Real>& shear, const Vec4<Real>& velocity) {
         auto [gradient, slope] = own.with(boundaries, there, correction, shear);
         const Vec3<Real> relative = xyz(reflected(model, velocity, boundaries)) - v;
         const PairGradient<Real> kept = PairGradient<Real>::keep(gradient);
@@ -27,8 +28,8 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
         fastest.add(relative, there.w * slope);
         rate += along(gradient, relative);
     };
-    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.correction, water.shear,
-                                       water.velocity);
+    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.correction,
+                                       water.shear, water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
     sums.square = sum_of_lanes(sums.square);
     rate = sum_of_lanes(rate);
@@ -85,9 +86,9 @@ __device__ Vec3<Real> apply_zeroth_order_correction(const ModelView<Real>& model
     const WaterArrays<Real>& water = slots.water;
     const Vec4<Real> zeroth = water.zeroth[s];
     const Real strength = physics::uncorrected_strength(slots.h, model.water.density);
-    const Real now = physics::zeroth_order_correction(water.density[s], water.impulse_sum[s],
-                                     physics::uncorrected_impulse(water.max_speed_square[s], strength),
-                                     physics::own_response(water.velocity[s].w, xyz(zeroth), water.response[s]));
+    const Real now = physics::zeroth_order_correction(
+        water.density[s], water.impulse_sum[s], physics::uncorrected_impulse(water.max_speed_square[s], strength),
+        physics::own_response(water.velocity[s].w, xyz(zeroth), water.response[s]));
     water.zeroth[s].w = now;
     return (now - zeroth.w) * xyz(zeroth);
 }
@@ -105,7 +106,9 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
     const Real* const impulse = pass == Pass::divergence ? water.impulse_sum : water.impulse;
     const Real own = impulse[s];
     ListSums<lanes, Vec3<Real>> sums;
-    const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real its) { sums[list] += (own + its) * gradient; };
+    const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real its) {
+        sums[list] += (own + its) * gradient;
+    };
     for_each_pass_pair<pairs, lanes, rows_of_impulses<lanes>>(model, slots, s, true, add, impulse);
     const Vec3<Real> sum = sums.total();
     if (!sums.first_lane()) return;
@@ -123,7 +126,8 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
     if (pass == Pass::density && !fluid && v.w > 0) move_solid(model, slots, s, slots.h * push);
 }
 
-/// Viscous impulses on one slot by its neighbours, see physics::ViscousSums: what water_viscosity and add_viscous_forces share.
+/// Viscous impulses on one slot by its neighbours, see physics::ViscousSums: what water_viscosity and
+/// add_viscous_forces share.
 template <class Real>
 class ViscousPairs {
 public:
@@ -135,8 +139,8 @@ public:
           most_(physics::viscous_limit(model.water.spacing, strength)) {}
 
     /// `there`, `velocity` and `shear`: the other's, as they are laid out.
-    __device__ void add(const Vec3<Real>& gradient, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& velocity,
-                        const Vec4<Real>& shear) {
+    __device__ void add(const Vec3<Real>& gradient, unsigned boundaries, const Vec4<Real>& there,
+                        const Vec4<Real>& velocity, const Vec4<Real>& shear) {
         const Vec3<Real> difference = xyz(here_) - ghost_position(model_.water, xyz(there), boundaries);
         const Vec3<Real> moves = xyz(reflected(model_, velocity, boundaries)) - xyz(moves_);
         const Real share = physics::viscous_share(here_.w * shear_.z, there.w * shear.z, most_) *
@@ -165,9 +169,8 @@ __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>&
     const Real strength = viscous_strength(model, slots);
     ViscousPairs<Real> sums(model, water, s, strength);
     const auto add = [&](const Vec3<Real>& gradient, int, unsigned boundaries, const Vec4<Real>& there,
-                         const Vec4<Real>& velocity, const Vec4<Real>& shear) {
-        sums.add(gradient, boundaries, there, velocity, shear);
-    };
+                         const Vec4<Real>& velocity,
+                         const Vec4<Real>& shear) { sums.add(gradient, boundaries, there, velocity, shear); };
     for_each_water_pair<pairs, 2>(model, slots, s, model.particles, add, water.position, water.velocity, water.shear);
     const Vec4<Real> moves = water.velocity[s];
     const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sums.impulse();
@@ -185,7 +188,8 @@ __device__ Vec4<Real> pushed_by_forces(const ModelView<Real>& model, const Water
     return model.plan.fluid_forces && fluid ? water.pushed[s] : pushed_by_viscosity(model, water, s);
 }
 
-/// Gravity; then x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
+/// Gravity; then x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's
+/// first.
 template <class Real>
 __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
@@ -206,8 +210,8 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
     water.velocity[s] = quad(fluid ? with_gravity : v, pushed.w);
     Vec3<Real> there = xyz(x) + slots.h * v;
     if (fluid)
-        there += physics::shift_of(water.density[s], xyz(water.crowding[s]), water.max_speed_square[s], model.water.radius,
-                                   model.water.spacing, slots.h);
+        there += physics::shift_of(water.density[s], xyz(water.crowding[s]), water.max_speed_square[s],
+                                   model.water.radius, model.water.spacing, slots.h);
     if (slots.shared().high)
         there += clamped(slots.h * xyz(water.separation[s]), Real(physics::max_separation) * model.water.spacing);
     const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
@@ -226,8 +230,8 @@ __device__ void lay_out_zeroth_order_correction(const ModelView<Real>& model, co
     water.zeroth_order_correction[s] = quad(zeroth.w * share * xyz(zeroth), water.impulse_sum[s]);
 }
 
-/// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
-/// boundaries, so only what is nearer to a plane than the kernel's support has any for neighbours.
+/// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are
+/// behind boundaries, so only what is nearer to a plane than the kernel's support has any for neighbours.
 template <Pairs pairs, class Real>
 __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
@@ -237,9 +241,11 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
         if constexpr (pairs == Pairs::listed)
             return water.pair[place].value();
         else
-            return GradientsOf<Real>(model, water, s).kept(boundaries, there, water.correction[other], water.shear[other]);
+            return GradientsOf<Real>(model, water, s)
+                .kept(boundaries, there, water.correction[other], water.shear[other]);
     };
-    const auto add = [&](std::size_t place, int other, unsigned boundaries, const Vec4<Real>& x, const Vec4<Real>& zeroth_order_correction) {
+    const auto add = [&](std::size_t place, int other, unsigned boundaries, const Vec4<Real>& x,
+                         const Vec4<Real>& zeroth_order_correction) {
         Vec3<Real> there = xyz(x), its = xyz(zeroth_order_correction);
         if (boundaries != 0) {  // all at once: few warps have ghosts
             there = ghost_position(model.water, there, boundaries);
@@ -248,14 +254,15 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
                 Vec3<Real> gravity = model.water.weight_on_walls;
                 if (const auto& carried = model.water.carried; carried.any())
                     gravity = gravity - carried.part(xyz(x)) * carried.gravity;
-                weight += physics::hydrostatic_ghost_impulse(slots.arrays.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
-                                                   zeroth_order_correction.w) *
+                weight += physics::hydrostatic_ghost_impulse(slots.arrays.state_position[other].w, x.w, slots.h,
+                                                             gravity, there - xyz(x), zeroth_order_correction.w) *
                           gradient_at(place, other, boundaries, x);
             }
         }
         given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * its;
     };
-    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.zeroth_order_correction);
+    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position,
+                                       water.zeroth_order_correction);
     given_back = sum_of_lanes(given_back);
     weight = sum_of_lanes(weight);
     if (own_lane() != 0) return;

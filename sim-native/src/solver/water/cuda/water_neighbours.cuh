@@ -53,9 +53,9 @@ __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& 
     ::cuda::std::apply([&](const Value&... value) { visit(slot, boundaries, value...); }, there);
 }
 
-/// Calls visit(place, own, slot, boundaries, values...) for this thread's share of the neighbours of slot s, with what `own_at` reads at
-/// the neighbour's place in the list and with what is at its slot in each of the arrays. Those of `batch` neighbours are under
-/// way at a time, and the entries of the next.
+/// Calls visit(place, own, slot, boundaries, values...) for this thread's share of the neighbours of slot s, with what
+/// `own_at` reads at the neighbour's place in the list and with what is at its slot in each of the arrays. Those of
+/// `batch` neighbours are under way at a time, and the entries of the next.
 template <int batch, class Real, class OwnAt, class Visit, class... Value>
 __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnAt& own_at, const Visit& visit,
                                      const Value*... array) {
@@ -89,8 +89,8 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
 
 struct Nothing {};
 
-/// Calls visit(place in the list, slot, boundaries, values...) for each of them; the place means nothing where they are searched, and the
-/// slots of all threads that call it are below `end`.
+/// Calls visit(place in the list, slot, boundaries, values...) for each of them; the place means nothing where they are
+/// searched, and the slots of all threads that call it are below `end`.
 template <Pairs pairs, int batch, class Real, class Visit, class... Value>
 __device__ void for_each_water_neighbour(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end,
                                          const Visit& visit, const Value*... array) {
@@ -103,11 +103,13 @@ __device__ void for_each_water_neighbour(const ModelView<Real>& model, const Slo
             array...);
     else
         for_each_found(
-            model, slots, s, end, true, own_lane(), [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
+            model, slots, s, end, true, own_lane(),
+            [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
             [&](unsigned entry) {
-                visit_entry(entry, values_at(entry, array...), [&](int slot, unsigned boundaries, const Value&... value) {
-                    visit(std::size_t{0}, slot, boundaries, value...);
-                });
+                visit_entry(entry, values_at(entry, array...),
+                            [&](int slot, unsigned boundaries, const Value&... value) {
+                                visit(std::size_t{0}, slot, boundaries, value...);
+                            });
             });
 }
 

@@ -7,7 +7,8 @@
 
 namespace natator::cuda {
 
-/// Gives the slots of a row so many rows. Returns the first, -1 where there is no room for all, and notes what they need. One thread.
+/// Gives the slots of a row so many rows. Returns the first, -1 where there is no room for all, and notes what they
+/// need. One thread.
 template <class Real>
 __device__ int take_rows(const Slots<Real>& slots, int rows) {
     const int first = atomicAdd(&slots.shared().rows, rows), end = first + rows;
@@ -24,7 +25,8 @@ __device__ Real volume_at(const ModelView<Real>& model, const Slots<Real>& slots
 
 /// Density, correction and crowding of a slot, by its threads' sums.
 template <class Real>
-__device__ void keep_moments(const ModelView<Real>& model, const Slots<Real>& slots, int s, physics::MomentSums<Real> sums) {
+__device__ void keep_moments(const ModelView<Real>& model, const Slots<Real>& slots, int s,
+                             physics::MomentSums<Real> sums) {
     sums.density = sum_of_lanes(sums.density);
     sums.moments = sum_of_lanes(sums.moments);
     sums.crowding = sum_of_lanes(sums.crowding);
@@ -42,10 +44,10 @@ __device__ void keep_moments(const ModelView<Real>& model, const Slots<Real>& sl
     if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
 
-/// Lists the neighbours of every slot, and computes its density. A block has the slots of a row: it searches for their neighbours
-/// into lists on the chip, which have room for `staged` candidates each, and then knows how many rows they need. Where some are
-/// longer, it searches once more. Each thread goes through its share of a list, as in for_each_water_neighbour, while the candidates
-/// are still in the cache.
+/// Lists the neighbours of every slot, and computes its density. A block has the slots of a row: it searches for their
+/// neighbours into lists on the chip, which have room for `staged` candidates each, and then knows how many rows they
+/// need. Where some are longer, it searches once more. Each thread goes through its share of a list, as in
+/// for_each_water_neighbour, while the candidates are still in the cache.
 template <int staged, class Real>
 __device__ void find_water_neighbours_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     // What does not belong into a list goes behind it, by lane; so lists of a warp begin in banks of their own.
@@ -73,7 +75,8 @@ __device__ void find_water_neighbours_on_grid(const ModelView<Real>& model, cons
     __syncthreads();
     const int kept = first_row < 0 ? 0 : n;
     if (lane == 0 && slot < model.particles) water.count[slot] = kept;
-    unsigned* const place = water.neighbour + static_cast<std::size_t>(max(first_row, 0)) * water_row + own * water_lists;
+    unsigned* const place =
+        water.neighbour + static_cast<std::size_t>(max(first_row, 0)) * water_row + own * water_lists;
     const bool on_chip = max_count <= staged;
     if (!on_chip && first_row >= 0) {
         const auto keep = [&](int, bool near, int k, int candidate, const Vec4<Real>&) {
@@ -88,7 +91,8 @@ __device__ void find_water_neighbours_on_grid(const ModelView<Real>& model, cons
         const Vec4<Real> other = water.candidate[on_chip ? list[k] : place[at]];
         const unsigned entry = entry_of(other);
         place[at] = entry;
-        sums.add(x - xyz(other), model.water.kernel, model.water.at_spacing, volume_at(model, slots, entry & slot_mask));
+        sums.add(x - xyz(other), model.water.kernel, model.water.at_spacing,
+                 volume_at(model, slots, entry & slot_mask));
     }
     keep_moments(model, slots, slot, sums);
 }
