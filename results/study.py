@@ -160,7 +160,8 @@ def chance(p):
 def table(head, rows, aligned=None):
     """Rows of texts as a table of Markdown. aligned: a sign for each column, > to the right; by default the first to the left."""
     marks = ["---:" if sign == ">" else "---" for sign in aligned or "<" + ">" * (len(head) - 1)]
-    return "".join("| " + " | ".join(row) + " |\n" for row in [head, marks, *rows])
+    lines = ["| " + " | ".join(row) + " |\n" for row in [head, *rows]]
+    return "".join([lines[0], "|" + "|".join(marks) + "|\n", *lines[1:]])
 
 
 def filled(page, **parts):

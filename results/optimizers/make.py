@@ -136,8 +136,8 @@ def again_table(found):
 
 def tests_table(found):
     rows = [[row.first, row.second, study.interval_text((row.difference, row.low, row.high), 4), study.chance(row.p_holm).removeprefix("= "),
-             study.fixed(row.a, 2), study.fixed(row.cliffs_delta, 2)] for row in found[found.equal == TOLD].itertuples(name="Pair")]
-    return study.table(["first", "second", "difference of medians", "p", "A", "Cliff's δ"], rows, "<<>>>>") if rows else "nothing to compare\n"
+             study.fixed(row.a, 2)] for row in found[found.equal == TOLD].itertuples(name="Pair")]
+    return study.table(["first", "second", "difference of medians", "p", "A"], rows, "<<>>>") if rows else "nothing to compare\n"
 
 
 def choice_table(scene):

@@ -47,7 +47,7 @@ def keep():
 
 def table(path):
     results = {one["id"]: one for one in map(json.loads, open(path))}
-    print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | change at half the cells, the step | Reynolds, Strouhal |\n| --- " + "| ---: " * (len(LEVELS) + 2) + "|")
+    print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | change at half the cells, the step | Reynolds, Strouhal |\n|---" + "|---:" * (len(LEVELS) + 2) + "|")
     for body, (_, _, gaits) in BODIES.items():
         changes = []
         for k, one in enumerate(gaits):

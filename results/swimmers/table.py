@@ -8,7 +8,7 @@ FILE = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__)
 
 
 def rows(file, picked, header):
-    print(f"| {' | '.join(header)} |\n| {' | '.join('---' for _ in header)} |")
+    print(f"| {' | '.join(header)} |\n|{'|'.join('---' for _ in header)}|")
     with open(file, encoding="utf-8") as lines:
         for row in csv.DictReader(lines):
             print(f"| {' | '.join(picked(row))} |")

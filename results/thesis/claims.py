@@ -12,7 +12,7 @@ STILL = 0.01  # units/s: slower is no motion in vacuum worth the name
 # What this study cannot test, and why.
 UNTESTED = (("more substeps, iterations and a larger radius cost more", "what they cost is measured, interleaved, in "
              "[benchmarks](../benchmarks/README.md); a study's runs share their machine"),
-            ("a body sampled from a triangle mesh does not swim", "that mesh is not published; Natator's own bodies from meshes swim, see the ray in "
+            ("a body sampled from a triangle mesh does not swim", "that mesh is not published; Natator's own do swim, such as the ray in "
              "[pictures](../pictures/README.md)"))
 
 

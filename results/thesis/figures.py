@@ -171,6 +171,5 @@ def draw(study, found, anew):
         for _, picture in drawings.values():
             picture()
     shown = {name: f"![{about}](figures/{name}.png)" for name, (about, _) in drawings.items()}
-    gallery = "\n\n".join(f"<details><summary>{drawings[name][0]}</summary>\n\n{picture}\n\n</details>" for name, picture in shown.items()
-                          if name != "speeds")
+    gallery = "\n".join(f"- {picture.removeprefix('!')}" for name, picture in shown.items() if name != "speeds")
     return {"speeds_drawn": shown["speeds"], "gallery": gallery}

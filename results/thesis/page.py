@@ -246,17 +246,18 @@ class Page:
         return None if not runs else "no fish" if like is None else f"{FISH[like]} fish"
 
     def answer(self):
-        published, evolved, fastest, without, eel, kept = (in_each(one) for one in (
+        published, evolved, fastest, without, eel = (in_each(one) for one in (
             lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest,
-            self.without_water, self.eel, lambda water: claims.kept(self.claims, water)))
+            self.without_water, self.eel))
+        kept = in_each(lambda water: claims.kept(self.claims, water), "; ")
         if not published:
             return "**Nothing is measured yet.**"
-        return " ".join([f"**Of the thesis' gaits {published} swim by every control" + (f"; of the gaits that evolved here {evolved} do.**" if evolved
+        return " ".join([f"**Of the thesis' gaits {published} swim by every control" + (f". Of the gaits that evolved here {evolved} do.**" if evolved
                                                                                          else ".**")]
                         + ([f"The fastest that swims is {fastest}."] if fastest else [])
-                        + ([f"Without water, where nothing can swim, what evolved moves at up to {without}."] if without else [])
+                        + ([f"Without water, where nothing can swim, the evolved gaits move at up to {without}."] if without else [])
                         + ([f"Creature 2, which the thesis found to swim like an eel, evolves to swim like {eel}."] if eel else [])
-                        + ([f"Of the thesis' conclusions that can be tested {kept}."] if kept else []))
+                        + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
 
     def evidence(self):
         rows = [["creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex", "evolved, open water"]]
@@ -328,12 +329,12 @@ class Page:
         return "\n".join(f"- {one}" for one in plan.THESIS["about"])
 
 
-def in_each(of):
+def in_each(of, between=" and "):
     """What is said of each water, where there is something; once, if it is the same in all."""
     told = [of(water) for water in WATERS]
     if told[0] and len(set(told)) == 1:
         return f"{told[0]} in both waters"
-    return ", ".join(f"{one} in {'`flex`' if water == 'flex' else WORDS[water]}" for water, one in zip(WATERS, told) if one)
+    return between.join(f"{one} in {'`flex`' if water == 'flex' else WORDS[water]}" for water, one in zip(WATERS, told) if one)
 
 
 def listed(numbers):

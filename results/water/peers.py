@@ -136,7 +136,7 @@ def print_table(rows):
         if not runs:
             continue
         print(f"| {case} | {' | '.join(names)} | run time (s) | particles |")
-        print("| --- |" + " ---: |" * (len(names) + 2))
+        print("|---|" + "---:|" * (len(names) + 2))
         for (program, setting, particles, run_time), values in runs.items():
             print(f"| {program} {setting} | {' | '.join(values[name] for name in names)} | {run_time} | {particles} |")
         print()

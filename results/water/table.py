@@ -160,7 +160,7 @@ def why(case, quantity, cells):
 
 def of_cases(rows):
     yield "| case, resolution | figure | exact | target | 2 × 4 | smaller steps | reason |"
-    yield "| --- | --- | ---: | --- | ---: | --- | --- |"
+    yield "|---|---|---:|---|---:|---|---|"
     for case, figures, resolutions in CASES:
         for resolution, finer in resolutions.items():
             at = pick(rows, case=case, resolution=str(resolution))
@@ -183,7 +183,7 @@ def of_cases(rows):
 def of_figures(rows):
     """Of each figure what it is at resolution 20, by 2 x 4, and at the finest resolution, by the finest steps there."""
     yield "| case | figure | exact | target | 20: 2 × 4 | finest | reason |"
-    yield "| --- | --- | ---: | --- | ---: | --- | --- |"
+    yield "|---|---|---:|---|---:|---|---|"
     for case, figures, resolutions in CASES:
         for k, (quantity, name) in enumerate(figures.items()):
             measured, finest = pick(rows, case=case, quantity=quantity, scheme="conserving"), str(max(resolutions))
@@ -204,7 +204,7 @@ def of_figures(rows):
 def of_settings(rows, settings):
     """On the CPU at resolution 20, what the first of the settings has there."""
     yield "| | exact | " + " | ".join(map(in_words, settings)) + " |"
-    yield "| --- | ---: |" + " ---: |" * len(settings)
+    yield "|---|---:|" + "---:|" * len(settings)
     for case, figures, _ in CASES:
         for quantity, name in figures.items():
             shown = [pick(rows, case=case, quantity=quantity, scheme="conserving", backend="cpu", resolution="20", setting=steps)
@@ -216,7 +216,7 @@ def of_settings(rows, settings):
 def of_depths(rows, settings, depths):
     """How fast still water bobs on the GPU, by its depth and the steps."""
     yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
-    yield "| ---: |" + " ---: |" * len(settings)
+    yield "|---:|" + "---:|" * len(settings)
     for depth in depths:
         some = pick(rows, case="still-water", backend="cuda", resolution=str(depth))
         yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"

@@ -12,7 +12,7 @@ trap 'rm -rf "$folder"' EXIT
 
 # feature, then a pattern for the functions that do it and nothing else
 features=$(cat <<'TEXT'
-fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_moments|compute_gradients|compute_impulse|apply_impulse|apply_zeroth_order_correction|return_zeroth_order_correction|lay_out_zeroth_order_correction|pack|give_images)(_of)?[<(]
+fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_moments|compute_gradients|compute_impulse|apply_impulse|apply_zeroth_order_correction|return_zeroth_order_correction|lay_out_zeroth_order_correction|pack|update_ghosts)(_of)?[<(]
 fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|find_one_by_vectors|find_two_by_vectors|interleave_by_vectors|add_runs|go_to)[<(]
 planes|::(find_plane_contacts|leave_planes|solve_planes|before_planes|apply_wall_pressure)[(]
 contacts|::(find_contacts|solve_contacts)[(]

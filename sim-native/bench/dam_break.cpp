@@ -13,8 +13,8 @@
 namespace natator::bench {
 namespace {
 
-constexpr int depth = 10;       ///< particles across the plane of the flow
-constexpr double settling = 1;  ///< s
+constexpr int depth = 10;                   ///< particles across the plane of the flow
+constexpr double settling = 1;              ///< s
 constexpr double calming_viscosity = 0.02;  ///< length^2/s, while settling
 
 /// Length along x between wall and gate.
@@ -98,7 +98,8 @@ Model dam_break_model(const DamBreak& column, Scheme scheme) {
         p.flex.viscosity = p.damping = p.dynamic_friction = p.static_friction = p.particle_friction = 0;
     }
     FluidBlock block = scene.fluid.value();
-    if (scheme == Scheme::conserving) block.spacing = model.parameters.fluid_rest_distance;  // its lattice at rest density
+    if (scheme == Scheme::conserving)
+        block.spacing = model.parameters.fluid_rest_distance;  // its lattice at rest density
     block.count = {column.width, column.height_over_base * column.width, depth};
     block.gradient = MassGradient::uniform;
     block.bottom_mass = 1;

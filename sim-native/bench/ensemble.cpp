@@ -37,9 +37,8 @@ void run_ensemble_study(const EnsembleStudy& study, ResultTable& table,
             for (const Setting& setting : study.settings) {
                 Row row = key_of(creature, setting, seed);
                 if (table.has(row)) continue;
-                const EvaluationOptions options{
-                    .precision = setting.precision,
-                    .perturbation = {study.perturbation, static_cast<std::uint64_t>(seed)}};
+                const EvaluationOptions options{.precision = setting.precision,
+                                                .perturbation = {study.perturbation, static_cast<std::uint64_t>(seed)}};
                 const Evaluation result =
                     evaluate(scene_for(creature, setting, study.duration), thesis_gait(creature), options);
                 const bool stable = !result.instability;

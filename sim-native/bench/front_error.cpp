@@ -6,7 +6,7 @@ namespace natator::bench {
 namespace {
 
 /// y at x on the polyline through points whose x grows.
-double interpolated(const FrontCurve& curve, double FrontPoint::*x, double FrontPoint::*y, double at) {
+double interpolated(const FrontCurve& curve, double FrontPoint::* x, double FrontPoint::* y, double at) {
     if (at <= curve.front().*x) return curve.front().*y;
     for (std::size_t i = 1; i < curve.size(); ++i) {
         const FrontPoint &a = curve[i - 1], &b = curve[i];

@@ -29,9 +29,9 @@ std::vector<Crowd> crowds(bool quick) {
 }
 
 Row row_of(const Row& key, double bytes_of_pair, double pairs, double seconds, const std::string& share) {
-    return joined_rows(key, {number_text(bytes_of_pair), measured_text(pairs), measured_text(seconds),
-                             measured_text(1e-6 * pairs / seconds),
-                             measured_text(1e-9 * bytes_of_pair * pairs / seconds), share});
+    return joined_rows(
+        key, {number_text(bytes_of_pair), measured_text(pairs), measured_text(seconds),
+              measured_text(1e-6 * pairs / seconds), measured_text(1e-9 * bytes_of_pair * pairs / seconds), share});
 }
 
 }  // namespace

@@ -8,18 +8,19 @@ namespace natator::bench {
 namespace {
 
 BatchOptions options_of(const GpuSpeedStudy& study, Precision precision) {
-    return {.precision = precision, .device = study.device, .whole_gpu = study.whole_gpu, .without_lists = study.without_lists};
+    return {.precision = precision,
+            .device = study.device,
+            .whole_gpu = study.whole_gpu,
+            .without_lists = study.without_lists};
 }
 
 Row figures(const Scene& scene, std::size_t evaluations, int repeats, const TimedBatch& measured) {
     const SpeedWork work = speed_work(scene);
     const double particle_iterations = static_cast<double>(evaluations) * work.particle_iterations;
-    return joined_rows(work.columns, {std::to_string(repeats),
-                                      measured_text(measured.device.kernel),
-                                      measured_text(measured.device.settling),
-                                      measured_text(measured.whole),
-                                      measured_text(1e-6 * particle_iterations / measured.device.kernel),
-                                      measured.hash});
+    return joined_rows(work.columns,
+                       {std::to_string(repeats), measured_text(measured.device.kernel),
+                        measured_text(measured.device.settling), measured_text(measured.whole),
+                        measured_text(1e-6 * particle_iterations / measured.device.kernel), measured.hash});
 }
 
 }  // namespace
@@ -48,8 +49,8 @@ Row gpu_speed_profile_columns() {
 
 void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultTable& profile,
                          const std::function<void(const std::string&)>& report) {
-    const std::string device = gpu_name(study.device) + (study.whole_gpu ? "; whole" : "") +
-                               (study.without_lists ? "; without lists" : "");
+    const std::string device =
+        gpu_name(study.device) + (study.whole_gpu ? "; whole" : "") + (study.without_lists ? "; without lists" : "");
     for (const SpeedScene& named : study.scenes)
         for (const Scheme scheme : study.schemes) {
             Scene scene = make_speed_scene(named, study.quick);

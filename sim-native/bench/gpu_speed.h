@@ -18,7 +18,7 @@ struct GpuSpeedStudy {
     std::vector<int> batches{1, 150};  ///< evaluations per launch
     int device = 0;
     int repeats = 3;
-    bool quick = false;      ///< a few frames of each scene
+    bool quick = false;          ///< a few frames of each scene
     bool whole_gpu = false;      ///< for each evaluation, however small; the device's name says so
     bool without_lists = false;  ///< of the neighbours of water; likewise
 };

@@ -122,14 +122,19 @@ Steps steps_of(const std::string& text) {
         parts >> modified;
         steps.modified_pressure = true;
     }
-    const bool fits = parts && parts.peek() == std::istringstream::traits_type::eof() && cross == 'x' && modified == 'm';
+    const bool fits =
+        parts && parts.peek() == std::istringstream::traits_type::eof() && cross == 'x' && modified == 'm';
     const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
     if (!fits || !allowed(steps.substeps) || !allowed(steps.iterations))
-        throw InputError("--setting = " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4, or the same with m behind it for the modified pressure");
+        throw InputError(
+            "--setting = " + quoted(text) +
+            ": must be SUBSTEPSxITERATIONS, such as 8x4, or the same with m behind it for the modified pressure");
     return steps;
 }
 
-Steps steps_of(const Setting& setting) { return {setting.substeps, setting.iterations, setting.modified_pressure}; }
+Steps steps_of(const Setting& setting) {
+    return {setting.substeps, setting.iterations, setting.modified_pressure};
+}
 
 void set_steps(const Steps& steps, SolverParameters& solver) {
     solver.substeps = steps.substeps;

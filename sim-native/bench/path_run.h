@@ -21,15 +21,16 @@ struct Setting {
     bool modified_pressure = false;
 };
 
-/// How finely time is cut, and what the iterations of scheme conserving look for, see SolverParameters::modified_pressure.
+/// How finely time is cut, and what the iterations of scheme conserving look for, see
+/// SolverParameters::modified_pressure.
 struct Steps {
     int substeps = 4, iterations = 4;
     bool modified_pressure = false;
 
     std::string text() const;  ///< as steps_of reads it
 };
-/// Of "8x4": 8 substeps of 4 iterations; of "8x4m": for the modified pressure. Throws InputError, which names option --setting, for
-/// anything else.
+/// Of "8x4": 8 substeps of 4 iterations; of "8x4m": for the modified pressure. Throws InputError, which names option
+/// --setting, for anything else.
 Steps steps_of(const std::string& text);
 Steps steps_of(const Setting& setting);
 void set_steps(const Steps& steps, SolverParameters& solver);

@@ -11,7 +11,7 @@ namespace {
 /// Columns of precision_columns().
 enum Column { scene, scheme, precision, substeps, iterations, status, repeats, run_time, error_early, error_late };
 
-constexpr double fewest_substeps = 4;  ///< in a fit: fewer are far from the limit
+constexpr double min_substeps = 4;  ///< in a fit: fewer are far from the limit
 
 double value_of(const Row& row, Column column) {
     double value = 0;
@@ -34,7 +34,7 @@ std::string order_text(const std::vector<Row>& rows, Column error) {
 ResultTable convergence_orders(const std::vector<Row>& rows) {
     std::map<Row, std::vector<Row>> groups;
     for (const Row& row : rows) {
-        const bool fits = row[status] == "ok" && value_of(row, substeps) >= fewest_substeps;
+        const bool fits = row[status] == "ok" && value_of(row, substeps) >= min_substeps;
         if (fits && row[precision] == to_string(Precision::double_precision))
             groups[{row[scene], row[scheme], row[iterations]}].push_back(row);
     }

@@ -52,7 +52,9 @@ private:
 std::string number_text(double value);
 /// The same to 6 digits, for what was measured.
 std::string measured_text(double value);
-inline std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+inline std::string yes_or_no(bool value) {
+    return value ? "yes" : "no";
+}
 
 /// The fields of one row, then those of another.
 Row joined_rows(Row key, const Row& rest);

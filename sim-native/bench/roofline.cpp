@@ -113,7 +113,8 @@ constexpr std::array counted_stages = {
     // difference 3, r^2 5, 1/r 1, 1 - q 4, s 3, sums 6, count 1; index, quadruple, r in
     CountedStage{Scheme::flex, "density constraint", false, 23, 24},
     CountedStage{Scheme::conserving, "fluid neighbours", true, 9, 12.8},
-    // impulse: difference of velocities 3, product 5, sum 1; push: sum of impulses 1, sums 6; twice index and gradient in, a
+    // impulse: difference of velocities 3, product 5, sum 1; push: sum of impulses 1, sums 6; twice index and gradient
+    // in, a
     // quadruple and an impulse by index
     CountedStage{Scheme::conserving, "density constraint", false, 16, 52},
 };
@@ -132,9 +133,9 @@ Pairs count_pairs(const Model& model, const State<float>& state, const std::vect
         }
     cpu::CellGrid<float> grid;
     const SolverParameters& p = model.parameters;
-    const auto search = static_cast<float>(model.scheme == Scheme::conserving
-                                               ? p.conserving.kernel_support * p.fluid_rest_distance
-                                               : p.radius + p.particle_collision_margin);
+    const auto search =
+        static_cast<float>(model.scheme == Scheme::conserving ? p.conserving.kernel_support * p.fluid_rest_distance
+                                                              : p.radius + p.particle_collision_margin);
     grid.cover(low, high, search, 1 << 20);
     std::vector<int> in_cell(grid.cells(), 0);
     const auto cell_of = [&](int i) {

@@ -15,7 +15,7 @@ namespace {
 
 /// Sums over particles and frames.
 struct DensitySums {
-    double excess = 0, largest_excess = 0, deviation = 0;
+    double excess = 0, max_excess = 0, deviation = 0;
     double samples = 0, deep_samples = 0;
 
     template <class Real>
@@ -26,7 +26,7 @@ struct DensitySums {
         for (int i = 0; i < model.particles(); ++i) {
             const double difference = static_cast<double>(densities[i]) - 1;
             excess += std::max(difference, 0.0);
-            largest_excess = std::max(largest_excess, difference);
+            max_excess = std::max(max_excess, difference);
             samples += 1;
             if (static_cast<double>(state.position[i].y()) > deep) continue;
             deviation += std::abs(difference);
@@ -55,7 +55,7 @@ SettledTankRun run_as(const Model& model, const Settling& settling, double rest,
     if (run.instability) return run;
     run.frame_seconds = median(seconds);
     run.density_error_mean = sums.excess / sums.samples;
-    run.density_error_max = sums.largest_excess;
+    run.density_error_max = sums.max_excess;
     run.density_deviation = sums.deviation / std::max(sums.deep_samples, 1.0);
     return run;
 }
@@ -67,7 +67,8 @@ SettledTankRun run_settled_tank(const Setting& setting, double rest, double wind
     scene.scheme = setting.scheme;
     set_steps(steps_of(setting), scene.solver);
     const Model model = build_model(scene);
-    return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
+    return in_precision(setting.precision,
+                        [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
 }
 
 }  // namespace natator::bench

@@ -27,10 +27,14 @@ struct NamedScene {
 };
 
 constexpr std::array known_scenes = {
-    NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},  NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
-    NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},  NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
-    NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0}, NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
-    NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},   NamedScene{"open-water", "open-water/creature-2", 1, 1, 30},
+    NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},
+    NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
+    NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},
+    NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
+    NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0},
+    NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
+    NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},
+    NamedScene{"open-water", "open-water/creature-2", 1, 1, 30},
 };
 
 Scene make_scene(const NamedScene& named, bool quick) {
@@ -57,7 +61,8 @@ std::string SpeedScene::text() const {
     return steps ? name + ' ' + steps->text() : name;
 }
 
-std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings) {
+std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names,
+                                        const std::vector<std::string>& settings) {
     std::vector<SpeedScene> scenes;
     for (const std::string& name : names) {
         if (settings.empty()) scenes.push_back({name});
@@ -76,8 +81,9 @@ SpeedWork speed_work(const Scene& scene) {
     const Model model = build_model(scene);
     const int fluid = fluid_particles(model), iterations = model.parameters.iterations;
     const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
-    return {{std::to_string(model.particles()), std::to_string(fluid), number_text(substeps), std::to_string(iterations)},
-            (fluid > 0 ? fluid : model.particles()) * substeps * iterations};
+    return {
+        {std::to_string(model.particles()), std::to_string(fluid), number_text(substeps), std::to_string(iterations)},
+        (fluid > 0 ? fluid : model.particles()) * substeps * iterations};
 }
 
 Gait speed_gait(const Scene& scene) {
@@ -128,12 +134,9 @@ void measure(TimedScene& one) {
 Row figures(const TimedScene& one) {
     const SpeedWork work = speed_work(one.scene);
     const double least = *std::min_element(one.seconds.begin(), one.seconds.end());
-    return joined_rows(work.columns, {std::to_string(one.seconds.size()),
-                                      measured_text(least),
-                                      measured_text(median(one.seconds)),
-                                      measured_text(1e-6 * work.particle_iterations / least),
-                                      measured_text(one.peak_mb),
-                                      one.hash});
+    return joined_rows(work.columns,
+                       {std::to_string(one.seconds.size()), measured_text(least), measured_text(median(one.seconds)),
+                        measured_text(1e-6 * work.particle_iterations / least), measured_text(one.peak_mb), one.hash});
 }
 
 }  // namespace
@@ -187,8 +190,9 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
             table.add(joined_rows(one.key, figures(one)));
             report(joined(table.rows().back(), " "));
             for (const StageProfile::Entry& entry : one.profile.entries())
-                profile.add(joined_rows(one.key, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
-                                                  measured_text(entry.seconds / one.profile.seconds())}));
+                profile.add(
+                    joined_rows(one.key, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
+                                          measured_text(entry.seconds / one.profile.seconds())}));
         }
     }
 }

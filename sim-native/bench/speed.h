@@ -29,12 +29,13 @@ struct SpeedStudy {
     bool quick = false;  ///< a few frames of each scene
 };
 
-/// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, its tank with 8 and 64 times the fluid, and creature 2 in
-/// open water.
+/// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, its tank with 8 and 64 times the fluid, and
+/// creature 2 in open water.
 std::vector<std::string> speed_scene_names();
-/// Each of these scenes at each of these settings, such as "2x4"; without settings at its own. Throws InputError for what is no
-/// setting.
-std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings);
+/// Each of these scenes at each of these settings, such as "2x4"; without settings at its own. Throws InputError for
+/// what is no setting.
+std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names,
+                                        const std::vector<std::string>& settings);
 /// The scene itself, or a few frames of it if `quick`. Throws InputError for an unknown name.
 Scene make_speed_scene(const SpeedScene& named, bool quick);
 /// What all frames of a scene are, without settling: columns particles, fluid_particles, substeps, iterations.

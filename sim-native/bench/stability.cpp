@@ -14,7 +14,7 @@
 namespace natator::bench {
 namespace {
 
-constexpr int fewest_frames = 8;
+constexpr int min_frames = 8;
 
 /// Moves a tank that goes along with its swimmer: whether it did.
 template <class Real>
@@ -30,7 +30,7 @@ bool follow(std::optional<MovingFrame>& follower, const Model& model, State<Real
 /// `solver`: a Solver or a GpuSolver.
 template <class Real, class AnySolver>
 StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const Model& model) {
-    const int frames = std::max(fewest_frames, static_cast<int>(std::lround(subject.scene.duration / model.time_step)));
+    const int frames = std::max(min_frames, static_cast<int>(std::lround(subject.scene.duration / model.time_step)));
     const int first_judged = static_cast<int>(std::lround(subject.judged_from * frames));
     LawWatch laws(model);
     laws.drive_by(subject.gait);
@@ -46,11 +46,13 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
         instability = solver.frame(state, subject.gait);
         if (instability) break;
         state.time = frame * model.time_step;
-        if (frame >= first_judged) instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
-        if (!instability && follow(follower, model, state)) laws.begin_anew();
+        if (frame >= first_judged)
+            instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
+        if (!instability && follow(follower, model, state)) laws.restart();
     }
     if (!instability)
-        instability = laws.look_at_compression(conservation_errors(model, state, solver.densities()).density_error_mean, state.time);
+        instability = laws.look_at_compression(conservation_errors(model, state, solver.densities()).density_error_mean,
+                                               state.time);
     result.time = state.time;
     result.margins = laws.margins();
     return result;
@@ -58,12 +60,14 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
 
 }  // namespace
 
-StabilityResult run_stability(const StabilityCase& subject, Precision precision, const std::optional<GpuSolverOptions>& gpu) {
+StabilityResult run_stability(const StabilityCase& subject, Precision precision,
+                              const std::optional<GpuSolverOptions>& gpu) {
     Model model = build_model(subject.scene);
     if (subject.rearrange) subject.rearrange(model);
     return in_precision(precision, [&](auto real) {
         using Real = decltype(real);
-        return gpu ? run_by<Real>(GpuSolver<Real>(model, *gpu), subject, model) : run_by<Real>(Solver<Real>(model), subject, model);
+        return gpu ? run_by<Real>(GpuSolver<Real>(model, *gpu), subject, model)
+                   : run_by<Real>(Solver<Real>(model), subject, model);
     });
 }
 

@@ -26,7 +26,9 @@ void for_each_gait(StabilityCase& subject, const std::function<void(Gait&)>& cha
 }
 
 void set_stiffness(StabilityCase& subject, double stiffness) {
-    for_each_creature(subject, [stiffness](Creature& creature) { creature.cluster_stiffness = creature.spring_stiffness = stiffness; });
+    for_each_creature(subject, [stiffness](Creature& creature) {
+        creature.cluster_stiffness = creature.spring_stiffness = stiffness;
+    });
 }
 
 /// The fluid's masses are 1 in the calm case.
@@ -49,12 +51,15 @@ void set_coincident(StabilityCase& subject, double pairs) {
     };
 }
 
-/// Puts 20 fluid particles of the tank's right end `distance` behind its wall. That breaks the law `tank` on purpose, so it is judged
-/// from half of the run on: the wall has to have taken them back by then, and they must have no more energy than they began with.
+/// Puts 20 fluid particles of the tank's right end `distance` behind its wall. That breaks the law `tank` on purpose,
+/// so it is judged from half of the run on: the wall has to have taken them back by then, and they must have no more
+/// energy than they began with.
 void set_outside(StabilityCase& subject, double distance) {
     const std::vector<Plane>& planes = subject.scene.planes;
-    const auto right = std::find_if(planes.begin(), planes.end(), [](const Plane& plane) { return plane.normal.x() == -1; });
-    if (!subject.scene.periodic.empty() || right == planes.end()) throw InputError("axis outside: needs a wall at the tank's right end");
+    const auto right =
+        std::find_if(planes.begin(), planes.end(), [](const Plane& plane) { return plane.normal.x() == -1; });
+    if (!subject.scene.periodic.empty() || right == planes.end())
+        throw InputError("axis outside: needs a wall at the tank's right end");
     start_unsettled(subject);
     subject.judged_from = 0.5;
     subject.rearrange = [distance, wall = right->offset](Model& model) {
@@ -99,10 +104,9 @@ std::vector<StabilityAxis> make_axes() {
         {0, 1}, set_stiffness);
     add("frequency", "of the muscles, 1/s", {0.5, 1, 2, 4, 8, 15, 30, 45, 60}, {60},
         [](Case& c, double v) { for_each_gait(c, [v](Gait& gait) { gait.frequency = v; }); });
-    add("amplitude", "of all muscles", {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, {2},
-        [](Case& c, double v) {
-            for_each_gait(c, [v](Gait& gait) { std::fill(gait.amplitude.begin(), gait.amplitude.end(), v); });
-        });
+    add("amplitude", "of all muscles", {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, {2}, [](Case& c, double v) {
+        for_each_gait(c, [v](Gait& gait) { std::fill(gait.amplitude.begin(), gait.amplitude.end(), v); });
+    });
     add("gravity", "factor on 10 length/s^2", {0, 0.1, 0.3, 1, 3, 10, 30, 100}, {100},
         [](Case& c, double v) { c.scene.solver.gravity *= v; });
     add("overlap", "factor on the fluid's spacing at the start", {1, 0.9, 0.8, 0.7, 0.5, 0.25, 0.1, 0.01}, {0.5},
@@ -135,7 +139,8 @@ const std::vector<StabilityScene>& stability_scenes() {
              "creature": {"rearCentre": [0.92, 0.42, 0.41]}, "movingTank": {"along": "x", "step": 0.01}})",
          true},
         {"periodic-tank", "closes up with itself along x",
-         R"({"planes": [[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [-1, 0, 0, 1.53], [0, 0, -1, 0.82]], "periodic": ["x"]})", true},
+         R"({"planes": [[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [-1, 0, 0, 1.53], [0, 0, -1, 0.82]], "periodic": ["x"]})",
+         true},
         {"obstacle", "a ball stands before the swimmer",
          R"({"obstacles": [{"shape": "sphere", "centre": [1.25, 0.42, 0.41], "radius": 0.12}]})"},
         {"companion", "longer by 0.9, a second swimmer ahead that beats half a period apart",

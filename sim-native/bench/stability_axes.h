@@ -32,7 +32,8 @@ const std::vector<StabilityScene>& stability_scenes();
 /// Throws InputError for an unknown name.
 const StabilityScene& stability_scene(const std::string& name);
 
-/// The short swimmer in its small tank (scenes/bench/small-tank.json), or a change of it, at the thesis' settings, all of it calm.
+/// The short swimmer in its small tank (scenes/bench/small-tank.json), or a change of it, at the thesis' settings, all
+/// of it calm.
 StabilityCase calm_case(const StabilityScene& scene = stability_scenes().front());
 
 /// One direction in which a case is made harder.

@@ -11,21 +11,24 @@ constexpr double quick_share = 0.2;  ///< of the scene's duration
 
 Row key_of(Scheme scheme, Precision precision, bool gpu, const StabilityScene& scene, const StabilityPoint& point) {
     const bool two = !point.second_axis.empty();
-    return {to_string(scheme), to_string(precision),     gpu ? "cuda" : "cpu", scene.name,
-            point.axis,        number_text(point.value), point.second_axis,    two ? number_text(point.second_value) : ""};
+    return {
+        to_string(scheme), to_string(precision),     gpu ? "cuda" : "cpu", scene.name,
+        point.axis,        number_text(point.value), point.second_axis,    two ? number_text(point.second_value) : ""};
 }
 
 Row row_of(Row key, const StabilityResult& result) {
     const std::optional<Instability>& bad = result.instability;
     const LawMargins& margins = result.margins;
-    Row row = joined_rows(std::move(key), bad ? Row{"unstable", bad->law, std::to_string(bad->particle), bad->stage} : Row{"ok", "", "", ""});
-    for (const double figure : {bad ? bad->time : result.time, margins.particle_energy, margins.energy, margins.depth, margins.reach,
-                                margins.compression, margins.largest()})
+    Row row = joined_rows(std::move(key), bad ? Row{"unstable", bad->law, std::to_string(bad->particle), bad->stage}
+                                              : Row{"ok", "", "", ""});
+    for (const double figure : {bad ? bad->time : result.time, margins.particle_energy, margins.energy, margins.depth,
+                                margins.reach, margins.compression, margins.largest()})
         row.push_back(measured_text(figure));
     return row;
 }
 
-StabilityCase case_at(const StabilityScene& scene, const StabilityPoint& point, Scheme scheme, const StabilityStudy& study) {
+StabilityCase case_at(const StabilityScene& scene, const StabilityPoint& point, Scheme scheme,
+                      const StabilityStudy& study) {
     StabilityCase subject = calm_case(scene);
     subject.scene.scheme = scheme;
     subject.scene.duration = study.duration * (study.quick ? quick_share : 1);
@@ -75,8 +78,9 @@ std::vector<StabilityPoint> stability_points(const std::vector<std::string>& nam
 }
 
 Row stability_columns() {
-    return {"scheme", "precision", "backend",         "scene",  "axis",  "value", "second_axis", "second_value", "status", "law",
-            "particle", "stage",   "time", "particle_energy", "energy", "depth", "reach", "compression", "largest"};
+    return {"scheme",       "precision", "backend", "scene",       "axis",   "value", "second_axis",
+            "second_value", "status",    "law",     "particle",    "stage",  "time",  "particle_energy",
+            "energy",       "depth",     "reach",   "compression", "largest"};
 }
 
 void run_stability_study(const StabilityStudy& study, ResultTable& table,

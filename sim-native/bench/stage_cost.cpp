@@ -46,10 +46,8 @@ constexpr std::array features = {
     Feature{"surfaceTension", {"fluid forces", "fluid forces"}, as_it_is, R"({"solver":{"surfaceTension":0.01}})"},
     Feature{
         "vorticityConfinement", {"fluid forces", "fluid forces"}, as_it_is, R"({"solver":{"vorticityConfinement":1}})"},
-    Feature{"freeSurfaceDrag",
-            {"free-surface drag", "fluid forces"},
-            as_it_is,
-            R"({"solver":{"freeSurfaceDrag":0.1}})"},
+    Feature{
+        "freeSurfaceDrag", {"free-surface drag", "fluid forces"}, as_it_is, R"({"solver":{"freeSurfaceDrag":0.1}})"},
     Feature{"dissipation", {"dissipation", nullptr}, as_it_is, R"({"solver":{"dissipation":0.1}})"},
     Feature{"shockPropagation", {"contacts", nullptr}, as_it_is, R"({"solver":{"shockPropagation":1}})"},
     Feature{"adhesion", {"adhesion", "adhesion"}, as_it_is, R"({"solver":{"adhesion":1}})"},
@@ -63,7 +61,7 @@ const Feature& find_feature(const std::string& name) {
     throw InputError("unknown feature \"" + name + "\": must be one of " + joined(stage_feature_names(), ", "));
 }
 
-constexpr double least_nothing = std::numeric_limits<double>::infinity();
+constexpr double unmeasured = std::numeric_limits<double>::infinity();
 
 /// One state of a feature, with what was measured so far.
 struct Case {
@@ -71,7 +69,7 @@ struct Case {
     Scene scene;
     std::string stage;
     long calls = 0;
-    double stage_seconds = least_nothing, seconds = least_nothing, unskipped_seconds = least_nothing;
+    double stage_seconds = unmeasured, seconds = unmeasured, unskipped_seconds = unmeasured;
     std::string hash{}, unskipped_hash{};
 };
 

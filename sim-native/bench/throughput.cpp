@@ -35,7 +35,8 @@ Scene scene_of(const std::array<int, 3>& count) {
 /// Mean over the fluid.
 template <class Real>
 double mean_neighbours(const Scene& scene, const Model& model, const ThroughputStudy& study) {
-    GpuSolver<Real> solver(model, {.device = study.device, .path = study.whole_gpu ? GpuPath::whole_gpu : GpuPath::by_size});
+    GpuSolver<Real> solver(model,
+                           {.device = study.device, .path = study.whole_gpu ? GpuPath::whole_gpu : GpuPath::by_size});
     State<Real> state = initial_state<Real>(model);
     settle(scene.settling, solver, state);
     solver.update(state, model.time_step, model.parameters.substeps);
@@ -49,7 +50,8 @@ double mean_neighbours(const Scene& scene, const Model& model, const ThroughputS
 /// A tank of one size in one scheme, setting and precision, for batches of all sizes.
 class Tank {
 public:
-    Tank(const ThroughputStudy& study, Scheme scheme, const std::optional<Steps>& steps, Precision precision, int particles)
+    Tank(const ThroughputStudy& study, Scheme scheme, const std::optional<Steps>& steps, Precision precision,
+         int particles)
         : study_(study), precision_(precision), particles_(particles), scene_(throughput_scene(particles)) {
         scene_.scheme = scheme;
         if (steps) set_steps(*steps, scene_.solver);
@@ -106,9 +108,8 @@ private:
     }
     double neighbours() {
         if (!neighbours_)
-            neighbours_ = in_precision(precision_, [&](auto real) {
-                return mean_neighbours<decltype(real)>(scene_, model_, study_);
-            });
+            neighbours_ = in_precision(
+                precision_, [&](auto real) { return mean_neighbours<decltype(real)>(scene_, model_, study_); });
         return *neighbours_;
     }
 

@@ -19,9 +19,9 @@ struct ThroughputStudy {
     std::vector<int> batches;    ///< evaluations per launch
     int device = 0;
     int repeats = 3;
-    bool quick = false;      ///< a few frames of each
-    bool whole_gpu = false;  ///< for each evaluation, however small
-    bool without_lists = false;  ///< of the neighbours of water
+    bool quick = false;                                        ///< a few frames of each
+    bool whole_gpu = false;                                    ///< for each evaluation, however small
+    bool without_lists = false;                                ///< of the neighbours of water
     std::vector<std::optional<Steps>> settings{std::nullopt};  ///< instead of the scene's own
 };
 
@@ -50,14 +50,14 @@ int throughput_frames(Scheme scheme, int particles, int batch);
 /// overlaps, 7 times in a substep of a scene that has any, are left out.
 int pair_passes(const Model& model);
 
-/// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU), particles of one scene, substeps of a
-/// frame, iterations, modified_pressure (yes, no, empty in scheme flex; these are the key); frames, repeats; neighbours: mean of the fluid particles
-/// after one frame, with solids and images where they are in the lists; pair_passes: of a substep; kernel_seconds: all
-/// frames on the device, the least of the repeats; ms_per_frame: of all evaluations together;
-/// million_particle_iterations_per_second: evaluations x fluid_particles x frames x substeps x iterations over
-/// kernel_seconds; million_pairs_per_second: evaluations x fluid_particles x neighbours x frames x substeps x
-/// pair_passes over kernel_seconds; at_a_time: evaluations that are on the device together; bytes_per_particle: device
-/// memory over at_a_time x particles; hash: of the evaluations' hashes.
+/// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU), particles of one scene,
+/// substeps of a frame, iterations, modified_pressure (yes, no, empty in scheme flex; these are the key); frames,
+/// repeats; neighbours: mean of the fluid particles after one frame, with solids and ghosts where they are in the
+/// lists; pair_passes: of a substep; kernel_seconds: all frames on the device, the least of the repeats; ms_per_frame:
+/// of all evaluations together; million_particle_iterations_per_second: evaluations x fluid_particles x frames x
+/// substeps x iterations over kernel_seconds; million_pairs_per_second: evaluations x fluid_particles x neighbours x
+/// frames x substeps x pair_passes over kernel_seconds; at_a_time: evaluations that are on the device together;
+/// bytes_per_particle: device memory over at_a_time x particles; hash: of the evaluations' hashes.
 Row throughput_columns();
 inline constexpr std::size_t throughput_key_columns = 10;
 

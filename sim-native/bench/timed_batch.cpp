@@ -26,7 +26,9 @@ std::string hash_of(const std::vector<Evaluation>& evaluations) {
 /// Settled starts of one measurement, so that its first repeat alone settles.
 class OwnStarts {
 public:
-    OwnStarts() : cache_(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(std::random_device{}()))) {}
+    OwnStarts()
+        : cache_(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(std::random_device{}()))) {
+    }
     ~OwnStarts() {
         std::error_code error;
         std::filesystem::remove_all(cache_.folder(), error);

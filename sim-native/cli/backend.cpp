@@ -20,13 +20,14 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
         ->check(whole_number_in(0, 1023))
         ->capture_default_str();
+    command->add_flag("--whole-gpu", choice.whole_gpu,
+                      "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: "
+                      "what scheme conserving always "
+                      "does, and scenes of more than 65 535 particles. Slower for others.");
     command->add_flag(
-        "--whole-gpu", choice.whole_gpu,
-        "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: what scheme conserving always "
-        "does, and scenes of more than 65 535 particles. Slower for others.");
-    command->add_flag("--without-lists", choice.without_lists,
-                      "Scheme conserving: search the neighbours of the water anew in each sum over them, as where lists do not "
-                      "fit into the GPU's memory. The same bits in less than a third of the memory, but slower.");
+        "--without-lists", choice.without_lists,
+        "Scheme conserving: search the neighbours of the water anew in each sum over them, as where lists do not "
+        "fit into the GPU's memory. The same bits in less than a third of the memory, but slower.");
 }
 
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {
@@ -44,8 +45,7 @@ bool on_gpu(const BackendChoice& choice, const Scene& scene) {
     const int devices = static_cast<int>(cuda_devices().size());
     if (choice.name == "cuda") {
         if (choice.device < devices) return true;
-        throw NoDevice("backend = \"cuda\", device " + std::to_string(choice.device) +
-                       ": no such device here; " +
+        throw NoDevice("backend = \"cuda\", device " + std::to_string(choice.device) + ": no such device here; " +
                        (devices == 0 ? "there is none, or this program was built without CUDA: must be backend \"cpu\""
                                      : "must be one that natator-sim info lists, or backend \"cpu\""));
     }

@@ -9,9 +9,9 @@ namespace natator::cli {
 
 /// Where a command computes.
 struct BackendChoice {
-    std::string name = "cpu";  ///< cpu, cuda or auto
-    int device = 0;            ///< number of the GPU
-    bool whole_gpu = false;    ///< also for scenes that a block can do
+    std::string name = "cpu";    ///< cpu, cuda or auto
+    int device = 0;              ///< number of the GPU
+    bool whole_gpu = false;      ///< also for scenes that a block can do
     bool without_lists = false;  ///< of the neighbours of water
 };
 

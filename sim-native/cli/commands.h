@@ -4,8 +4,8 @@
 
 #include "program.h"
 
-/// The subcommands of natator-sim and natator-bench, one file each. A command that fails throws; `main` turns exceptions into one line on
-/// standard error and an exit code.
+/// The subcommands of natator-sim and natator-bench, one file each. A command that fails throws; `main` turns
+/// exceptions into one line on standard error and an exit code.
 namespace natator::cli {
 
 /// Each adds a subcommand to `app`. When it runs it sets `status`.

@@ -4,6 +4,8 @@
 
 namespace natator::cli {
 
-const char* commit() { return NATATOR_COMMIT; }
+const char* commit() {
+    return NATATOR_COMMIT;
+}
 
 }  // namespace natator::cli

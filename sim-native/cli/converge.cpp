@@ -43,15 +43,17 @@ int run_converge(ConvergeOptions& options) {
 }  // namespace
 
 void add_converge(CLI::App& app, int& status) {
-    CLI::App* command = app.add_subcommand(
-        "converge",
-        "The same swim from several perturbed starts, as asked for, at half the time step and at half the spacing of the "
-        "particles: how far its speed depends on them, and what it goes to. One JSON object on standard output, a table "
-        "on standard error.");
+    CLI::App* command = app.add_subcommand("converge",
+                                           "The same swim from several perturbed starts, as asked for, at half the "
+                                           "time step and at half the spacing of the "
+                                           "particles: how far its speed depends on them, and what it goes to. One "
+                                           "JSON object on standard output, a table "
+                                           "on standard error.");
     const auto options = std::make_shared<ConvergeOptions>();
-    command->add_option("request", options->request,
-                        "File or JSON text: a request as for `evaluate`; its perturbation gives the amplitude of the "
-                        "starts, else they are perturbed by 0.001 of fluidRestDistance. Default, and -: standard input.");
+    command->add_option(
+        "request", options->request,
+        "File or JSON text: a request as for `evaluate`; its perturbation gives the amplitude of the "
+        "starts, else they are perturbed by 0.001 of fluidRestDistance. Default, and -: standard input.");
     command->add_option("--starts", options->starts, "Perturbed starts: seeds 1 to this.")
         ->check(whole_number_in(2, 1000))
         ->capture_default_str();
@@ -59,8 +61,9 @@ void add_converge(CLI::App& app, int& status) {
         ->delimiter(',')
         ->check(one_of({"time/2", "time/4", "spacing/2", "both/2"}))
         ->default_str("time/2,spacing/2");
-    command->add_option("--output", options->output,
-                        "File that gets a line for each run at its end; runs that it holds already are not done again.");
+    command->add_option(
+        "--output", options->output,
+        "File that gets a line for each run at its end; runs that it holds already are not done again.");
     command->add_flag("--plain", options->plain, "Write the table to standard output instead of JSON.");
     add_backend_options(command, options->backend);
     add_execution_options(command, options->execution);

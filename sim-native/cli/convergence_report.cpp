@@ -14,7 +14,9 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 // Numbers that are not finite become null.
-ordered_json sample_json(const Sample& sample) { return {{"mean", sample.mean}, {"error", sample.error}}; }
+ordered_json sample_json(const Sample& sample) {
+    return {{"mean", sample.mean}, {"error", sample.error}};
+}
 
 ordered_json limit_json(const Limit& limit) {
     return {{"order", limit.order}, {"observed", limit.observed}, {"change", limit.from_base}};
@@ -36,7 +38,8 @@ std::string with_error(double value, double error) {
 /// In per cent of the first speed, as a speed where that may be 0; nothing where there is none.
 std::string change_text(const Sample& from, const Sample& to) {
     if (from.runs == 0) return "";
-    if (const auto relative = relative_change(from, to)) return with_error(100 * relative->mean, 100 * relative->error) + " %";
+    if (const auto relative = relative_change(from, to))
+        return with_error(100 * relative->mean, 100 * relative->error) + " %";
     const Sample by = difference(from, to);
     return with_error(by.mean, by.error) + " length/s";
 }
@@ -106,8 +109,8 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
                          const std::string& change) {
         std::ostringstream line;
         line << std::left << std::setw(11) << level << std::right << std::setw(8) << substeps << std::setw(11)
-             << particles << std::setw(6) << runs << "   " << std::left << std::setw(24) << distance << "  " << std::setw(24)
-             << speed << "  " << change;
+             << particles << std::setw(6) << runs << "   " << std::left << std::setw(24) << distance << "  "
+             << std::setw(24) << speed << "  " << change;
         std::string all = line.str();
         all.erase(all.find_last_not_of(' ') + 1);
         text << all << "\n";
@@ -116,8 +119,9 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
     for (const LevelRuns& runs : levels) {
         const Sample distance = runs.distance(), speed = runs.speed();
         const bool any = distance.runs > 0;
-        row(runs.level.name, std::to_string(runs.substeps), std::to_string(runs.particles), std::to_string(distance.runs),
-            any ? with_error(distance.mean, distance.error) : "unstable", any ? with_error(speed.mean, speed.error) : "",
+        row(runs.level.name, std::to_string(runs.substeps), std::to_string(runs.particles),
+            std::to_string(distance.runs), any ? with_error(distance.mean, distance.error) : "unstable",
+            any ? with_error(speed.mean, speed.error) : "",
             any && &runs != &levels.front() ? change_text(levels.front().speed(), speed) : "");
     }
     if (estimate)

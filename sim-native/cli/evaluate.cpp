@@ -39,8 +39,8 @@ int run_evaluate(EvaluateOptions& options) {
     try {
         return evaluate_request(options, id);
     } catch (const std::exception& error) {
-        // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code. A person who sees
-        // both needs it once.
+        // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code. A person
+        // who sees both needs it once.
         if (!options.plain && !isatty(STDOUT_FILENO))
             print(error_json(id, message_of(error)).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
         throw;
@@ -55,8 +55,7 @@ void add_evaluate(CLI::App& app, int& status) {
         "Read one JSON request, write one JSON result on standard output. The request holds all that `run` has options "
         "for: scene, gait, scheme, duration, overrides.");
     const auto options = std::make_shared<EvaluateOptions>();
-    command->add_option("request", options->request,
-                        "File or JSON text: the request. Default, and -: standard input.");
+    command->add_option("request", options->request, "File or JSON text: the request. Default, and -: standard input.");
     add_backend_options(command, options->backend);
     command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");
     add_execution_options(command, options->execution);

@@ -11,9 +11,9 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/gait.h"
+#include "natator/instruction_set.h"
 #include "natator/model.h"
 #include "natator/settled_state_cache.h"
-#include "natator/instruction_set.h"
 #include "natator/solver.h"
 #include "natator/version.h"
 #include "physics/constants.h"
@@ -70,8 +70,8 @@ ordered_json describe_skin(const Creature& creature, const Model& model) {
     const double spacing = creature.spacing / creature.refinement;
     const double particles = static_cast<double>(model.body.particles.size()) * spacing * spacing * spacing;
     std::ostringstream text;
-    text << skin.file << ", " << skin.triangles.size() << " triangles, a unit is " << skin.unit << ", volume " << skin.volume
-         << ", of the particles " << particles;
+    text << skin.file << ", " << skin.triangles.size() << " triangles, a unit is " << skin.unit << ", volume "
+         << skin.volume << ", of the particles " << particles;
     return text.str();
 }
 
@@ -93,7 +93,8 @@ ordered_json describe_scene(const Scene& scene) {
     info["creature"] = scene.creature ? ordered_json(scene.creature->name) : ordered_json();
     info["actuators"] = model.actuators;
     info["particles"] = model.particles();
-    info["fluidParticles"] = std::count_if(model.phase.begin(), model.phase.end(), [](auto phase) { return phase & phase::fluid; });
+    info["fluidParticles"] =
+        std::count_if(model.phase.begin(), model.phase.end(), [](auto phase) { return phase & phase::fluid; });
     info["bodyParticles"] = body;
     if (!model.companions.empty()) info["companions"] = model.companions.size();
     if (!scene.obstacles.empty()) info["obstacles"] = scene.obstacles.size();
@@ -207,8 +208,9 @@ void add_info(CLI::App& app, int& status) {
         command->add_flag("--definition", options->definition,
                           "Write the scene itself: with its bases, its creature and the overrides merged.");
     command
-        ->add_flag("--gait-template", options->gait_template,
-                   "Write a gait to begin with for the scene's muscles, a wave from head to tail; for run and evaluate.")
+        ->add_flag(
+            "--gait-template", options->gait_template,
+            "Write a gait to begin with for the scene's muscles, a wave from head to tail; for run and evaluate.")
         ->excludes(definition);
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     command->callback([options, &status] {

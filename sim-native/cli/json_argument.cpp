@@ -17,7 +17,9 @@ bool is_text(const std::string& argument) {
     return argument[first] == '{' || (argument[first] == '[' && !std::filesystem::exists(argument, failed));
 }
 
-bool is_standard_input(const std::string& argument) { return argument.empty() || argument == "-"; }
+bool is_standard_input(const std::string& argument) {
+    return argument.empty() || argument == "-";
+}
 
 }  // namespace
 

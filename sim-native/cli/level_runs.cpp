@@ -9,8 +9,8 @@
 #include "commit.h"
 #include "natator/cost.h"
 #include "natator/error.h"
-#include "natator/model.h"
 #include "natator/instruction_set.h"
+#include "natator/model.h"
 #include "natator/version.h"
 #include "run/perturb.h"
 #include "scene/gait_json.h"
@@ -32,15 +32,18 @@ std::vector<double> values(const LevelRuns& runs, const std::function<double(con
 }
 
 /// Reads a level's request and refuses what would cost too much.
-LevelRuns read_level(const Level& level, const json& request, const std::string& document, const BackendChoice& backend) {
+LevelRuns read_level(const Level& level, const json& request, const std::string& document,
+                     const BackendChoice& backend) {
     const Job job = read_job(request, backend, document);
     LevelRuns runs{.level = level, .request = request, .job = job, .results = {}};
     refuse_gpu_options_for_cpu(runs.job.backend);
     if (!runs.job.scene.creature)
-        throw InputError(document + ": scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
+        throw InputError(document + ": scene " + natator::quoted(runs.job.request.scene) +
+                         ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);
     check_gait(runs.job.gait, runs.job.scene.creature->actuators());
-    check_evaluation_cost(runs.job.scene, model, {.doubles = runs.job.request.precision == Precision::double_precision});
+    check_evaluation_cost(runs.job.scene, model,
+                          {.doubles = runs.job.request.precision == Precision::double_precision});
     runs.substeps = model.parameters.substeps;
     runs.particles = model.particles();
     runs.body_length = model.body.length;
@@ -70,7 +73,9 @@ json origin_of(const LevelRuns& runs) {
             {"instructionSet", to_string(instruction_set())}};
 }
 
-void say(const std::string& text) { std::cerr << "natator-sim: converge: " << text << std::endl; }
+void say(const std::string& text) {
+    std::cerr << "natator-sim: converge: " << text << std::endl;
+}
 
 }  // namespace
 
@@ -92,8 +97,10 @@ int LevelRuns::unstable_runs() const {
 std::vector<LevelRuns> read_levels(json request, const std::string& document, const std::vector<std::string>& names,
                                    const BackendChoice& backend) {
     if (!request.is_object()) fields::refuse({document, ""}, request, "an object");
-    if (request.contains("start")) throw InputError(document + ": start: must not be given, converge has starts of its own");
-    if (fields::has(request, "perturbation") && request["perturbation"].is_object() && !request["perturbation"].contains("seed"))
+    if (request.contains("start"))
+        throw InputError(document + ": start: must not be given, converge has starts of its own");
+    if (fields::has(request, "perturbation") && request["perturbation"].is_object() &&
+        !request["perturbation"].contains("seed"))
         request["perturbation"]["seed"] = 1u;  // only its amplitude counts, converge has seeds of its own
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, document, backend)};
     Perturbation perturbation = levels.front().job.request.perturbation;

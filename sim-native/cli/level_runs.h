@@ -31,8 +31,8 @@ struct LevelRuns {
 /// The base and the finer levels of a request, refused where they would cost too much.
 /// \param document what messages call the request
 /// \throws InputError in one line
-std::vector<LevelRuns> read_levels(nlohmann::json request, const std::string& document, const std::vector<std::string>& names,
-                                   const BackendChoice& backend);
+std::vector<LevelRuns> read_levels(nlohmann::json request, const std::string& document,
+                                   const std::vector<std::string>& names, const BackendChoice& backend);
 
 /// Does the runs of a level that are not recorded, from perturbed starts with seeds 1 to `starts`, and records them.
 void run_level(LevelRuns& runs, int starts, const Execution& execution, RunRecord& record);

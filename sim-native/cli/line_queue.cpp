@@ -88,15 +88,15 @@ bool LineQueue::add_line(std::string line) {
     return true;
 }
 
-std::vector<std::string> LineQueue::take(std::size_t most, std::chrono::milliseconds lull) {
+std::vector<std::string> LineQueue::take(std::size_t max_lines, std::chrono::milliseconds lull) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return ended_ || !lines_.empty(); });
     std::size_t seen = 0;
-    while (!ended_ && lines_.size() < most && lines_.size() > seen && !full()) {
+    while (!ended_ && lines_.size() < max_lines && lines_.size() > seen && !full()) {
         seen = lines_.size();
         changed_.wait_for(lock, lull, [&] { return ended_ || lines_.size() > seen; });
     }
-    return take_locked(most);
+    return take_locked(max_lines);
 }
 
 std::vector<std::string> LineQueue::take_waiting() {
@@ -119,9 +119,9 @@ bool LineQueue::exhausted() {
     return ended_ && lines_.empty();
 }
 
-std::vector<std::string> LineQueue::take_locked(std::size_t most) {
+std::vector<std::string> LineQueue::take_locked(std::size_t max_lines) {
     std::vector<std::string> taken;
-    while (!lines_.empty() && taken.size() < most) {
+    while (!lines_.empty() && taken.size() < max_lines) {
         bytes_ -= lines_.front().size();
         taken.push_back(std::move(lines_.front()));
         lines_.pop_front();

@@ -17,8 +17,8 @@ public:
     using Clock = std::chrono::steady_clock;
 
     struct Limits {
-        std::size_t lines = SIZE_MAX;  ///< that wait; no more is read while they do
-        std::size_t bytes = SIZE_MAX;  ///< of a line; a longer one is cut to one byte more
+        std::size_t lines = SIZE_MAX;          ///< that wait; no more is read while they do
+        std::size_t bytes = SIZE_MAX;          ///< of a line; a longer one is cut to one byte more
         std::size_t waiting_bytes = SIZE_MAX;  ///< of all lines that wait; the last one may go beyond
     };
 
@@ -30,7 +30,7 @@ public:
 
     /// Waits for a line, then takes all that have come, at most `most`, as soon as none comes for `lull`. Empty only at
     /// the end of the stream.
-    std::vector<std::string> take(std::size_t most, std::chrono::milliseconds lull);
+    std::vector<std::string> take(std::size_t max_lines, std::chrono::milliseconds lull);
 
     /// Takes what has come, without waiting.
     std::vector<std::string> take_waiting();
@@ -44,7 +44,7 @@ private:
     void read();
     bool add_line(std::string line);
     bool full() const { return lines_.size() >= limits_.lines || bytes_ >= limits_.waiting_bytes; }
-    std::vector<std::string> take_locked(std::size_t most);
+    std::vector<std::string> take_locked(std::size_t max_lines);
 
     const int input_;
     const Limits limits_;

@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
     using namespace natator::cli;
     if (argc > 1 && std::string_view(argv[1]) == "bench")
-        return complaining("natator-sim", [argv]() -> int { start_bench(argv + 1); });
+        return report_errors("natator-sim", [argv]() -> int { start_bench(argv + 1); });
     CLI::App app("Simulates soft swimmers in a tank of fluid.", "natator-sim");
     app.set_version_flag("--version", [] {
         return std::string("natator-sim " NATATOR_VERSION ", commit ") + commit() + ", instruction set " +

@@ -17,7 +17,9 @@ constexpr const char* empty_value = "the value is empty; must be left out or hav
 
 /// The parser takes the name of an option for the value of the one before it.
 std::string fault_of_presence(const std::string& value) {
-    return value.empty() ? empty_value : value.starts_with("--") ? "= " + value + ": must be a value, not an option" : "";
+    return value.empty()             ? empty_value
+           : value.starts_with("--") ? "= " + value + ": must be a value, not an option"
+                                     : "";
 }
 
 /// The parser takes 0x10 for 16, as a whole number 010 for 8.
@@ -56,7 +58,8 @@ std::string any_of(const std::vector<std::string>& words) {
 }
 
 void refuse_missing_values(CLI::App& app) {
-    for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))
+    for (CLI::Option* option :
+         app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))
         option->check(fault_of_presence);
     for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_missing_values(*command);
 }
@@ -78,13 +81,15 @@ void refuse_empty_values(int argc, const char* const* argv) {
 }
 
 void refuse_repeated_values(CLI::App& app) {
-    for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 1; })) {
+    for (CLI::Option* option :
+         app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 1; })) {
         const auto before = std::make_shared<std::set<std::string>>();
         option->check([before](const std::string& value) {
             return before->insert(value).second ? std::string() : value + " is given twice; must be given once";
         });
     }
-    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_repeated_values(*command);
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        refuse_repeated_values(*command);
 }
 
 CLI::Validator seconds() {
@@ -92,10 +97,13 @@ CLI::Validator seconds() {
 }
 
 CLI::Validator whole_number_in(int low, int high) {
-    return in_words(CLI::Range(low, high), "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
+    return in_words(CLI::Range(low, high),
+                    "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) { return in_words(CLI::IsMember(words), any_of(words)); }
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return in_words(CLI::IsMember(words), any_of(words));
+}
 
 CLI::Validator precision_name() {
     return one_of({to_string(Precision::single_precision), to_string(Precision::double_precision)});
@@ -106,7 +114,8 @@ Precision precision_named(const std::string& name) {
 }
 
 CLI::Validator number_in(double low, double high) {
-    return within(low, high, "a number in [" + natator::number_text(low) + ", " + natator::number_text(high) + "]", "NUMBER");
+    return within(low, high, "a number in [" + natator::number_text(low) + ", " + natator::number_text(high) + "]",
+                  "NUMBER");
 }
 
 }  // namespace natator::cli

@@ -11,8 +11,8 @@ namespace natator::cli {
 /// "a, b or c".
 std::string any_of(const std::vector<std::string>& words);
 
-/// Makes an empty value of any option of any command refused, most come from a variable of a shell that is not set, and one that is
-/// the next option.
+/// Makes an empty value of any option of any command refused, most come from a variable of a shell that is not set, and
+/// one that is the next option.
 void refuse_missing_values(CLI::App& app);
 
 /// Makes numbers in hexadecimal or octal digits refused, of any option of any command.

@@ -39,7 +39,8 @@ std::string fault_of_value(const CLI::App& command, const CLI::ConversionError& 
     return given + (number ? ": must be a number" : ": cannot be read");
 }
 
-/// The parser puts a colon between an option and what a check says, which begins with "= value" where it is about a value.
+/// The parser puts a colon between an option and what a check says, which begins with "= value" where it is about a
+/// value.
 std::string fault_of_check(const CLI::ValidationError& error) {
     std::string text = error.what();
     const std::size_t colon = text.find(':');
@@ -49,15 +50,17 @@ std::string fault_of_check(const CLI::ValidationError& error) {
 
 std::vector<std::string> command_names(const CLI::App& command) {
     std::vector<std::string> names;
-    for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(one->get_name());
+    for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(one->get_name());
     return names;
 }
 
 /// "--option: At Most 1 required but received 2" or "--option: 1 required TEXT missing" in the parser's words.
 std::string fault_of_number(const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
-    return text.substr(0, text.find(':')) + (text.find("received") != std::string::npos ? ": is given more than once; must be given once"
-                                                                                        : ": has no value; must have one");
+    return text.substr(0, text.find(':')) + (text.find("received") != std::string::npos
+                                                 ? ": is given more than once; must be given once"
+                                                 : ": has no value; must have one");
 }
 
 /// "option is required" in the parser's words, "A subcommand is required" where there is no command.
@@ -83,10 +86,12 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     if (command->get_require_subcommand_min() > 0 && !left_over.front().starts_with('-')) {
         const std::string& word = left_over.front();
         const std::vector<std::string> names = command_names(*command);
-        return "unknown command " + (word.empty() ? "\"\"" : word) + fields::did_you_mean(word, {names.begin(), names.end()});
+        return "unknown command " + (word.empty() ? "\"\"" : word) +
+               fields::did_you_mean(word, {names.begin(), names.end()});
     }
     if (!missing && dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
-    const auto option = std::find_if(left_over.begin(), left_over.end(), [](const auto& word) { return word.starts_with('-'); });
+    const auto option =
+        std::find_if(left_over.begin(), left_over.end(), [](const auto& word) { return word.starts_with('-'); });
     if (option == left_over.end()) return "unexpected argument " + left_over.front();
     std::vector<std::string> names;
     for (const CLI::Option* one : command->get_options())
@@ -94,11 +99,13 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     return "unknown option " + *option + fields::did_you_mean(*option, {names.begin(), names.end()});
 }
 
-/// Keeps the numbers of standard streams that are closed: else what is opened next has one, and is read or written for it. Reading
-/// and writing them fails as before.
+/// Keeps the numbers of standard streams that are closed: else what is opened next has one, and is read or written for
+/// it. Reading and writing them fails as before.
 void hold_closed_streams() {
-    for (const auto& [stream, mode] : {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
-        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", mode);  // has the lowest number that is free
+    for (const auto& [stream, mode] :
+         {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+            ::open("/dev/null", mode);  // has the lowest number that is free
 }
 
 extern "C" void remove_unfinished_and_end(int signal) {
@@ -106,13 +113,15 @@ extern "C" void remove_unfinished_and_end(int signal) {
     std::raise(signal);  // which ends the program as if there were no handler
 }
 
-/// Lets a program that is told to end leave no file that it has begun. A signal that is ignored stays so, as under nohup.
+/// Lets a program that is told to end leave no file that it has begun. A signal that is ignored stays so, as under
+/// nohup.
 void leave_nothing_unfinished() {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU}) {
-        struct sigaction before {}, handler {};
+        struct sigaction before{}, handler{};
         handler.sa_handler = remove_unfinished_and_end;
         handler.sa_flags = SA_RESETHAND;
-        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) ::sigaction(signal, &handler, nullptr);
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
+            ::sigaction(signal, &handler, nullptr);
     }
 }
 
@@ -123,7 +132,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     app.require_subcommand(1);
     refuse_missing_values(app);
     refuse_other_bases(app);
-    return complaining(program, [&] {
+    return report_errors(program, [&] {
         try {
             refuse_empty_values(argc, argv);
             app.parse(argc, argv);
@@ -138,7 +147,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     });
 }
 
-int complaining(const std::string& program, const std::function<int()>& work) {
+int report_errors(const std::string& program, const std::function<int()>& work) {
     hold_closed_streams();
     // A closed pipe and a file that is larger than it may be are errors of who writes, not a death.
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);

@@ -39,9 +39,11 @@ struct RunOptions {
 /// Recordings are made on the CPU.
 bool run_on_gpu(const RunOptions& options, const Scene& scene) {
     refuse_gpu_options_for_cpu(options.backend);
-    if (options.trajectory.empty() && options.snapshot.empty() && !options.residuals) return on_gpu(options.backend, scene);
+    if (options.trajectory.empty() && options.snapshot.empty() && !options.residuals)
+        return on_gpu(options.backend, scene);
     if (options.backend.name == "cuda")
-        throw InputError("--backend = cuda: records no --trajectory, --snapshot and --residuals; must be cpu or auto with them");
+        throw InputError(
+            "--backend = cuda: records no --trajectory, --snapshot and --residuals; must be cpu or auto with them");
     return false;
 }
 
@@ -62,7 +64,8 @@ Gait load_gait(const RunOptions& options, int actuators) {
 Perturbation read_perturbation(const RunOptions& options) {
     const json seed = json::parse(options.perturbation_seed, nullptr, false);
     return {read_perturbation_amplitude(options.perturbation, {"", "--perturbation"}),
-            read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"", "--perturbation-seed"})};
+            read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed,
+                                   {"", "--perturbation-seed"})};
 }
 
 void check_outputs(const RunOptions& options, const Scene& scene) {
@@ -73,7 +76,8 @@ void check_outputs(const RunOptions& options, const Scene& scene) {
     if (!options.snapshot.empty()) require_writable(options.snapshot);
     if (options.trajectory.empty() || options.snapshot.empty()) return;
     if (std::filesystem::weakly_canonical(options.trajectory) == std::filesystem::weakly_canonical(options.snapshot))
-        throw InputError("--snapshot = " + quoted(options.snapshot) + ": must be another file than that of --trajectory");
+        throw InputError("--snapshot = " + quoted(options.snapshot) +
+                         ": must be another file than that of --trajectory");
 }
 
 std::string swimming_line(const SwimmingNumbers& numbers) {
@@ -86,7 +90,8 @@ std::string swimming_line(const SwimmingNumbers& numbers) {
     if (numbers.cavities.value_or(0) >= worth_telling)
         text << ", cavities in the water " << figure_text(*numbers.cavities) << " body volumes";
     text << "\n";
-    if (const std::string warning = warning_of_across(numbers.across); !warning.empty()) text << "warning    " << warning << "\n";
+    if (const std::string warning = warning_of_across(numbers.across); !warning.empty())
+        text << "warning    " << warning << "\n";
     return text.str();
 }
 
@@ -96,7 +101,8 @@ std::string goal_line(const GoalResult& goal) {
     if (goal.arrived_at)
         text << ", reached at " << *goal.arrived_at << " s";
     else if (goal.left)
-        text << ", " << figure_text(*goal.left) << (goal.measure == Goal::Measure::turn ? " degrees" : " units") << " left";
+        text << ", " << figure_text(*goal.left) << (goal.measure == Goal::Measure::turn ? " degrees" : " units")
+             << " left";
     text << "\n";
     return text.str();
 }
@@ -121,12 +127,15 @@ struct AllResiduals {
     }
     std::string text() const {
         std::ostringstream text;
-        const auto mean = [this](double sum) { return figure_text(substeps > 0 ? sum / static_cast<double>(substeps) : 0); };
-        text << "residuals  of " << substeps << " substeps with " << mean(static_cast<double>(iterations)) << " iterations, at most "
-             << max_iterations << "\n";
+        const auto mean = [this](double sum) {
+            return figure_text(substeps > 0 ? sum / static_cast<double>(substeps) : 0);
+        };
+        text << "residuals  of " << substeps << " substeps with " << mean(static_cast<double>(iterations))
+             << " iterations, at most " << max_iterations << "\n";
         const auto add = [&](const char* name, const Kind& kind, const char* unit) {
             if (kind.max > 0)
-                text << name << mean(kind.sum_of_means) << " on average, at most " << figure_text(kind.max) << " " << unit << "\n";
+                text << name << mean(kind.sum_of_means) << " on average, at most " << figure_text(kind.max) << " "
+                     << unit << "\n";
         };
         add("density    ", density, "rest densities");
         add("divergence ", divergence, "rest densities in a substep");
@@ -146,7 +155,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     text << "scene      " << scene.name << "\n";
     if (scene.creature) {
         const int actuators = scene.creature->actuators();
-        text << "creature   " << (scene.creature->name.empty() ? "of the scene" : scene.creature->name) << ", " << actuators << " actuators"
+        text << "creature   " << (scene.creature->name.empty() ? "of the scene" : scene.creature->name) << ", "
+             << actuators << " actuators"
              << (actuators == 0         ? ", it cannot move by itself (an actuator needs two joints)"
                  : options.gait.empty() ? ", muscles at rest (no --gait)"
                                         : "")
@@ -163,7 +173,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         text << "speed      " << figure_text(speed) << " units/s";
         if (length > 0) text << ", " << figure_text(speed / length) << " body lengths/s";
         text << "\n";
-        if (result.swimming && !options.gait.empty()) text << swimming_line(*result.swimming);  // a resting tail has no beat
+        if (result.swimming && !options.gait.empty())
+            text << swimming_line(*result.swimming);  // a resting tail has no beat
         for (const GoalResult& goal : result.goals) text << goal_line(goal);
         for (const CompanionResult& one : result.companions)
             text << "beside it  " << one.creature << ", " << figure_text(one.distance) << " units\n";
@@ -197,7 +208,8 @@ int run_scene(RunOptions& options) {
     SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at;
-        const double end = std::round(scene.duration / scene.time_step) * scene.time_step;  // of the last frame, which may not be the duration
+        const double end = std::round(scene.duration / scene.time_step) *
+                           scene.time_step;  // of the last frame, which may not be the duration
         if (snapshot.at && !(end > *snapshot.at - scene.time_step / 1000))
             throw InputError("--at = " + number_text(*snapshot.at) + ": must be at most " + number_text(end) +
                              ", the end of the last frame");
@@ -215,10 +227,9 @@ int run_scene(RunOptions& options) {
     evaluation.execution = options.execution.execution();
     AllResiduals residuals;
     if (options.residuals) evaluation.execution.residuals = [&](const Residuals& substep) { residuals.add(substep); };
-    const Evaluation result =
-        run_on_gpu(options, scene)
-            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend, evaluation.execution)
-            : evaluate(scene, gait, evaluation);
+    const Evaluation result = run_on_gpu(options, scene) ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision,
+                                                                               options.backend, evaluation.execution)
+                                                         : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()) + (options.residuals ? residuals.text() : ""));
@@ -240,7 +251,8 @@ void add_run(CLI::App& app, int& status) {
     command->add_option("--gait", options->gait,
                         R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"
                         "Default: muscles at rest.");
-    command->add_option("--duration", options->duration, "Simulated time, s, to the nearest whole number of frames. Default: the scene's.");
+    command->add_option("--duration", options->duration,
+                        "Simulated time, s, to the nearest whole number of frames. Default: the scene's.");
     command->add_option("--scheme", options->scheme, "Update rule: flex, conserving or lattice. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
         ->check(precision_name())
@@ -256,7 +268,9 @@ void add_run(CLI::App& app, int& status) {
     auto* snapshot = command->add_option(
         "--snapshot", options->snapshot,
         "CSV file for all particles at one time: time,kind,mass,x,y,z,vx,vy,vz,density (fluid too).");
-    command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end of the run, wherever that is.")
+    command
+        ->add_option("--at", options->snapshot_at,
+                     "Time of the snapshot, s. Default: the end of the run, wherever that is.")
         ->needs(snapshot)
         ->check(seconds());
     command->add_flag("--residuals", options->residuals,

@@ -57,7 +57,8 @@ RunRecord::~RunRecord() {
 void RunRecord::lock() {
     std::error_code failed;
     const bool exists = std::filesystem::exists(path_, failed);
-    if (exists && !std::filesystem::is_regular_file(path_, failed)) refuse(path_, "is no regular file; must be one, or a new name");
+    if (exists && !std::filesystem::is_regular_file(path_, failed))
+        refuse(path_, "is no regular file; must be one, or a new name");
     lock_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | (exists ? 0 : O_CREAT), 0666);
     const std::string why = std::generic_category().message(errno);
     if (lock_ < 0 && exists) refuse(path_, "cannot be read: " + why);
@@ -99,7 +100,9 @@ void RunRecord::add(const json& of, const json& request, const nlohmann::ordered
     line["result"] = result;
     std::ofstream file(path_, std::ios::binary | std::ios::app);
     file << line.dump() + "\n" << std::flush;
-    if (!file) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written: " + std::generic_category().message(errno));
+    if (!file)
+        throw std::runtime_error("--output " + natator::quoted(path_) +
+                                 ": cannot be written: " + std::generic_category().message(errno));
 }
 
 }  // namespace natator::cli

@@ -6,9 +6,9 @@
 
 namespace natator::cli {
 
-/// Runs that are done, each a line of a file: {"of": what determines it, "request": ..., "result": ...}. A line is written
-/// as soon as its run has ended, so that what an interrupted command computed is there for the next. The file is locked
-/// meanwhile (flock): of two commands at once each would do the runs of the other again.
+/// Runs that are done, each a line of a file: {"of": what determines it, "request": ..., "result": ...}. A line is
+/// written as soon as its run has ended, so that what an interrupted command computed is there for the next. The file
+/// is locked meanwhile (flock): of two commands at once each would do the runs of the other again.
 class RunRecord {
 public:
     /// Without a path nothing is kept. Reads what the file holds if there is one; what is behind its last whole line is

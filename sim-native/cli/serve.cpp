@@ -25,7 +25,7 @@ using nlohmann::json;
 struct ServeOptions {
     BackendChoice backend;
     ExecutionOptions execution;
-    std::size_t most = 1024;
+    std::size_t max_lines = 1024;
     bool summary = false;
 };
 
@@ -77,11 +77,12 @@ void evaluate_group(const std::vector<SharedJob>& group, const Execution& execut
     for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], results[k]);
 }
 
-/// Groups that are computed at a time, so that the host's work for one goes on beside the kernels of others. More gain nothing.
+/// Groups that are computed at a time, so that the host's work for one goes on beside the kernels of others. More gain
+/// nothing.
 constexpr std::size_t groups_at_a_time = 4;
 
-/// The jobs of a batch of requests, each once however many requests ask for it: all that counts but their ids is the same. Lines
-/// that are no request are answered at once.
+/// The jobs of a batch of requests, each once however many requests ask for it: all that counts but their ids is the
+/// same. Lines that are no request are answered at once.
 std::vector<SharedJob> read_jobs(const std::vector<std::string>& lines, const BackendChoice& backend) {
     std::vector<SharedJob> jobs;
     std::map<std::string, std::size_t> by_request;
@@ -143,12 +144,12 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
 int serve(ServeOptions& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
-    LineQueue queue(STDIN_FILENO, {.lines = options.most,
-                                   .bytes = limits::document_bytes,
-                                   .waiting_bytes = limits::waiting_bytes});
+    LineQueue queue(
+        STDIN_FILENO,
+        {.lines = options.max_lines, .bytes = limits::document_bytes, .waiting_bytes = limits::waiting_bytes});
     Tally tally;
     for (;;) {
-        const std::vector<std::string> lines = queue.take(options.most, lull);
+        const std::vector<std::string> lines = queue.take(options.max_lines, lull);
         if (lines.empty()) break;
         serve_batch(lines, options, tally);
     }
@@ -168,7 +169,7 @@ void add_serve(CLI::App& app, int& status) {
                            "and once where requests differ in nothing but their ids. Ends with the input.");
     const auto options = std::make_shared<ServeOptions>();
     add_backend_options(command, options->backend);
-    command->add_option("--batch", options->most, "Most requests that are taken together.")
+    command->add_option("--batch", options->max_lines, "Most requests that are taken together.")
         ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     command->add_flag("--summary", options->summary,

@@ -44,7 +44,8 @@ SimulationSetup read_setup(const StreamOptions& options) {
 
 stream::Fields read_fields(const std::vector<std::string>& names) {
     if (names.size() > 1 && std::ranges::find(names, "none") != names.end())
-        throw InputError("--fields: none stands beside others; must be none alone, or some of position, velocity, density");
+        throw InputError(
+            "--fields: none stands beside others; must be none alone, or some of position, velocity, density");
     stream::Fields fields{.position = false};
     for (const std::string& name : names) {
         fields.position |= name == "position";
@@ -57,16 +58,16 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 template <class Real>
 void run_stream(StreamOptions& options) {
     StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
-    LineQueue commands(STDIN_FILENO, {.lines = max_waiting, .bytes = stream::longest_command});
+    LineQueue commands(STDIN_FILENO, {.lines = max_waiting, .bytes = stream::max_command});
     session.run(commands);
 }
 
 int stream_scene(StreamOptions& options) {
     if (!stream::is_rate(options.settings.rate))
-        throw InputError("--rate = " + number_text(options.settings.rate) +
-                         ": must be 0 or a number in [0.001, 1000]");
+        throw InputError("--rate = " + number_text(options.settings.rate) + ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
-    precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options) : run_stream<float>(options);
+    precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options)
+                                                                      : run_stream<float>(options);
     return ok;
 }
 
@@ -87,9 +88,11 @@ void add_stream(CLI::App& app, int& status) {
     command->add_option("--precision", options->precision, "float or double.")
         ->check(precision_name())
         ->capture_default_str();
-    command->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
+    command
+        ->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
         ->check(whole_number_in(0, 2147483647));
-    command->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
+    command
+        ->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
         ->delimiter(',')
         ->check(one_of({"position", "velocity", "density", "none"}))
         ->capture_default_str();
@@ -100,7 +103,10 @@ void add_stream(CLI::App& app, int& status) {
         ->add_option("--rate", settings.rate,
                      "Simulated seconds per second of wall time, at most; 0: as fast as possible.")
         ->capture_default_str();
-    command->add_option("--until", settings.until, "End at this time, s: after the nearest whole number of frames, at least one.")->check(seconds());
+    command
+        ->add_option("--until", settings.until,
+                     "End at this time, s: after the nearest whole number of frames, at least one.")
+        ->check(seconds());
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
     add_execution_options(command, options->execution);

@@ -16,14 +16,15 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 json parse_command(const std::string& line) {
-    if (line.size() > stream::longest_command) throw InputError("command: longer than 1 MiB");
+    if (line.size() > stream::max_command) throw InputError("command: longer than 1 MiB");
     return parse_json(line, "command");
 }
 
 }  // namespace
 
 template <class Real>
-StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings)
+StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
+                                   const StreamSettings& settings)
     : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
 
 template <class Real>
@@ -48,7 +49,7 @@ void StreamSession<Real>::run(LineQueue& commands) {
 /// What a command causes comes before its answer.
 template <class Real>
 void StreamSession<Real>::carry_out(const std::string& line) {
-    if (line.size() <= stream::longest_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
+    if (line.size() <= stream::max_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
     answer_ = {{"id", nullptr}};
     try {
         const json value = parse_command(line);
@@ -140,6 +141,12 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
     sensing_ = std::move(next);
     if (sense.each) sense_each_ = *sense.each;
     answer_["senses"] = senses();
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Water&) {
+    refuse_if_unstable();
+    print(stream_water(simulation_, scene_));
 }
 
 template <class Real>
@@ -259,7 +266,8 @@ void StreamSession<Real>::refuse_if(bool over) const {
     if (over) throw InputError("the stream has reached its end, --until " + number_text(*settings_.until) + " s");
 }
 
-/// After as many frames as `natator-sim run` simulates in that time, the nearest whole number; in no other than no time at least one.
+/// After as many frames as `natator-sim run` simulates in that time, the nearest whole number; in no other than no time
+/// at least one.
 template <class Real>
 bool StreamSession<Real>::at_end() const {
     if (!settings_.until) return false;

@@ -37,6 +37,7 @@ private:
     void apply(const stream::Run&);
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
+    void apply(const stream::Water&);
     void apply(const stream::Rate& rate);
     void apply(const stream::Reset& reset);
     void apply(const stream::NewGait& gait);
@@ -64,15 +65,15 @@ private:
     Pace pace_;
     bool running_;
     Sensing sensing_;
-    bool sense_each_ = false;        ///< a SENS before every frame
-    nlohmann::ordered_json answer_;  ///< of the command that is carried out
-    int credit_ = 0;             ///< frames that may be sent
-    bool ended_ = false;         ///< the last STOP is out: no command does anything more
-    bool due_ = false;           ///< the present frame is still to be offered
-    std::uint32_t scene_ = 0;    ///< number of the last SCEN
+    bool sense_each_ = false;            ///< a SENS before every frame
+    nlohmann::ordered_json answer_;      ///< of the command that is carried out
+    int credit_ = 0;                     ///< frames that may be sent
+    bool ended_ = false;                 ///< the last STOP is out: no command does anything more
+    bool due_ = false;                   ///< the present frame is still to be offered
+    std::uint32_t scene_ = 0;            ///< number of the last SCEN
     nlohmann::ordered_json last_scene_;  ///< the whole of it, also where only changes were sent
-    std::uint32_t dropped_ = 0;  ///< frames since the start
-    double wall_seconds_ = 0;    ///< of the frames since the last one sent
+    std::uint32_t dropped_ = 0;          ///< frames since the start
+    double wall_seconds_ = 0;            ///< of the frames since the last one sent
     int wall_frames_ = 0;
 };
 

@@ -6,8 +6,8 @@
 #include "natator/natator.h"
 
 int main() try {
-    const natator::Scene scene = natator::load_scene(
-        "pool/creature-1", {.overrides = R"({"duration": 1})", .data = NATATOR_DATA_FOLDER});
+    const natator::Scene scene =
+        natator::load_scene("pool/creature-1", {.overrides = R"({"duration": 1})", .data = NATATOR_DATA_FOLDER});
     const natator::Gait gait{.frequency = 1.861, .amplitude = {0.973, 0.690}, .phase = {0, 0.648}};
 
     int frame = 0;

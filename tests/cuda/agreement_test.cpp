@@ -19,8 +19,7 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
     return "Creature" + std::to_string(std::get<0>(info.param)) + name_of(std::get<1>(info.param));
 }
 
-const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4),
-                                        testing::Values(Scheme::flex, Scheme::conserving));
+const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4), testing::Values(Scheme::flex, Scheme::conserving));
 
 class GpuAgreement : public OnGpu<testing::TestWithParam<Case>> {
 protected:
@@ -40,7 +39,7 @@ protected:
             ASSERT_FALSE(cpu.frame(on_cpu, gait));
             ASSERT_FALSE(gpu.frame(on_gpu, gait));
             if (frame > 1) continue;
-            const double apart = largest_distance(on_cpu, on_gpu);
+            const double apart = max_distance(on_cpu, on_gpu);
             std::cout << "measured: creature " << creature << ' ' << name_of(scheme) << ' ' << sizeof(Real) * 8
                       << " bits: after a frame " << apart;
             EXPECT_LE(apart, frame_bound);
@@ -52,7 +51,7 @@ protected:
         }
         EXPECT_NEAR(gpu.muscle_work(), cpu.muscle_work(), 0.01 * std::abs(cpu.muscle_work()));
         const double path = std::abs(mean_x(model.body, on_cpu) - mean_x(model.body, on_gpu));
-        std::cout << ", mean x after 0.25 s " << path << ", particles " << largest_distance(on_cpu, on_gpu) << '\n';
+        std::cout << ", mean x after 0.25 s " << path << ", particles " << max_distance(on_cpu, on_gpu) << '\n';
         EXPECT_LE(path, path_bound);
     }
 };
@@ -86,8 +85,7 @@ std::vector<double> distances_on_cpu(const Scene& scene, const std::vector<Batch
     for (unsigned w = 0; w < std::max(1u, std::thread::hardware_concurrency()); ++w)
         workers.emplace_back([&] {
             for (std::size_t k = next++; k < members.size(); k = next++)
-                distances[k] =
-                    evaluate(scene, members[k].gait, {.perturbation = members[k].perturbation}).distance;
+                distances[k] = evaluate(scene, members[k].gait, {.perturbation = members[k].perturbation}).distance;
         });
     for (std::thread& worker : workers) worker.join();
     return distances;
@@ -158,7 +156,8 @@ TEST_P(GpuBrokenLaws, AreNamedAsTheCpuNamesThem) {
     EXPECT_EQ(cpu.instability->law, GetParam().law);
     for (const bool whole : {false, true})
         for (const int members : {1, 3})
-            for (const Evaluation& gpu : evaluate_on_gpu(scene, std::vector<BatchMember>(members, {gait, {}}), {.whole_gpu = whole})) {
+            for (const Evaluation& gpu :
+                 evaluate_on_gpu(scene, std::vector<BatchMember>(members, {gait, {}}), {.whole_gpu = whole})) {
                 ASSERT_EQ(gpu.stopped, StopReason::unstable);
                 EXPECT_EQ(gpu.fitness(), 0);
                 EXPECT_EQ(gpu.instability->law, cpu.instability->law);
@@ -174,8 +173,9 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenCase{R"({"fluid": {"mass": {"bottom": 0.005}}})", "tank"},
         BrokenCase{R"({"solver": {"collisionDistance": 1000}, "stopping": {"planeContact": false}})", "tank"},
         BrokenCase{R"({"scheme": "conserving", "solver": {"surfaceTension": 100}})", "energy"},
-        BrokenCase{R"({"scheme": "conserving", "fluid": {"mass": {"gradient": "mass-linear", "bottom": 0.001, "top": 1000}}})",
-                   "particle-energy"}));
+        BrokenCase{
+            R"({"scheme": "conserving", "fluid": {"mass": {"gradient": "mass-linear", "bottom": 0.001, "top": 1000}}})",
+            "particle-energy"}));
 
 }  // namespace
 }  // namespace natator::test

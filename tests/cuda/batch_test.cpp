@@ -10,8 +10,8 @@
 #include "natator/error.h"
 #include "natator/measure.h"
 #include "natator/model.h"
-#include "natator/simulation.h"
 #include "natator/settled_state_cache.h"
+#include "natator/simulation.h"
 
 namespace natator::test {
 namespace {
@@ -193,7 +193,8 @@ INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,
                                     (std::get<1>(test.param) == Precision::double_precision ? "Double" : "Float");
                          });
 
-/// Scenes whose solids have a block for themselves where States are few, or are too many for that; beside the fluid on one chip.
+/// Scenes whose solids have a block for themselves where States are few, or are too many for that; beside the fluid on
+/// one chip.
 struct SolidCase {
     const char* name;
     const char* overrides;
@@ -217,16 +218,21 @@ TEST_P(GpuTeams, OfManyBlocksGiveTheBitsOfFewer) {
 
 INSTANTIATE_TEST_SUITE_P(
     Solids, GpuTeams,
-    testing::Values(
-        SolidCase{"AsTheyAre", "{}"}, SolidCase{"WithoutClusters", R"({"creature": {"clusterStiffness": 0}})"},
-        SolidCase{"WithoutSprings", R"({"creature": {"springStiffness": 0}})"}, SolidCase{"WithoutFluid", R"({"fluid": null})"},
-        SolidCase{"BesideAnObstacle",
-                  R"({"obstacles": [{"shape": "sphere", "centre": [2.4, 0.6, 0.6], "radius": 0.2}]})"},
-        SolidCase{"OfThreeBodies", R"({"companions": [{"creature": {"name": "creature-3", "rearCentre": [0.6, 0.6, 0.25]}},
+    testing::Values(SolidCase{"AsTheyAre", "{}"},
+                    SolidCase{"WithoutClusters", R"({"creature": {"clusterStiffness": 0}})"},
+                    SolidCase{"WithoutSprings", R"({"creature": {"springStiffness": 0}})"},
+                    SolidCase{"WithoutFluid", R"({"fluid": null})"},
+                    SolidCase{"BesideAnObstacle",
+                              R"({"obstacles": [{"shape": "sphere", "centre": [2.4, 0.6, 0.6], "radius": 0.2}]})"},
+                    SolidCase{"OfThreeBodies",
+                              R"({"companions": [{"creature": {"name": "creature-3", "rearCentre": [0.6, 0.6, 0.25]}},
                                                       {"creature": {"name": "creature-4", "rearCentre": [2.2, 0.6, 0.9]}}]})"},
-        SolidCase{"InOtherWater", R"({"solver": {"cohesion": 0.02, "solidPressure": 0.5, "viscosity": 0, "damping": 0}})"},
-        SolidCase{"WithManyNeighbours", R"({"fluid": {"spacing": 0.07}})"},
-        SolidCase{"WithEffects", R"({"solver": {"restitution": 0.5, "adhesion": 20, "cohesion": 0.02, "surfaceTension": 0.5,
+                    SolidCase{"InOtherWater",
+                              R"({"solver": {"cohesion": 0.02, "solidPressure": 0.5, "viscosity": 0, "damping": 0}})"},
+                    SolidCase{"WithManyNeighbours", R"({"fluid": {"spacing": 0.07}})"},
+                    SolidCase{
+                        "WithEffects",
+                        R"({"solver": {"restitution": 0.5, "adhesion": 20, "cohesion": 0.02, "surfaceTension": 0.5,
                                      "vorticityConfinement": 0.5, "freeSurfaceDrag": 1, "dissipation": 3,
                                      "shockPropagation": 1.5}})"}),
     [](const auto& test) { return std::string(test.param.name); });
@@ -277,8 +283,8 @@ TEST(GpuBatchEnds, AMemberThatIsRefusedCostsTheOthersNothing) {
 TEST(GpuBatchEnds, AnUnstableMemberChangesNoOther) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
     for (const auto& [updates, factor] : {std::pair(0, 0.5), {100, 0.4}}) {
-        Scene scene = load_scene(
-            "bench/small-tank", {{"solver", {{"relaxationMode", "global"}, {"relaxationFactor", factor}}}});
+        Scene scene =
+            load_scene("bench/small-tank", {{"solver", {{"relaxationMode", "global"}, {"relaxationFactor", factor}}}});
         scene.duration = 0.1;
         scene.settling.updates = updates;
         scene.stopping.plane_contact = false;

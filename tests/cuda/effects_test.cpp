@@ -9,7 +9,7 @@ namespace {
 
 struct Effect {
     const char* name;
-    double SolverParameters::*strength;
+    double SolverParameters::* strength;
     double value;
 };
 
@@ -38,11 +38,11 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
     scene.solver.*effect.strength = effect.value;
     const Model model = build_model(scene);
     const State<double> cpu = after_two_frames(scene, model, Solver<double>(model));
-    EXPECT_GT(largest_distance(cpu, after_two_frames(scene, without, Solver<double>(without))), 1e-6);
+    EXPECT_GT(max_distance(cpu, after_two_frames(scene, without, Solver<double>(without))), 1e-6);
     for (const GpuPath path : {GpuPath::block, GpuPath::whole_gpu}) {
         if (path == GpuPath::block && scheme == Scheme::conserving) continue;  // has no other than the whole GPU
         const State<double> gpu = after_two_frames(scene, model, GpuSolver<double>(model, {.path = path}));
-        EXPECT_LE(largest_distance(cpu, gpu), 1e-9) << "path " << static_cast<int>(path);
+        EXPECT_LE(max_distance(cpu, gpu), 1e-9) << "path " << static_cast<int>(path);
         double velocities_apart = 0;
         for (std::size_t i = 0; i < cpu.velocity.size(); ++i)
             velocities_apart = std::max(velocities_apart, (cpu.velocity[i] - gpu.velocity[i]).norm());
@@ -89,8 +89,8 @@ TEST_P(GpuEffectsOnGrains, AreTheCpus) {
     const State<double> without = after_four_frames(Solver<double>(model));
     model.parameters.*GetParam().strength = GetParam().value;
     const State<double> cpu = after_four_frames(Solver<double>(model));
-    EXPECT_GT(largest_distance(cpu, without), 1e-3);
-    EXPECT_LE(largest_distance(cpu, after_four_frames(GpuSolver<double>(model, {.path = GpuPath::whole_gpu}))), 1e-9);
+    EXPECT_GT(max_distance(cpu, without), 1e-3);
+    EXPECT_LE(max_distance(cpu, after_four_frames(GpuSolver<double>(model, {.path = GpuPath::whole_gpu}))), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GpuEffectsOnGrains, testing::Values(restitution, sleep, shock_propagation, dissipation),

@@ -52,7 +52,7 @@ inline Gait wave(const Scene& scene, int number = 0) {
 
 /// Of a particle's two places.
 template <class Real>
-double largest_distance(const State<Real>& a, const State<Real>& b) {
+double max_distance(const State<Real>& a, const State<Real>& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.position.size(); ++i) {
         const double distance = (a.position[i] - b.position[i]).norm();
@@ -74,7 +74,9 @@ struct OnBoth {
           on_gpu(on_cpu) {}
 
     /// Advances both; false if one is not stable.
-    bool update(double time, int substeps) { return !cpu.update(on_cpu, time, substeps) && !gpu.update(on_gpu, time, substeps); }
+    bool update(double time, int substeps) {
+        return !cpu.update(on_cpu, time, substeps) && !gpu.update(on_gpu, time, substeps);
+    }
 
 private:
     static Execution execution(bool forces) {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "gpu_test.h"
 #include "../native/lattice_bar.h"
+#include "gpu_test.h"
 #include "natator/error.h"
 
 namespace natator::lattice {
@@ -18,12 +18,13 @@ void stir(Water& water) {
     for_each_cell(water.box(), [&](const Eigen::Vector3i& at) {
         const Eigen::Array3d wave = 2 * std::numbers::pi * (at.cast<double>().array() + 0.3) / n.cast<double>().array();
         const Eigen::Array3d s = wave.sin(), c = wave.cos();
-        water.set_cell(at, {0.01 * s.x() * c.y(), 0.05 * Eigen::Vector3d(s.y() * c.z(), s.z() * c.x(), s.x() + c.y() * s.z())});
+        water.set_cell(
+            at, {0.01 * s.x() * c.y(), 0.05 * Eigen::Vector3d(s.y() * c.z(), s.z() * c.x(), s.x() + c.y() * s.z())});
     });
 }
 
 /// Of velocities and densities, of the greatest velocity.
-double largest_difference(const Water& a, const Water& b) {
+double max_difference(const Water& a, const Water& b) {
     double most = 0, scale = 0;
     for_each_cell(a.box(), [&](const Eigen::Vector3i& at) {
         const Cell p = a.cell(at), q = b.cell(at);
@@ -33,7 +34,7 @@ double largest_difference(const Water& a, const Water& b) {
     });
     return most / scale;
 }
-double largest_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
+double max_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
     double most = 0, scale = 0;
     for (std::size_t p = 0; p < a.size(); ++p)
         for (int k = 0; k < 12; ++k) {
@@ -47,7 +48,8 @@ double largest_difference(const std::vector<Push>& a, const std::vector<Push>& b
 
 TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
     constexpr Face kinds[] = {Face::periodic, Face::free_slip, Face::no_slip};
-    for (const Eigen::Vector3i& size : {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
+    for (const Eigen::Vector3i& size :
+         {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
         for (const Face x : kinds)
             for (const Face y : kinds)
                 for (const Face z : kinds) {
@@ -64,13 +66,13 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
                         stir(*water);
                         for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
                     }
-                    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4)
-                        << size.transpose() << ": " << static_cast<int>(x) << static_cast<int>(y) << static_cast<int>(z);
+                    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4) << size.transpose() << ": " << static_cast<int>(x)
+                                                                << static_cast<int>(y) << static_cast<int>(z);
                 }
 }
 
-/// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in a step, then on,
-/// so that it comes to lie in cells that it left.
+/// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in
+/// a step, then on, so that it comes to lie in cells that it left.
 void expect_same_pushes(const Face face, bool shifts) {
     Bar bar;
     for (auto& ends : bar.box_.faces) ends[0] = ends[1] = face;
@@ -90,16 +92,31 @@ void expect_same_pushes(const Face face, bool shifts) {
         std::vector<Push> by_cpu, by_gpu;
         cpu->advance(bar.cubes(), 1, by_cpu);
         gpu->advance(bar.cubes(), 1, by_gpu);
-        ASSERT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << k;
+        ASSERT_LT(max_difference(by_cpu, by_gpu), 1e-4) << k;
         bar.move(by_cpu);
     }
-    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4);
 }
 TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
     expect_same_pushes(Face::periodic, false);
     expect_same_pushes(Face::free_slip, false);
     expect_same_pushes(Face::no_slip, false);
 }
+TEST_F(GpuLattice, TellsAllOfItsCells) {
+    Box box = box_of(13, 10, 7);
+    box.viscosity = 0.01;
+    const auto water = Water::on_gpu(box, 0);
+    stir(*water);
+    const std::vector<Eigen::Vector4f> cells = water->cells();
+    ASSERT_EQ(cells.size(), 910u);
+    std::size_t i = 0;
+    for_each_cell(box, [&](const Eigen::Vector3i& at) {
+        const Cell cell = water->cell(at);
+        EXPECT_NEAR(cells[i][0], 1 + cell.excess, 1e-6) << at;
+        EXPECT_LT((cells[i++].tail<3>().cast<double>() - cell.velocity).norm(), 1e-6) << at;
+    });
+}
+
 TEST_F(GpuLattice, IsShiftedAsOnTheCpu) {
     expect_same_pushes(Face::periodic, true);
     expect_same_pushes(Face::no_slip, true);
@@ -116,7 +133,8 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
         std::vector<Cube> cubes(count);
         for (int k = 0; k < count; ++k) {
             Cube& cube = cubes[k];
-            cube.x[0] = static_cast<float>(along + 1.5 * (k % 5)), cube.x[1] = static_cast<float>(5 + 1.5 * (k / 5 % 5)), cube.x[2] = static_cast<float>(-1 + 1.5 * (k / 25));
+            cube.x[0] = static_cast<float>(along + 1.5 * (k % 5)),
+            cube.x[1] = static_cast<float>(5 + 1.5 * (k / 5 % 5)), cube.x[2] = static_cast<float>(-1 + 1.5 * (k / 25));
             for (int a = 0; a < 3; ++a) {
                 cube.v[a] = 0.01f * static_cast<float>(a - 1), cube.to_rest[4 * a] = 1 / 0.8f, cube.reach[a] = 0.8f;
                 cube.rate[4 * a] = 0.003f, cube.rate[(4 * a + 1) % 9] = 0.002f;
@@ -125,7 +143,18 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
         return cubes;
     };
     int step = 0;
-    for (const auto& [count, along] : {std::pair{3, 4.0}, {40, 4.2}, {200, 4.6}, {60, 10.2}, {0, 0.0}, {30, 17.0}, {30, -30.0}, {30, 40.0}, {200, -2.5}, {1, 8.0}, {0, 0.0}, {100, 8.0}})
+    for (const auto& [count, along] : {std::pair{3, 4.0},
+                                       {40, 4.2},
+                                       {200, 4.6},
+                                       {60, 10.2},
+                                       {0, 0.0},
+                                       {30, 17.0},
+                                       {30, -30.0},
+                                       {30, 40.0},
+                                       {200, -2.5},
+                                       {1, 8.0},
+                                       {0, 0.0},
+                                       {100, 8.0}})
         for (int k = 0; k < 3; ++k, ++step) {
             std::vector<Push> by_cpu, by_gpu;
             cpu->advance(cubes_of(count, along), 1, by_cpu);
@@ -134,11 +163,11 @@ TEST_F(GpuLattice, TakesBodiesThatComeAndGo) {
             bool any = false;
             for (const Push& push : by_cpu) any = any || push.j[0] != 0;
             if (any) {
-                EXPECT_LT(largest_difference(by_cpu, by_gpu), 1e-4) << step;
+                EXPECT_LT(max_difference(by_cpu, by_gpu), 1e-4) << step;
             }
             for (const Push& push : by_gpu) ASSERT_TRUE(any || push.j[0] == 0) << step;
         }
-    EXPECT_LT(largest_difference(*cpu, *gpu), 1e-4);
+    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4);
 }
 
 TEST_F(GpuLattice, HasTheSameBitsInEachRun) {

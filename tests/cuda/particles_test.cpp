@@ -64,11 +64,13 @@ TEST_F(GpuParticles, WhatDoesNotFitTheModelIsRefusedAsOnTheCpu) {
         EXPECT_NE(refusal_of([&] { gpu.frame(state, gait); }), "");
 
         state.velocity.pop_back();
-        EXPECT_EQ(refusal_of([&] { gpu.update(state, substep, 1); }), refusal_of([&] { cpu.update(state, substep, 1); }));
+        EXPECT_EQ(refusal_of([&] { gpu.update(state, substep, 1); }),
+                  refusal_of([&] { cpu.update(state, substep, 1); }));
         EXPECT_NE(refusal_of([&] { gpu.update(state, substep, 1); }), "");
 
         model.velocity.pop_back();
-        EXPECT_EQ(refusal_of([&] { const GpuSolver<float> refused(model); }), refusal_of([&] { const Solver<float> refused(model); }));
+        EXPECT_EQ(refusal_of([&] { const GpuSolver<float> refused(model); }),
+                  refusal_of([&] { const Solver<float> refused(model); }));
         EXPECT_NE(refusal_of([&] { const GpuSolver<float> refused(model); }), "");
     }
 }
@@ -98,9 +100,8 @@ TEST_F(GpuParticles, NeighbourCountsEqualASearchOverAllPairs) {
                 const double distance = (model.position[i] - model.position[j]).norm();
                 if (i == j) continue;
                 // Solids feel the fluid alone in flex; in the water of conserving all are neighbours of all.
-                expected += scheme == Scheme::flex
-                                ? distance < p.radius && (model.is_fluid(i) || model.is_fluid(j))
-                                : distance < p.conserving.kernel_support * p.fluid_rest_distance;
+                expected += scheme == Scheme::flex ? distance < p.radius && (model.is_fluid(i) || model.is_fluid(j))
+                                                   : distance < p.conserving.kernel_support * p.fluid_rest_distance;
             }
             EXPECT_EQ(gpu.neighbour_counts()[i], expected) << i;
         }

@@ -29,9 +29,9 @@ TEST_F(GpuPeriodic, CornersAreTheCpus) {
             ASSERT_TRUE(both.update(substep, 1));
             EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts()) << k;
         }
-        std::cout << "measured: periodic water, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-        EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-13);
-        EXPECT_GT(largest_distance(initial_state<double>(model), on_gpu), 1e-2);
+        std::cout << "measured: periodic water, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+        EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-13);
+        EXPECT_GT(max_distance(initial_state<double>(model), on_gpu), 1e-2);
     }
 }
 
@@ -44,7 +44,8 @@ void expect_momentum_kept(const Model& model, double bound) {
     advance_frames(gpu, model, state, 20);
     const Eigen::Vector3d change = momentum(model, state) - before;
     const double size = momentum_size(model, initial_state<Real>(model));
-    std::cout << "measured: momentum gained in a periodic tank " << std::max(std::abs(change.x()), std::abs(change.z())) / size << '\n';
+    std::cout << "measured: momentum gained in a periodic tank "
+              << std::max(std::abs(change.x()), std::abs(change.z())) / size << '\n';
     EXPECT_LE(std::abs(change.x()), bound * size);
     EXPECT_LE(std::abs(change.z()), bound * size);
     EXPECT_GT(std::abs(change.y()), 1e-3 * size);  // the floor pushes
@@ -68,8 +69,8 @@ TEST_F(GpuPeriodic, ABodyGoesRoundAsOnTheCpu) {
             advance_frames(cpu, model, on_cpu, 1);
             advance_frames(gpu, model, on_gpu, 1);
         }
-        std::cout << "measured: a body through the seam " << largest_distance(on_cpu, on_gpu) << '\n';
-        EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-13);
+        std::cout << "measured: a body through the seam " << max_distance(on_cpu, on_gpu) << '\n';
+        EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-13);
         const auto forces = gpu.forces(), expected = cpu.forces();
         double largest = 0;
         for (const int i : model.clusters.front().particles) {
@@ -91,12 +92,13 @@ TEST_F(GpuPeriodic, EffectsAreTheCpus) {
     for (int k = 0; k < 4; ++k) {
         ASSERT_TRUE(both.update(substep, 1));
     }
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
 }
 
 /// A swim through the end: the same bits alone and in a batch, and as far as on the CPU.
 TEST_F(GpuPeriodic, ASwimIsTheCpus) {
-    nlohmann::json overrides = nlohmann::json::parse(R"({"duration": 0.25, "stopping": {"noProgressAfter": 0}, "settling": {"updates": 10}})");
+    nlohmann::json overrides =
+        nlohmann::json::parse(R"({"duration": 0.25, "stopping": {"noProgressAfter": 0}, "settling": {"updates": 10}})");
     const Scene scene = load_scene("open-water/periodic", overrides);
     std::vector<BatchMember> members;
     for (int k = 0; k < 3; ++k) members.push_back({wave(scene, k), {}});
@@ -109,7 +111,7 @@ TEST_F(GpuPeriodic, ASwimIsTheCpus) {
     EXPECT_NEAR(on_cpu.distance, all[0].distance, 1e-12);
 }
 
-TEST_F(GpuPeriodic, MoreBordersThanItHasRoomForAreRefused) {
+TEST_F(GpuPeriodic, MoreBoundariesThanItHasRoomForAreRefused) {
     Model model = stirred_periodic_water({0, 2});
     model.planes.push_back({{0, -1, 0}, 2});
     GpuSolver<float> fits(model);  // six
@@ -118,7 +120,9 @@ TEST_F(GpuPeriodic, MoreBordersThanItHasRoomForAreRefused) {
         GpuSolver<float> refused(model);
         ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("7 planes and ends of periodic axes; must be at most 6"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("7 planes and ends of periodic axes; must be at most 6"),
+                  std::string::npos)
+            << error.what();
     }
 }
 

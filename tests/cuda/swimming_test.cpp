@@ -20,9 +20,10 @@ class GpuSwimming : public OnGpu<testing::TestWithParam<Swim>> {};
 /// Beats of little more than eight frames, so that there is one in little time.
 TEST_P(GpuSwimming, NumbersAndWorkAreTheCpus) {
     const Swim& swim = GetParam();
-    Scene scene = load_scene(swim.scene, {{"duration", 0.15},
-                                          {"solver", {{"substeps", 4}, {"solidIterations", 3}, {"kinematicViscosity", 0.01}}},
-                                          {"settling", {{"updates", 3}}}});
+    Scene scene =
+        load_scene(swim.scene, {{"duration", 0.15},
+                                {"solver", {{"substeps", 4}, {"solidIterations", 3}, {"kinematicViscosity", 0.01}}},
+                                {"settling", {{"updates", 3}}}});
     scene.scheme = swim.scheme;
     Gait gait = wave(scene);
     gait.frequency = 7.4;
@@ -30,8 +31,7 @@ TEST_P(GpuSwimming, NumbersAndWorkAreTheCpus) {
     const Evaluation cpu =
         evaluate(scene, gait, {.precision = Precision::double_precision, .perturbation = member.perturbation});
     const std::vector<Evaluation> both = evaluate_on_gpu(
-        scene, {member, {wave(scene), {}}},
-        {.precision = Precision::double_precision, .whole_gpu = swim.whole_gpu});
+        scene, {member, {wave(scene), {}}}, {.precision = Precision::double_precision, .whole_gpu = swim.whole_gpu});
     const Evaluation& gpu = both.front();
     std::cout << "measured: distances " << cpu.distance << " and " << gpu.distance - cpu.distance << " from it\n";
     constexpr double bound = 1e-6;
@@ -62,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Swims, GpuSwimming,
 /// Scenes with more than one straight swim in a tank: what the host does between frames, and places of bodies.
 class GpuTasks : public OnGpu<testing::Test> {
 protected:
-    static void compare(const std::string& name, const nlohmann::json& overrides, const std::vector<double>& offset = {}) {
+    static void compare(const std::string& name, const nlohmann::json& overrides,
+                        const std::vector<double>& offset = {}) {
         nlohmann::json all{{"duration", 0.15}, {"solver", {{"solidIterations", 3}}}, {"settling", {{"updates", 3}}}};
         all.merge_patch(overrides);
         const Scene scene = load_scene(name, all);

@@ -88,10 +88,10 @@ TEST_F(GpuWater, CornersAndNarrowGapsAreTheCpus) {
         ASSERT_TRUE(both.update(substep, 1));
         EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts()) << k;
     }
-    std::cout << "measured: corner, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
-    EXPECT_LE(largest_distance(initial_state<double>(model), on_gpu), 1);
-    EXPECT_GT(largest_distance(initial_state<double>(model), on_gpu), 1e-3);
+    std::cout << "measured: corner, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
+    EXPECT_LE(max_distance(initial_state<double>(model), on_gpu), 1);
+    EXPECT_GT(max_distance(initial_state<double>(model), on_gpu), 1e-3);
 }
 
 /// More neighbours than lists have room for at first: the update is done again, with the same outcome as on the CPU.
@@ -108,11 +108,11 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
     for (int k = 0; k < 3; ++k) {
         ASSERT_TRUE(both.update(2 * substep, 2));
     }
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-9);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-9);
 }
 
-/// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The water
-/// turns past both.
+/// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The
+/// water turns past both.
 Model bodies_in_a_corner() {
     Model model = water_in_a_corner(6);
     model.parameters.conserving.kinematic_viscosity = 0.02;
@@ -154,7 +154,8 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
         for (const int i : model.clusters[0].particles) sum += on_gpu.velocity[i] / model.inverse_mass[i];
         return sum;
     };
-    const Eigen::Vector3d weight = model.parameters.gravity * static_cast<double>(model.clusters[0].particles.size()) / 0.8;
+    const Eigen::Vector3d weight =
+        model.parameters.gravity * static_cast<double>(model.clusters[0].particles.size()) / 0.8;
     EXPECT_TRUE(gpu.forces().empty());
     EXPECT_TRUE(gpu.pressures().empty());
     double largest = 0;
@@ -182,7 +183,7 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
     std::cout << "measured: forces on bodies in a corner " << largest / weight.norm() << " of the weight\n";
     EXPECT_LE(largest, 1e-8 * weight.norm());
     EXPECT_TRUE(unasked.forces().empty());
-    EXPECT_EQ(largest_distance(on_gpu, other), 0);
+    EXPECT_EQ(max_distance(on_gpu, other), 0);
     for (int i = 0; i < model.particles(); ++i) EXPECT_EQ(on_gpu.velocity[i], other.velocity[i]) << i;
 }
 
@@ -192,15 +193,16 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     model.position = lattice(12, 8, 6, spacing, Eigen::Vector3d(0.54, 0.36, 0.27));
     disorder_fluid(spacing, model);
     model.clusters[0] = make_cluster(model.clusters[0].particles, model.position, 1);
-    model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
+    model.planes = {
+        {{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
     model.parameters.conserving.modified_pressure = true;
     model.parameters.iterations = 1;  // so few, in so long a step, that most of the weight is carried
     model.time_step = 4 * substep;
     OnBoth both(model, true);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(both.update(2 * substep, 2));
-    std::cout << "measured: modified pressure, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
+    std::cout << "measured: modified pressure, ten substeps " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-11);
     const auto forces = gpu.forces(), expected = cpu.forces();
     const auto pressures = gpu.pressures(), its = cpu.pressures();
     const double largest = *std::max_element(its.begin(), its.end());
@@ -213,11 +215,11 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     State<double> whole = initial_state<double>(model);
     GpuSolver<double> other(model);
     for (int k = 0; k < 5; ++k) ASSERT_FALSE(other.update(whole, 2 * substep, 2));
-    EXPECT_GT(largest_distance(whole, on_gpu), 1e-5);
+    EXPECT_GT(max_distance(whole, on_gpu), 1e-5);
 }
 
-/// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of the mean
-/// mass does: where the water is of two masses that is neither's own.
+/// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of
+/// the mean mass does: where the water is of two masses that is neither's own.
 TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
     Model model = bodies_in_a_corner();
     model.parameters.conserving.kinematic_viscosity = 0.3 * spacing * spacing / substep;
@@ -234,7 +236,8 @@ TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
         off = std::max(off, (forces[i] - expected[i]).norm());
         largest = std::max(largest, expected[i].norm());
     }
-    std::cout << "measured: limited viscosity beside held bodies: velocities " << apart / fastest << ", forces " << off / largest << '\n';
+    std::cout << "measured: limited viscosity beside held bodies: velocities " << apart / fastest << ", forces "
+              << off / largest << '\n';
     EXPECT_LE(apart, 1e-9 * fastest);
     EXPECT_LE(off, 1e-8 * largest);
     EXPECT_GT(largest, 0);
@@ -259,7 +262,7 @@ TEST_F(GpuWater, ForcesAreSummedAnewWhereAnUpdateIsDoneAgain) {
 
 struct WaterEffect {
     const char* name;
-    double SolverParameters::*strength;
+    double SolverParameters::* strength;
     double value;
 };
 const WaterEffect water_effects[] = {{"Cohesion", &SolverParameters::cohesion, 0.002},
@@ -288,11 +291,10 @@ TEST_P(GpuWaterEffects, InACornerAreTheCpus) {
     model.parameters.*GetParam().strength = GetParam().value;
     const State<double> on_cpu = after_a_frame(Solver<double>(model));
     const State<double> on_gpu = after_a_frame(GpuSolver<double>(model));
-    std::cout << "measured: " << GetParam().name << " in a corner " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_GT(largest_distance(on_cpu, without), 1e-4);
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-12);
-    for (int i = 0; i < model.particles(); ++i)
-        EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
+    std::cout << "measured: " << GetParam().name << " in a corner " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_GT(max_distance(on_cpu, without), 1e-4);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-12);
+    for (int i = 0; i < model.particles(); ++i) EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
 }
 INSTANTIATE_TEST_SUITE_P(All, GpuWaterEffects, testing::ValuesIn(water_effects),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -35,13 +35,13 @@ void expect_agreement(const Scene& scene, double substep_bound, double frame_bou
     State<Real> cpu_substep = on_cpu, gpu_substep = on_gpu;
     ASSERT_FALSE(cpu.update(cpu_substep, substep, 1));
     ASSERT_FALSE(gpu.update(gpu_substep, substep, 1));
-    std::cout << "measured: after a substep " << largest_distance(cpu_substep, gpu_substep);
-    EXPECT_LE(largest_distance(cpu_substep, gpu_substep), substep_bound);
+    std::cout << "measured: after a substep " << max_distance(cpu_substep, gpu_substep);
+    EXPECT_LE(max_distance(cpu_substep, gpu_substep), substep_bound);
     EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts());
     ASSERT_FALSE(cpu.frame(on_cpu, gait));
     ASSERT_FALSE(gpu.frame(on_gpu, gait));
-    std::cout << ", after a frame " << largest_distance(on_cpu, on_gpu) << '\n';
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), frame_bound);
+    std::cout << ", after a frame " << max_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(max_distance(on_cpu, on_gpu), frame_bound);
     const auto cpu_density = cpu.densities(), gpu_density = gpu.densities();
     double density_apart = 0;
     for (std::size_t i = 0; i < cpu_density.size(); ++i)
@@ -61,7 +61,8 @@ TEST_P(WholeGpu, EightTimesTheFluidAgreesWithTheCpu) {
     expect_agreement<float>(tank(2, GetParam()), 1e-5, 2e-4);
 }
 TEST_P(WholeGpu, SixtyFourTimesTheFluidAgreesWithTheCpu) {
-    expect_agreement<float>(tank(4, GetParam()), 1e-5, GetParam() == Scheme::flex ? 2e-4 : 1e-2);  // as rounding grows by in a frame
+    expect_agreement<float>(tank(4, GetParam()), 1e-5,
+                            GetParam() == Scheme::flex ? 2e-4 : 1e-2);  // as rounding grows by in a frame
 }
 
 /// A member's bits depend on nothing but itself, whatever was computed before it.
@@ -89,7 +90,7 @@ TEST_P(WholeGpu, ContactsWithoutListsAreTheSame) {
         ASSERT_FALSE(lists.frame(with, wave(scene)));
         ASSERT_FALSE(search.frame(without, wave(scene)));
     }
-    EXPECT_LE(largest_distance(with, without), 1e-12);
+    EXPECT_LE(max_distance(with, without), 1e-12);
     EXPECT_EQ(lists.neighbour_counts(), search.neighbour_counts());
 }
 
@@ -109,7 +110,7 @@ void expect_the_same_without_lists(const Model& model) {
     EXPECT_EQ(lists.pressures(), search.pressures());
     EXPECT_EQ(lists.forces(), search.forces());
     EXPECT_EQ(lists.neighbour_counts(), search.neighbour_counts());
-    EXPECT_GT(largest_distance(initial_state<Real>(model), with), 1e-3);
+    EXPECT_GT(max_distance(initial_state<Real>(model), with), 1e-3);
 }
 
 class WithoutLists : public OnGpu<> {};
@@ -180,7 +181,7 @@ TEST_P(WholeGpu, AFlatBlockAgreesWithTheCpu) {
     ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
     ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
     EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts());
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-5);
+    EXPECT_LE(max_distance(on_cpu, on_gpu), 1e-5);
 }
 
 /// CUDA copies no rows that are further apart than that.

@@ -88,14 +88,14 @@ class ReadersTest(FolderTest):
 
     def test_every_number_of_a_swim_is_read_back(self):
         for format, least in {"vtp": 500000, "ply": 400000, "usd": 300000, "usdc": 300000, "csv": 400000, "npz": 300000,
-                              "glb": 5000}.items():
+                              "glb": 5000, "vti": 100000}.items():
             with self.subTest(format):
                 found = self.check("thesis/creature-1", 0.1, format, gait=TWO)
                 self.assertGreater(found.compared, least)
                 self.assertEqual(len(found.reference.frames), 7)
 
     def test_the_body_alone_and_fewer_fields_and_frames(self):
-        for format in FORMATS:
+        for format in FORMATS.keys() - {"vti"}:
             with self.subTest(format):
                 found = self.check("thesis/creature-4", 0.2, format, dict(water=False, every=3, fields=["position"]), gait=THREE,
                                    scheme="conserving", overrides={"solver": {"substeps": 2, "viscosity": 3}})

@@ -12,6 +12,7 @@ from unittest import mock
 
 import numpy as np
 from natator import picture
+from natator.errors import InputError
 from PIL import Image
 
 TANK = "bench/small-tank"
@@ -63,6 +64,18 @@ class PictureTest(unittest.TestCase):
                 self.assertEqual(pixels[2, 2].tolist(), [255, 255, 255])
                 warm = pixels[..., 0] > pixels[..., 2] + 60
                 self.assertGreater(warm.mean(), 0.02)
+
+    def test_vortices_are_seen(self):
+        cells = {"solver": {"substeps": 16}, "fluid": {"count": [60, 24, 24], "spacing": 0.075, "origin": [0.0375] * 3,
+                                                       "mass": {"bottom": 0.421875}}}
+        gait = {"frequency": 2, "amplitude": [0.4] * 8, "phase": [0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2]}
+        cold = []
+        for more in ({"vortices": True}, {"water": False}):
+            pixels, _, _ = self.drawn("lake/creature-2", gait=gait, overrides=cells, at=0.3, view="top", size=(500, 300), **more)
+            cold.append(np.mean(pixels[..., 2] > pixels[..., 0] + 25))  # the body is warm, the floor grey
+        self.assertGreater(cold[0], 0.002 + 4 * cold[1])
+        with self.assertRaisesRegex(InputError, "the water does not turn anywhere"):
+            self.drawn("lake/creature-2", overrides=cells, at=0, vortices=True, size=(500, 300))
 
     def test_water_veils_what_is_behind_it_and_ends_at_the_walls(self):
         _, wet, _ = self.drawn(size=(500, 300))

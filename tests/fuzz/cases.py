@@ -65,7 +65,7 @@ def stream(random):
     for _ in range(random.randrange(1, 5)):
         command = random.choice([
             {"do": "credit", "frames": 2}, {"do": "run"}, {"do": "pause"}, {"do": "step", "frames": 1},
-            {"do": "step", "frames": 2}, {"do": "rate", "value": 0}, {"do": "reset"}, {"do": "gait", "gait": GAIT},
+            {"do": "step", "frames": 2}, {"do": "rate", "value": 0}, {"do": "water"}, {"do": "reset"}, {"do": "gait", "gait": GAIT},
             {"do": "drive", "drive": [0.5, -1]}, {"do": "steer", "scale": [1, 0.5], "offset": [0.1, 0]},
             {"do": "step", "drive": [[0.5, 1], [1, 0]], "sense": True},
             {"do": "sense", "flow": [{"slice": 2, "side": "left"}], "within": 0.3, "target": [1, 0.5, 0.5], "each": True},

@@ -75,7 +75,9 @@ TEST(StatisticsTest, MedianAndSpread) {
 
 TEST(ResultTableTest, GoesOnWhereAKilledStudyStopped) {
     const TemporaryPath file("-table.csv");
-    { ResultTable(file.path, {"a", "b"}, 1).add({"1", "x"}); }
+    {
+        ResultTable(file.path, {"a", "b"}, 1).add({"1", "x"});
+    }
     std::ofstream(file.path, std::ios::app) << "2,cut o";
     ResultTable table(file.path, {"a", "b"}, 1);
     EXPECT_TRUE(table.has({"1"}));
@@ -104,8 +106,9 @@ TEST(ResultTableTest, SaysHowManyRowsItFoundDone) {
             if (!table.has({key})) table.add({key});
         EXPECT_TRUE(table.has({"2"})) << "its own";
     }
-    EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              file.path + ": holds 1 of these rows already, which are kept; with another file they are measured again\n");
+    EXPECT_EQ(
+        testing::internal::GetCapturedStderr(),
+        file.path + ": holds 1 of these rows already, which are kept; with another file they are measured again\n");
 }
 
 TEST(ResultTableTest, NumbersReadBack) {
@@ -258,7 +261,8 @@ TEST(ThroughputTest, TanksHaveTheirParticlesBetweenTheirWalls) {
     }
 }
 
-/// Else their time would go to parting overlaps, which water so deep has for longer if it begins at the thesis' spacing.
+/// Else their time would go to parting overlaps, which water so deep has for longer if it begins at the thesis'
+/// spacing.
 TEST(ThroughputTest, TanksHaveNoOverlapsOnceSettled) {
     Scene scene = throughput_scene(64000);
     scene.scheme = Scheme::conserving;
@@ -314,11 +318,17 @@ StabilityCase case_of(const char* scene, const char* axis, double value) {
     return subject;
 }
 
-/// The same tests: what a study calls broken, an evaluation does, at the same particle and time, and what it calls ok as well.
+/// The same tests: what a study calls broken, an evaluation does, at the same particle and time, and what it calls ok
+/// as well.
 TEST(StabilityTest, IsJudgedAsEvaluationsAre) {
     for (const Scheme scheme : {Scheme::flex, Scheme::conserving})
-        for (const auto& [axis, value] : std::vector<std::pair<const char*, double>>{
-                 {"dt", 1}, {"dt", 32}, {"gravity", 100}, {"mass-ratio", 1e-4}, {"overlap", 0.5}, {"viscosity", 1e4}, {"radius-ratio", 1.01}}) {
+        for (const auto& [axis, value] : std::vector<std::pair<const char*, double>>{{"dt", 1},
+                                                                                     {"dt", 32},
+                                                                                     {"gravity", 100},
+                                                                                     {"mass-ratio", 1e-4},
+                                                                                     {"overlap", 0.5},
+                                                                                     {"viscosity", 1e4},
+                                                                                     {"radius-ratio", 1.01}}) {
             StabilityCase subject = case_of("small-tank", axis, value);
             subject.scene.scheme = scheme;
             subject.scene.stopping = {.plane_contact = false, .no_progress_after = 0};
@@ -367,7 +377,9 @@ TEST(StabilityTest, WhatASceneCannotDoIsLeftOutAndSaid) {
                          .scenes = {"periodic-tank"}},
                         table, [&](const std::string& line) { said += line; });
     EXPECT_TRUE(table.rows().empty());
-    EXPECT_EQ(said, "left out: conserving float cpu periodic-tank outside 1  : axis outside: needs a wall at the tank's right end");
+    EXPECT_EQ(
+        said,
+        "left out: conserving float cpu periodic-tank outside 1  : axis outside: needs a wall at the tank's right end");
 }
 
 TEST(StabilityTest, PointsAreNamedByAxisOrMap) {
@@ -394,8 +406,8 @@ TEST(StabilityTest, TellsWhereOnlyFlexIsOk) {
 /// The starts and settings that scheme conserving bore worst.
 TEST(StabilityTest, ConservingBearsWhatFlexBears) {
     const std::vector<std::pair<std::string, double>> hard = {
-        {"overlap", 0.9},    {"overlap", 0.5},         {"body-clearance", 0},  {"outside", 1},
-        {"mass-ratio", 100}, {"radius-ratio", 1.0001}, {"radius-ratio", 1.01}, {"radius-ratio", 3}, {"iterations", 64}};
+        {"overlap", 0.9},         {"overlap", 0.5},       {"body-clearance", 0}, {"outside", 1},    {"mass-ratio", 100},
+        {"radius-ratio", 1.0001}, {"radius-ratio", 1.01}, {"radius-ratio", 3},   {"iterations", 64}};
     for (const auto& [axis, value] : hard) {
         StabilityCase subject = calm_case();
         subject.scene.scheme = Scheme::conserving;
@@ -497,7 +509,8 @@ TEST(ValidationTest, QuickStudyGivesPlausibleRowsAndGoesOn) {
     for (const Row& row : fronts.rows())
         if (row[2] == "conserving") front.push_back({std::stod(row[6]), std::stod(row[7])});
     ASSERT_GT(front.size(), 10u);
-    // Exact: 1. Water is disordered by up to a fifth of the particles' distance, 1/8: the foremost is less than 0.025 ahead.
+    // Exact: 1. Water is disordered by up to a fifth of the particles' distance, 1/8: the foremost is less than 0.025
+    // ahead.
     EXPECT_NEAR(front.front().position, 1, 0.02);
     EXPECT_GT(front.back().position, 1.8);
 

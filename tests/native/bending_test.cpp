@@ -16,16 +16,16 @@ namespace {
 
 using nlohmann::json;
 
-const Gait fish_like{1.5,
-                     {0.1, 0.17, 0.24, 0.31, 0.38, 0.45, 0.52, 0.6},
-                     {0, 0.862, 0.724, 0.586, 0.448, 0.31, 0.172, 0.034},
-                     1};
+const Gait fish_like{
+    1.5, {0.1, 0.17, 0.24, 0.31, 0.38, 0.45, 0.52, 0.6}, {0, 0.862, 0.724, 0.586, 0.448, 0.31, 0.172, 0.034}, 1};
 
 Model creature_2_in_vacuum(int substeps, int iterations, int refinement, const json& creature = json::object()) {
-    json overrides = {{"fluid", nullptr},
-                      {"planes", json::array()},
-                      {"solver", {{"gravity", {0, 0, 0}}, {"substeps", substeps}, {"numIterations", iterations}, {"solidIterations", 1}}},
-                      {"creature", {{"refinement", refinement}}}};
+    json overrides = {
+        {"fluid", nullptr},
+        {"planes", json::array()},
+        {"solver",
+         {{"gravity", {0, 0, 0}}, {"substeps", substeps}, {"numIterations", iterations}, {"solidIterations", 1}}},
+        {"creature", {{"refinement", refinement}}}};
     overrides["creature"].merge_patch(creature);
     return build_model(load_scene("open-water/creature-2", overrides));
 }
@@ -57,8 +57,11 @@ double bending(const Model& model) {
 TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
     const double exact = bending(creature_2_in_vacuum(32, 32, 1));
     EXPECT_GT(exact, 1);  // rad; with rigid muscles and clusters of 0.9 the others are 3 % off
-    const auto error = [&](int substeps, int iterations) { return bending(creature_2_in_vacuum(substeps, iterations, 1)) / exact - 1; };
-    // 0.0360 with rotations fitted to the end, however many steps that takes; 0.0276 was told by a fit that ended early.
+    const auto error = [&](int substeps, int iterations) {
+        return bending(creature_2_in_vacuum(substeps, iterations, 1)) / exact - 1;
+    };
+    // 0.0360 with rotations fitted to the end, however many steps that takes; 0.0276 was told by a fit that ended
+    // early.
     const double coarse = error(8, 8);
     EXPECT_NEAR(coarse, 0, 0.037);
     // Twice as many of either leave a quarter, as errors of second order do, and a fifth of that for higher orders.

@@ -180,7 +180,9 @@ TEST(ModelGroup, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
     EXPECT_EQ(fixed, scene.obstacles.at(0).points.size());
     const json definition = scene_definition("company/hoop", json::object());
     EXPECT_EQ(definition["obstacles"][0]["digest"].get<std::string>().size(), 16u);
-    const json changed{{"obstacles", json::array({{{"shape", "mesh"}, {"file", "hoop.obj"}, {"digest", "0"}, {"centre", {3, 1, 1}}}})}};
+    const json changed{
+        {"obstacles",
+         json::array({{{"shape", "mesh"}, {"file", "hoop.obj"}, {"digest", "0"}, {"centre", {3, 1, 1}}}})}};
     EXPECT_THROW(load_scene("company/hoop", changed), InputError);
 }
 

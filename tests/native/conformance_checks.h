@@ -38,20 +38,20 @@ inline std::vector<std::string> files_of(const std::string& folder) {
 }
 
 /// Largest difference of any two numbers at the same place; infinite where the shapes differ.
-inline double largest_difference(const json& a, const json& b) {
+inline double max_difference(const json& a, const json& b) {
     if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
     if (!a.is_array() || !b.is_array() || a.size() != b.size()) return INFINITY;
     double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, largest_difference(a[i], b[i]));
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, max_difference(a[i], b[i]));
     return largest;
 }
 
-inline double largest_trace_difference(const json& measured, const json& computed) {
+inline double max_trace_difference(const json& measured, const json& computed) {
     if (measured.size() != computed.size()) return INFINITY;
     double largest = 0;
     for (std::size_t s = 0; s < measured.size(); ++s)
         for (const char* key : {"predicted", "iterations"})
-            largest = std::max(largest, largest_difference(measured[s].at(key), computed[s].at(key)));
+            largest = std::max(largest, max_difference(measured[s].at(key), computed[s].at(key)));
     return largest;
 }
 
@@ -73,9 +73,9 @@ inline void expect_positions_after_every_iteration(const std::string& file, cons
             const json& a = measured["frames"][f];
             const json& b = computed["frames"][f];
             const double bound = 5e-6 * a["frame"].get<int>();
-            EXPECT_LT(largest_difference(a["pos"], b["pos"]), bound) << name << " frame " << a["frame"];
+            EXPECT_LT(max_difference(a["pos"], b["pos"]), bound) << name << " frame " << a["frame"];
             if (a.contains("substeps_trace")) {
-                EXPECT_LT(largest_trace_difference(a["substeps_trace"], b["substeps_trace"]), bound)
+                EXPECT_LT(max_trace_difference(a["substeps_trace"], b["substeps_trace"]), bound)
                     << name << " frame " << a["frame"];
             }
         }
@@ -93,7 +93,7 @@ inline void expect_velocities_after_the_first_update(const std::string& file, co
         double fastest = 0;
         for (const json& row : a)
             for (const json& v : row) fastest = std::max(fastest, std::abs(v.get<double>()));
-        EXPECT_LT(largest_difference(a, computed["frames"][0]["vel"]), 2e-3 + 1e-5 * fastest) << name;
+        EXPECT_LT(max_difference(a, computed["frames"][0]["vel"]), 2e-3 + 1e-5 * fastest) << name;
     }
 }
 
@@ -114,10 +114,9 @@ inline void expect_every_particle_after_a_frame(const std::string& file, const R
     std::sort(distance.begin(), distance.end());
     EXPECT_LE(distance[distance.size() / 2], 1e-6);
     EXPECT_LE(distance.back(), 2e-4);
-    EXPECT_LT(largest_difference(measured["first_substep"]["iterations"], computed["first_substep"]["iterations"]),
-              1e-5);
-    EXPECT_LT(largest_difference(measured["rot"], computed["rot"]), 1e-4);
-    EXPECT_LT(largest_difference(measured["trans"], computed["trans"]), 2e-5);
+    EXPECT_LT(max_difference(measured["first_substep"]["iterations"], computed["first_substep"]["iterations"]), 1e-5);
+    EXPECT_LT(max_difference(measured["rot"], computed["rot"]), 1e-4);
+    EXPECT_LT(max_difference(measured["trans"], computed["trans"]), 2e-5);
 }
 
 }  // namespace natator::test

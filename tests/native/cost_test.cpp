@@ -60,7 +60,8 @@ TEST(CostTest, CellsOfALatticeCount) {
     const Cost swum = cost_of(build_model(lake)), empty = cost_of(build_model(water));
     EXPECT_EQ(empty.cells, 120 * 48 * 48);
     EXPECT_EQ(swum.cells, empty.cells);
-    EXPECT_GT(cost_of(build_model(water), {.several_threads = false}).bytes, 59e6);  // measured, less that of the program
+    EXPECT_GT(cost_of(build_model(water), {.several_threads = false}).bytes,
+              59e6);  // measured, less that of the program
     EXPECT_GT(empty.bytes, 76e6);
     EXPECT_LT(empty.bytes, 1.4 * 76e6);
     EXPECT_GT(swum.bytes, empty.bytes);
@@ -159,7 +160,8 @@ TEST(CostTest, MoreTimeStepsThanTenMillionAreRefusedOfWhateverRuns) {
     EXPECT_EQ(refused, "scene \"thesis/tank\": until = 1e+06: " + limit + "0.01");
     setup.until = 1000;
     Simulation<float> live(setup);
-    EXPECT_NE(test::refusal_of([&] { live.merge_overrides(R"({"timeStep":1e-5})"); }).find(limit + "1e-05"), std::string::npos);
+    EXPECT_NE(test::refusal_of([&] { live.merge_overrides(R"({"timeStep":1e-5})"); }).find(limit + "1e-05"),
+              std::string::npos);
     setup.until = 1e6;
     EXPECT_THROW(live.load(setup), InputError);
     EXPECT_TRUE(live.step());
@@ -176,7 +178,8 @@ TEST(CostTest, TheEnvironmentReplacesTheLimits) {
     const Scene scene = load_scene("thesis/creature-1");
     {
         const Variable work("NATATOR_MOST_WORK", "1e6");
-        EXPECT_NE(refusal(scene).find("must be at most 1e+06 (NATATOR_MOST_WORK)"), std::string::npos) << refusal(scene);
+        EXPECT_NE(refusal(scene).find("must be at most 1e+06 (NATATOR_MOST_WORK)"), std::string::npos)
+            << refusal(scene);
     }
     {
         const Variable memory("NATATOR_MOST_MEMORY", "0.001");
@@ -188,9 +191,11 @@ TEST(CostTest, TheEnvironmentReplacesTheLimits) {
         EXPECT_EQ(refusal(with("thesis/creature-1", R"({"duration":160000})")), "");
     }
     for (const char* name : {"NATATOR_MOST_WORK", "NATATOR_MOST_MEMORY"})
-        for (const std::string value : {"much", "-1", "0", "nan", "inf", "1e6x", "0x1p60", " 1e15", "1e15 ", "+-1", "1e999"}) {
+        for (const std::string value :
+             {"much", "-1", "0", "nan", "inf", "1e6x", "0x1p60", " 1e15", "1e15 ", "+-1", "1e999"}) {
             const Variable most(name, value.c_str());
-            EXPECT_EQ(refusal(scene), std::string("environment: ") + name + " = \"" + value + "\": must be a decimal number above 0");
+            EXPECT_EQ(refusal(scene),
+                      std::string("environment: ") + name + " = \"" + value + "\": must be a decimal number above 0");
         }
 }
 

@@ -10,7 +10,9 @@
 namespace natator {
 namespace {
 
-Sample exactly(double mean) { return {mean, 0, 8}; }
+Sample exactly(double mean) {
+    return {mean, 0, 8};
+}
 
 TEST(Convergence, SamplesHaveAMeanAndItsStandardError) {
     const Sample sample = sample_of({1, 2, 3, 4});
@@ -83,7 +85,8 @@ TEST(Convergence, ErrorsGoWithTheirWeights) {
     };
     const Estimate at = estimate_of({8, 1e-3, 8}, Sample{7.6, 1e-3, 8}, Sample{7.7, 1e-3, 8}, std::nullopt);
     const double f = value(8, 7.6, 7.7), d = 1e-3;
-    const double expected = std::hypot(value(8 + d, 7.6, 7.7) - f, value(8, 7.6 + d, 7.7) - f, value(8, 7.6, 7.7 + d) - f);
+    const double expected =
+        std::hypot(value(8 + d, 7.6, 7.7) - f, value(8, 7.6 + d, 7.7) - f, value(8, 7.6, 7.7 + d) - f);
     EXPECT_NEAR(at.statistical, expected, 1e-9);
 }
 

@@ -79,20 +79,23 @@ TEST_F(EvaluateMembers, NothingIsLaunchedForNothing) {
 /// What is wrong with the scene is wrong with all: no need to try them one by one.
 TEST_F(EvaluateMembers, AWrongSceneIsToldToAllAtOnce) {
     scene.planes = {{{0, 1, 0}, -5}};
-    for (const MemberResult& result : run({0.1, 0.2, 0.3})) EXPECT_NE(error(result).find("outside the tank"), std::string::npos);
+    for (const MemberResult& result : run({0.1, 0.2, 0.3}))
+        EXPECT_NE(error(result).find("outside the tank"), std::string::npos);
     scene.planes.clear();
     scene.duration = 1e5;
     scene.solver.substeps = scene.solver.iterations = 1000;
-    for (const MemberResult& result : run({0.1, 0.2, 0.3})) EXPECT_NE(error(result).find("pair visits"), std::string::npos);
+    for (const MemberResult& result : run({0.1, 0.2, 0.3}))
+        EXPECT_NE(error(result).find("pair visits"), std::string::npos);
     EXPECT_TRUE(device.launches.empty());
 }
 
 TEST_F(EvaluateMembers, ADeviceThatIsNotThereIsToldToAllAtOnce) {
     int launches = 0;
-    const auto results = evaluate_members(scene, {{gait(0.1), {}}, {gait(0.2), {}}}, [&](const auto&) -> std::vector<Evaluation> {
-        ++launches;
-        throw NoDevice("no device 7");
-    });
+    const auto results =
+        evaluate_members(scene, {{gait(0.1), {}}, {gait(0.2), {}}}, [&](const auto&) -> std::vector<Evaluation> {
+            ++launches;
+            throw NoDevice("no device 7");
+        });
     EXPECT_EQ(launches, 1);
     for (const MemberResult& result : results) EXPECT_EQ(error(result), "no device 7");
 }

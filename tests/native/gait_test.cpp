@@ -37,7 +37,8 @@ TEST(GaitTest, AWaveGrowsTowardsTheTailAndRunsThere) {
     const Gait gait = wave_gait(creature);
     EXPECT_EQ(gait.frequency, 2);
     EXPECT_EQ(gait.amplitude, (std::vector<double>{0.07, 0.12, 0.17, 0.22, 0.28, 0.33, 0.38, 0.43}));
-    EXPECT_EQ(gait.phase, (std::vector<double>{0, 0.95, 0.89, 0.84, 0.79, 0.74, 0.68, 0.63}));  // half a wave on 19 slices
+    EXPECT_EQ(gait.phase,
+              (std::vector<double>{0, 0.95, 0.89, 0.84, 0.79, 0.74, 0.68, 0.63}));  // half a wave on 19 slices
     EXPECT_NO_THROW(check_gait(gait, creature.actuators()));
 }
 

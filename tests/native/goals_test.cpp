@@ -129,17 +129,21 @@ void expect_goal_refused(const Scene& scene, const std::vector<std::string>& wor
         evaluate(scene, resting_gait(scene.creature ? scene.creature->actuators() : 0));
         ADD_FAILURE() << "accepted; expected a refusal with " << words.front();
     } catch (const InputError& error) {
-        for (const std::string& word : words) EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        for (const std::string& word : words)
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
 }
 
 TEST(Goals, PlacesThatNobodyCanReachAreRefused) {
     expect_goal_refused(asked_for(R"([{"measure":"depth","target":1.5}])"), {"goals[0]", "above the water", "1.6"});
-    expect_goal_refused(asked_for(R"([{"measure":"hold"},{"measure":"depth","target":-1.5}])"), {"goals[1]", "beyond planes[0]"});
+    expect_goal_refused(asked_for(R"([{"measure":"hold"},{"measure":"depth","target":-1.5}])"),
+                        {"goals[1]", "beyond planes[0]"});
     expect_goal_refused(asked_for(R"([{"measure":"reach","target":[0,0,3]}])"), {"goals[0]", "beyond planes[4]"});
-    expect_goal_refused(asked_for(R"([{"measure":"reach","target":[9,0,0]}])", R"({"movingTank":null})"), {"beyond planes[2]"});
-    expect_goal_refused(asked_for(R"([{"measure":"economy"}])", R"({"creature":{"joints":[8]}})"), {"economy", "muscles"});
+    expect_goal_refused(asked_for(R"([{"measure":"reach","target":[9,0,0]}])", R"({"movingTank":null})"),
+                        {"beyond planes[2]"});
+    expect_goal_refused(asked_for(R"([{"measure":"economy"}])", R"({"creature":{"joints":[8]}})"),
+                        {"economy", "muscles"});
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(Bend, UpAndDownIsSidewaysOfTheTurnedBody) {
             const auto half = [&](int particle, int axis) {
                 return std::lround(model.position[particle][turn ? 3 - axis : axis] / 0.0375);
             };
-            all.insert({muscle.actuator, muscle.lateral, half(spring.a, 1), half(spring.a, 2), half(spring.b, 1), half(spring.b, 2)});
+            all.insert({muscle.actuator, muscle.lateral, half(spring.a, 1), half(spring.a, 2), half(spring.b, 1),
+                        half(spring.b, 2)});
         }
         return all;
     };
@@ -127,7 +128,8 @@ TEST(JointLine, IsWhatIsNearestTheLineAboutWhichTheBodyBends) {
 class JointLineBody : public testing::TestWithParam<const char*> {};
 
 TEST_P(JointLineBody, BendsAndDoesNotDriftInVacuum) {
-    Scene scene = load_scene(GetParam(), json::parse(R"({"creature":{"joint":"line","bend":"both"},"fluid":null,"planes":[],
+    Scene scene =
+        load_scene(GetParam(), json::parse(R"({"creature":{"joint":"line","bend":"both"},"fluid":null,"planes":[],
         "solver":{"gravity":[0,0,0]},"duration":0.5,"stopping":{"planeContact":false,"noProgressAfter":0}})"));
     const int actuators = build_model(scene).actuators;
     EXPECT_EQ(actuators, 2 * (static_cast<int>(scene.creature->joints.size()) - 1));
@@ -143,8 +145,9 @@ INSTANTIATE_TEST_SUITE_P(Bodies, JointLineBody,
 
 /// The largest angle by which the tail is turned against the head within 0.8 s, rad: to the side, and up or down.
 std::pair<double, double> bending(const json& creature) {
-    const Scene scene = load_scene("open-water/creature-1", {{"creature", creature}, {"fluid", nullptr}, {"planes", json::array()},
-                                                             {"solver", {{"gravity", {0, 0, 0}}}}});
+    const Scene scene = load_scene(
+        "open-water/creature-1",
+        {{"creature", creature}, {"fluid", nullptr}, {"planes", json::array()}, {"solver", {{"gravity", {0, 0, 0}}}}});
     const Model model = build_model(scene);
     Gait gait = resting_gait(model.actuators);
     gait.amplitude.assign(gait.amplitude.size(), 0.6);

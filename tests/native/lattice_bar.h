@@ -23,7 +23,8 @@ void for_each_cell(const Box& box, const Work& work) {
             for (int x = 0; x < box.cells.x(); ++x) work(Eigen::Vector3i(x, y, z));
 }
 
-/// A rigid bar of particles, 2 x 2 x 2 cells each and as heavy as their water, in a box without friction along its walls.
+/// A rigid bar of particles, 2 x 2 x 2 cells each and as heavy as their water, in a box without friction along its
+/// walls.
 struct Bar {
     Bar() {
         for (int x = 0; x < 6; ++x)
@@ -66,7 +67,9 @@ struct Bar {
             inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
         }
         const Eigen::Vector3d v = sum / (mass * static_cast<double>(place_.size())), spin = inertia.inverse() * turning;
-        const Eigen::Matrix3d turn = Eigen::AngleAxisd(spin.norm(), spin.norm() > 0 ? spin.normalized() : Eigen::Vector3d::UnitX()).toRotationMatrix();
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(spin.norm(), spin.norm() > 0 ? spin.normalized() : Eigen::Vector3d::UnitX())
+                .toRotationMatrix();
         for (std::size_t i = 0; i < place_.size(); ++i) {
             const Eigen::Vector3d arm = turn * (place_[i] - middle);
             place_[i] = middle + v + arm;

@@ -1,6 +1,7 @@
 // Scheme lattice: bodies that swim in water on a lattice.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
 #include "natator/model.h"
+#include "natator/solver.h"
 #include "refusal_of.h"
 
 namespace natator {
@@ -19,7 +21,12 @@ using nlohmann::json;
 Scene lake(const json& changes = json::object(), double duration = 0.5) {
     json overrides = {{"duration", duration},
                       {"solver", {{"substeps", 16}}},
-                      {"fluid", {{"count", {60, 24, 24}}, {"spacing", 0.075}, {"origin", {0.0375, 0.0375, 0.0375}}, {"mass", {{"bottom", 0.421875}}}, {"disorder", 0}}}};
+                      {"fluid",
+                       {{"count", {60, 24, 24}},
+                        {"spacing", 0.075},
+                        {"origin", {0.0375, 0.0375, 0.0375}},
+                        {"mass", {{"bottom", 0.421875}}},
+                        {"disorder", 0}}}};
     overrides.merge_patch(changes);
     return load_scene("lake/creature-2", overrides);
 }
@@ -50,11 +57,16 @@ json fine(int substeps) {
     return {{"solver", {{"substeps", substeps}}},
             {"planes", json::array()},
             {"creature", {{"rearCentre", {0.8, 0.6, 0.6}}}},
-            {"fluid", {{"count", {80, 32, 32}}, {"spacing", 0.0375}, {"origin", {0.01875, 0.01875, 0.01875}}, {"mass", {{"bottom", 0.052734375}}}}}};
+            {"fluid",
+             {{"count", {80, 32, 32}},
+              {"spacing", 0.0375},
+              {"origin", {0.01875, 0.01875, 0.01875}},
+              {"mass", {{"bottom", 0.052734375}}}}}};
 }
 
 TEST(LatticeSwim, HalfTheTimeStepChangesLittle) {
-    const double whole = evaluate(lake(fine(12), 0.75), wave()).distance, half = evaluate(lake(fine(24), 0.75), wave()).distance;
+    const double whole = evaluate(lake(fine(12), 0.75), wave()).distance,
+                 half = evaluate(lake(fine(24), 0.75), wave()).distance;
     EXPECT_GT(whole, 0.02);
     EXPECT_NEAR(half, whole, 0.01);  // a quarter of a cell: where the body lies in its cells is worth as much
 }
@@ -69,7 +81,8 @@ TEST(LatticeSwim, TheMirroredGaitSwimsTheMirroredWay) {
 TEST(LatticeSwim, IsTheSameForAnyNumberOfThreads) {
     EvaluationOptions three;
     three.execution.threads = 3;
-    EXPECT_EQ(evaluate(lake(json::object(), 0.2), wave()).hash, evaluate(lake(json::object(), 0.2), wave(), three).hash);
+    EXPECT_EQ(evaluate(lake(json::object(), 0.2), wave()).hash,
+              evaluate(lake(json::object(), 0.2), wave(), three).hash);
 }
 
 TEST(LatticeSwim, EachStartIsAnother) {
@@ -112,6 +125,17 @@ TEST(LatticeSwim, WaterAloneIsAScene) {
 }
 
 /// Bodies are then as in scheme conserving, to the bit.
+TEST(LatticeSwim, ThePlanNamesTheWaterBeforeAndAfterTheSolids) {
+    const std::vector<std::string> plan = describe_plan(build_model(lake()));
+    const auto has = [&](const char* what) {
+        return std::find_if(plan.begin(), plan.end(),
+                            [&](const std::string& line) { return line.find(what) != std::string::npos; });
+    };
+    EXPECT_LT(has("impulses of the water"), has("predict"));
+    EXPECT_LT(has("velocities"), has("collision and streaming"));
+    EXPECT_LT(has("collision and streaming"), plan.end());
+}
+
 TEST(LatticeSwim, NothingSwimsInVacuum) {
     Scene scene = lake();
     scene.fluid.reset();
@@ -131,7 +155,9 @@ TEST(LatticeSwim, MusclesWork) {
 
 TEST(LatticeSwim, ACurrentInTheTankChangesNothingInIt) {
     const auto in = [](double current) {
-        return evaluate(lake({{"movingTank", {{"step", 0.15}, {"current", {current, 0, 0}}}}, {"stopping", {{"noProgressAfter", 0}}}}), wave());
+        return evaluate(lake({{"movingTank", {{"step", 0.15}, {"current", {current, 0, 0}}}},
+                              {"stopping", {{"noProgressAfter", 0}}}}),
+                        wave());
     };
     EXPECT_EQ(in(0).hash, in(3).hash);
 }
@@ -152,15 +178,21 @@ TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
 
 TEST(LatticeSwim, RefusesWhatItHasNot) {
     const auto refusal = [](const json& changes) { return test::refusal_of([&] { build_model(lake(changes)); }); };
-    EXPECT_NE(refusal({{"solver", {{"kinematicViscosity", 0}}}}).find("kinematicViscosity = 0: must be above 0"), std::string::npos);
+    EXPECT_NE(refusal({{"solver", {{"kinematicViscosity", 0}}}}).find("kinematicViscosity = 0: must be above 0"),
+              std::string::npos);
     Scene empty = lake();
     empty.creature.reset();
     empty.fluid.reset();
     EXPECT_NE(test::refusal_of([&] { build_model(empty); }).find("needs a creature or fluid"), std::string::npos);
-    EXPECT_NE(refusal({{"planes", {{0, 1, 0, 0.3}}}}).find("planes[0] stands at -0.3: must be at the fluid's end, 0"), std::string::npos);
+    EXPECT_NE(refusal({{"planes", {{0, 1, 0, 0.3}}}}).find("planes[0] stands at -0.3: must be at the fluid's end, 0"),
+              std::string::npos);
     EXPECT_NE(refusal({{"planes", {{0.6, 0.8, 0, 0}}}}).find("square across an axis"), std::string::npos);
-    EXPECT_NE(refusal({{"fluid", {{"mass", {{"gradient", "mass-linear"}}}}}}).find("must be uniform"), std::string::npos);
-    EXPECT_NE(refusal({{"obstacles", {{{"shape", "sphere"}, {"radius", 0.2}, {"spacing", 0.1}, {"centre", {3.9, 0.9, 0.9}}}}}}).find("companions and obstacles"), std::string::npos);
+    EXPECT_NE(refusal({{"fluid", {{"mass", {{"gradient", "mass-linear"}}}}}}).find("must be uniform"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"obstacles",
+                        {{{"shape", "sphere"}, {"radius", 0.2}, {"spacing", 0.1}, {"centre", {3.9, 0.9, 0.9}}}}}})
+                  .find("companions and obstacles"),
+              std::string::npos);
 }
 
 }  // namespace

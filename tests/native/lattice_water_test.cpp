@@ -64,7 +64,8 @@ TEST(LatticeWater, VorticesDecayAsTheirViscositySays) {
     expect_vortices_decay(2, 0);
 }
 
-/// Flow between walls, half a cell beyond the outer centres, after a start at rest under nothing but a moving layer in the middle.
+/// Flow between walls, half a cell beyond the outer centres, after a start at rest under nothing but a moving layer in
+/// the middle.
 TEST(LatticeWater, ShearBetweenWallsIsLinear) {
     for (int axis = 0; axis < 3; ++axis) {
         const int n = 17, along = (axis + 1) % 3;
@@ -113,12 +114,14 @@ TEST_F(LatticeBar, GivesItsMomentumToTheWater) {
     begin({0.03, 0, 0.01}, {0, 0.004, 0});
     const Eigen::Vector3d at_first = momentum_of_bar();
     for (int k = 0; k < 300; ++k) advance(*water);
-    // The water in the bar stands for the bar: what is lost or gained are cells that it holds more or less than its volume.
+    // The water in the bar stands for the bar: what is lost or gained are cells that it holds more or less than its
+    // volume.
     EXPECT_LT(momentum_of_bar().norm(), 0.6 * at_first.norm());
     EXPECT_LT((momentum(*water) - at_first).norm(), 0.05 * at_first.norm());
 }
 
-/// Led, it gives the water what the water takes: cells that it comes to lie in, and those that it leaves, are counted once.
+/// Led, it gives the water what the water takes: cells that it comes to lie in, and those that it leaves, are counted
+/// once.
 TEST_F(LatticeBar, LosesWhatTheWaterGains) {
     for (auto& ends : box_.faces) ends[0] = ends[1] = Face::periodic;
     const Eigen::Vector3d v(0.04, 0.01, 0.02);
@@ -173,8 +176,8 @@ TEST_F(LatticeBar, GoesAlongWithWaterThatMoves) {
     EXPECT_LT((momentum_of_bar() / (mass * static_cast<double>(place_.size())) - u).norm(), 1e-5);
 }
 
-/// As in water that is not shifted, in the middle of a box so wide that its ends do not matter yet: it leaves cells and comes back to
-/// them, which have moved on meanwhile.
+/// As in water that is not shifted, in the middle of a box so wide that its ends do not matter yet: it leaves cells and
+/// comes back to them, which have moved on meanwhile.
 TEST_F(LatticeBar, IsPushedTheSameWhenItsWaterIsShifted) {
     const auto run = [&](const Eigen::Vector3i& by) {
         Bar bar;
@@ -183,8 +186,10 @@ TEST_F(LatticeBar, IsPushedTheSameWhenItsWaterIsShifted) {
         for (int k = 0; k < 4; ++k) bar.advance(*water);
         water->shift(by);
         std::vector<double> pushed;
-        for (const Eigen::Vector3d& to : {Eigen::Vector3d(0.6, 0.6, 0.6), Eigen::Vector3d(-0.6, -0.6, -0.6), Eigen::Vector3d(0, 0, 0)}) {
-            for (Eigen::Vector3d& place : bar.place_) place += to - (pushed.empty() ? by : Eigen::Vector3i(0, 0, 0)).cast<double>();
+        for (const Eigen::Vector3d& to :
+             {Eigen::Vector3d(0.6, 0.6, 0.6), Eigen::Vector3d(-0.6, -0.6, -0.6), Eigen::Vector3d(0, 0, 0)}) {
+            for (Eigen::Vector3d& place : bar.place_)
+                place += to - (pushed.empty() ? by : Eigen::Vector3i(0, 0, 0)).cast<double>();
             std::vector<Push> pushes;
             water->advance(bar.cubes(), 1, pushes);
             for (const Push& push : pushes) pushed.insert(pushed.end(), push.j, push.j + 3);
@@ -192,7 +197,8 @@ TEST_F(LatticeBar, IsPushedTheSameWhenItsWaterIsShifted) {
         return pushed;
     };
     const std::vector<double> still = run({0, 0, 0});
-    for (const Eigen::Vector3i& by : {Eigen::Vector3i(1, 0, 0), Eigen::Vector3i(0, -1, 0), Eigen::Vector3i(-1, 0, 1), Eigen::Vector3i(2, 2, 2)}) {
+    for (const Eigen::Vector3i& by :
+         {Eigen::Vector3i(1, 0, 0), Eigen::Vector3i(0, -1, 0), Eigen::Vector3i(-1, 0, 1), Eigen::Vector3i(2, 2, 2)}) {
         const std::vector<double> shifted = run(by);
         double most = 0;
         for (std::size_t i = 0; i < still.size(); ++i) most = std::max(most, std::abs(shifted[i] - still[i]));
@@ -237,8 +243,10 @@ protected:
                 for (int z = -7; z <= 7; ++z)
                     if (const Eigen::Vector3d at(x, y, z); at.norm() <= radius + 0.2) place_.push_back(centre + at);
     }
-    /// Moves it for so many steps, by velocity(step, from its centre), and sums what it does to the water, of(from its centre, impulse), in the second half.
-    double mean(double viscosity, int steps, const std::function<Eigen::Vector3d(int, const Eigen::Vector3d&)>& velocity,
+    /// Moves it for so many steps, by velocity(step, from its centre), and sums what it does to the water, of(from its
+    /// centre, impulse), in the second half.
+    double mean(double viscosity, int steps,
+                const std::function<Eigen::Vector3d(int, const Eigen::Vector3d&)>& velocity,
                 const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& of) {
         Box box = box_of(48, 48, 48);
         box.viscosity = viscosity;
@@ -265,7 +273,10 @@ protected:
 TEST_F(LatticeSphere, FeelsTheTorqueOfSlowSpinning) {
     const double viscosity = 1.0 / 6, spin = 0.005;
     const double torque = mean(
-        viscosity, 600, [&](int k, const Eigen::Vector3d& arm) -> Eigen::Vector3d { return spin * std::min(1.0, (k + 1) / 150.0) * Eigen::Vector3d::UnitZ().cross(arm); },
+        viscosity, 600,
+        [&](int k, const Eigen::Vector3d& arm) -> Eigen::Vector3d {
+            return spin * std::min(1.0, (k + 1) / 150.0) * Eigen::Vector3d::UnitZ().cross(arm);
+        },
         [](const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse) { return arm.cross(impulse).z(); });
     EXPECT_NEAR(torque / (8 * std::numbers::pi * viscosity * std::pow(radius, 3) * spin), 1, 0.05);
 }

@@ -120,7 +120,8 @@ TEST_P(BrokenLaws, EndARunAsUnstable) {
         EXPECT_EQ(result.instability->law, GetParam().law);
         EXPECT_EQ(result.instability->stage, GetParam().stage);
     }
-    Simulation<float> live({.scene = "bench/small-tank", .overrides = GetParam().overrides, .gait = resting_short_swimmer});
+    Simulation<float> live(
+        {.scene = "bench/small-tank", .overrides = GetParam().overrides, .gait = resting_short_swimmer});
     for (int frame = 0; frame < 60 && live.step(); ++frame) continue;
     ASSERT_TRUE(live.instability());
     EXPECT_EQ(live.instability()->law, GetParam().law);
@@ -130,26 +131,35 @@ TEST_P(BrokenLaws, EndARunAsUnstable) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BrokenLaws,
     testing::Values(
-        BrokenScene{"LightWater", R"({"fluid": {"mass": {"bottom": 0.02}}, "stopping": {"planeContact": false}})", "tank", "frame"},
-        BrokenScene{"WideContacts", R"({"solver": {"collisionDistance": 1000}, "stopping": {"planeContact": false}})", "tank", "settling"},
-        BrokenScene{"StrongTension", R"({"scheme": "conserving", "solver": {"surfaceTension": 100}})", "energy", "frame"},
-        BrokenScene{"UnequalMasses",
-                    R"({"scheme": "conserving", "fluid": {"mass": {"gradient": "mass-linear", "bottom": 0.001, "top": 1000}}})",
-                    "particle-energy", "frame"}),
+        BrokenScene{"LightWater", R"({"fluid": {"mass": {"bottom": 0.02}}, "stopping": {"planeContact": false}})",
+                    "tank", "frame"},
+        BrokenScene{"WideContacts", R"({"solver": {"collisionDistance": 1000}, "stopping": {"planeContact": false}})",
+                    "tank", "settling"},
+        BrokenScene{"StrongTension", R"({"scheme": "conserving", "solver": {"surfaceTension": 100}})", "energy",
+                    "frame"},
+        BrokenScene{
+            "UnequalMasses",
+            R"({"scheme": "conserving", "fluid": {"mass": {"gradient": "mass-linear", "bottom": 0.001, "top": 1000}}})",
+            "particle-energy", "frame"}),
     [](const auto& test) { return std::string(test.param.name); });
 
-/// What falls without an end keeps the laws, at whatever speed; so does water that gravity drives round a periodic tank.
+/// What falls without an end keeps the laws, at whatever speed; so does water that gravity drives round a periodic
+/// tank.
 TEST(LawsOfMotion, AreKeptByWhatFallsForEver) {
-    const json drop = {{"scheme", "conserving"}, {"duration", 4}, {"settling", {{"updates", 0}}},
-                       {"fluid", {{"count", {3, 3, 3}}, {"spacing", 0.1}, {"mass", {{"gradient", "uniform"}, {"bottom", 1}}}}},
-                       {"solver", {{"damping", 0}}}};
+    const json drop = {
+        {"scheme", "conserving"},
+        {"duration", 4},
+        {"settling", {{"updates", 0}}},
+        {"fluid", {{"count", {3, 3, 3}}, {"spacing", 0.1}, {"mass", {{"gradient", "uniform"}, {"bottom", 1}}}}},
+        {"solver", {{"damping", 0}}}};
     for (const char* scheme : {"flex", "conserving"}) {
         json own = drop;
         own["scheme"] = scheme;
         EXPECT_EQ(evaluate(scene_from_json(own, "drop"), {}).stopped, StopReason::completed) << scheme;
     }
     json channel = drop;
-    channel.merge_patch(json::parse(R"({"periodic": ["x"], "planes": [[0,1,0,0],[0,-1,0,0.4],[0,0,1,0],[0,0,-1,0.4],[1,0,0,0],[-1,0,0,0.6]],
+    channel.merge_patch(json::parse(
+        R"({"periodic": ["x"], "planes": [[0,1,0,0],[0,-1,0,0.4],[0,0,1,0],[0,0,-1,0.4],[1,0,0,0],[-1,0,0,0.6]],
         "fluid": {"count": [6,4,4], "origin": [0.05,0.05,0.05]}, "solver": {"gravity": [10,0,0]}})"));
     EXPECT_EQ(evaluate(scene_from_json(channel, "channel"), {}).stopped, StopReason::completed);
 }
@@ -165,7 +175,9 @@ TEST(LawsOfMotion, GoOnFromWhatASceneHadBecome) {
 /// A crowded start that has not settled comes apart: it rises, and is no explosion.
 TEST(LawsOfMotion, AreKeptByAStartThatIsCrowded) {
     for (const int iterations : {4, 128}) {
-        const Scene scene = load_scene("bench/small-tank", json{{"scheme", "conserving"}, {"duration", 0.2}, {"settling", {{"updates", 0}}},
+        const Scene scene = load_scene("bench/small-tank", json{{"scheme", "conserving"},
+                                                                {"duration", 0.2},
+                                                                {"settling", {{"updates", 0}}},
                                                                 {"solver", {{"numIterations", iterations}}}});
         EXPECT_EQ(evaluate(scene, resting_short_swimmer).stopped, StopReason::completed) << iterations;
     }
@@ -173,11 +185,18 @@ TEST(LawsOfMotion, AreKeptByAStartThatIsCrowded) {
 
 /// Who beats beside the swimmer may be as fast as his own gait makes him.
 TEST(LawsOfMotion, AreKeptByCompanions) {
-    const json body = {{"slices", {{{"height", 3}, {"width", 3}, {"count", 9}}}}, {"joints", {2, 4, 6}}, {"rearCentre", {0.4, 0.4, 1.2}}};
+    const json body = {{"slices", {{{"height", 3}, {"width", 3}, {"count", 9}}}},
+                       {"joints", {2, 4, 6}},
+                       {"rearCentre", {0.4, 0.4, 1.2}}};
     const json gait = {{"frequency", 30}, {"amplitude", {2, 2}}, {"phase", {0, 0.5}}};
-    const Scene scene = load_scene("bench/small-tank", json{{"scheme", "conserving"}, {"duration", 0.5}, {"stopping", {{"planeContact", false}}},
-        {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 1.54}, {0, 0, -1, 1.72}}},
-        {"fluid", {{"count", {17, 7, 19}}}}, {"companions", {{{"creature", body}, {"gait", gait}}}}});
+    const Scene scene =
+        load_scene("bench/small-tank",
+                   json{{"scheme", "conserving"},
+                        {"duration", 0.5},
+                        {"stopping", {{"planeContact", false}}},
+                        {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 1.54}, {0, 0, -1, 1.72}}},
+                        {"fluid", {{"count", {17, 7, 19}}}},
+                        {"companions", {{{"creature", body}, {"gait", gait}}}}});
     EXPECT_EQ(evaluate(scene, resting_short_swimmer).stopped, StopReason::completed);
 }
 

@@ -80,7 +80,7 @@ protected:
     }
 
     /// Kinetic and potential energy of settled water in frames on its own, the largest over that at the start.
-    static double largest_energy(Model model, int substeps, int frames) {
+    static double max_energy(Model model, int substeps, int frames) {
         model.parameters.substeps = substeps;
         Solver<float> solver(model);
         State<float> state = initial_state<float>(model);
@@ -155,7 +155,8 @@ TYPED_TEST_P(Laws, ACollapsingBlockGainsNoEnergy) {
     for (int k = 0; k < 180; ++k) {
         advance_frames(solver, model, state, 1);
         const double now = total_energy(model, state);
-        // Exact: 0. The largest of a run is 4.1e-4 with a deviation of 1.3e-4 over six starts: three of those above it, rounded up.
+        // Exact: 0. The largest of a run is 4.1e-4 with a deviation of 1.3e-4 over six starts: three of those above it,
+        // rounded up.
         EXPECT_LE(now, last + 1e-3 * start) << k;
         last = now;
     }
@@ -236,12 +237,13 @@ TYPED_TEST_P(Laws, BodiesFloatByTheirDensity) {
     }
 }
 
-/// Where a body hovers does not depend on the number of substeps: in water as heavy as itself it goes as far with the water in half
-/// a second, hardly at all.
+/// Where a body hovers does not depend on the number of substeps: in water as heavy as itself it goes as far with the
+/// water in half a second, hardly at all.
 TYPED_TEST_P(Laws, ABodyHoversAtOneDepthAtAnyNumberOfSubsteps) {
     constexpr int starts = 4;
-    // A hundredth of its weight, the target of results/water for a neutral body, moves it by g t^2 / 300 (half of its water goes
-    // along): 0.0083. Starts scatter by 0.004 each, differences of means of four by 0.0028: this is three of those.
+    // A hundredth of its weight, the target of results/water for a neutral body, moves it by g t^2 / 300 (half of its
+    // water goes along): 0.0083. Starts scatter by 0.004 each, differences of means of four by 0.0028: this is three of
+    // those.
     constexpr double far = 10 * 0.25 / 300;
     const auto rise = [&](int substeps) {
         double sum = 0;
@@ -261,7 +263,8 @@ TYPED_TEST_P(Laws, ABodyHoversAtOneDepthAtAnyNumberOfSubsteps) {
     for (const int substeps : {2, 8, 16}) EXPECT_NEAR(rise(substeps), usual, far) << substeps << " substeps";
 }
 
-/// The path of a body in vacuum is off by a multiple of the time step: its error after 0.1 s falls with the number of substeps.
+/// The path of a body in vacuum is off by a multiple of the time step: its error after 0.1 s falls with the number of
+/// substeps.
 TYPED_TEST_P(Laws, PathsInVacuumConvergeWithTheTimeStep) {
     constexpr int finest = 256;
     for (const int creature : {1, 2, 3, 4}) {
@@ -282,8 +285,8 @@ TYPED_TEST_P(Laws, PathsInVacuumConvergeWithTheTimeStep) {
             double error = 0;
             for (std::size_t i = 0; i < state.position.size(); ++i)
                 error = std::max(error, (state.position[i] - exact.position[i]).norm());
-            // Beside the finest path, errors of first order are C / n - C / 256 with one C. It may fall while terms of higher order
-            // count; in errors of order 0.8 it would grow by 2^0.2 from line to line.
+            // Beside the finest path, errors of first order are C / n - C / 256 with one C. It may fall while terms of
+            // higher order count; in errors of order 0.8 it would grow by 2^0.2 from line to line.
             const double factor = error / (1.0 / substeps - 1.0 / finest);
             if (last > 0) {
                 EXPECT_LE(factor, 1.149 * last) << "creature " << creature << ", " << substeps << " substeps";
@@ -317,16 +320,19 @@ TYPED_TEST_P(Laws, ADropAtRestOnAWallStaysAtRest) {
         }
 }
 
-/// Walls take energy and give none: a film that spreads in a channel, a dam that breaks, a block that falls about in a closed tank.
+/// Walls take energy and give none: a film that spreads in a channel, a dam that breaks, a block that falls about in a
+/// closed tank.
 TYPED_TEST_P(Laws, WallsGiveNoEnergy) {
     Model closed = block_in_tank({6, 6, 10}, 4.5, 1);
     closed.planes.push_back({{0, -1, 0}, 1});
     // Exact: 1. Four starts of each: 0.996 to 1.004, with deviations below 0.0015.
     constexpr double bound = 1.01;
     for (const int substeps : {4, 16}) {
-        EXPECT_LE(this->largest_energy(block_in_tank({8, 2, 6}, 16, 0.6), substeps, 240), bound) << "film, " << substeps << " substeps";
-        EXPECT_LE(this->largest_energy(block_in_tank({8, 10, 6}, 6.1, 0.6), substeps, 120), bound) << "dam, " << substeps << " substeps";
-        EXPECT_LE(this->largest_energy(closed, substeps, 120), bound) << "closed, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(block_in_tank({8, 2, 6}, 16, 0.6), substeps, 240), bound)
+            << "film, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(block_in_tank({8, 10, 6}, 6.1, 0.6), substeps, 120), bound)
+            << "dam, " << substeps << " substeps";
+        EXPECT_LE(this->max_energy(closed, substeps, 120), bound) << "closed, " << substeps << " substeps";
     }
 }
 
@@ -349,7 +355,8 @@ TYPED_TEST_P(Laws, MoreIterationsMoveNothingFaster) {
     };
     const double usual = fastest(16);
     EXPECT_GT(usual, 0);
-    for (const int iterations : {4, 64, 128}) EXPECT_LE(fastest(iterations), 1.3 * usual) << iterations << " iterations";
+    for (const int iterations : {4, 64, 128})
+        EXPECT_LE(fastest(iterations), 1.3 * usual) << iterations << " iterations";
 }
 
 /// Largest kinetic energy of a tank of water in 4 s over the mean of its last half second.
@@ -373,6 +380,7 @@ REGISTER_TYPED_TEST_SUITE_P(Laws, NoSwimmingInVacuum, ADropWithUnequalMassesKeep
                             ACollapsingBlockGainsNoEnergy, AHangingChainGainsNoEnergy, GalileanInvariance,
                             AMirroredGaitSwimsTheMirroredPath, BodiesFloatByTheirDensity,
                             ABodyHoversAtOneDepthAtAnyNumberOfSubsteps, PathsInVacuumConvergeWithTheTimeStep,
-                            ADropAtRestOnAWallStaysAtRest, WallsGiveNoEnergy, MoreIterationsMoveNothingFaster, ATankComesToRest);
+                            ADropAtRestOnAWallStaysAtRest, WallsGiveNoEnergy, MoreIterationsMoveNothingFaster,
+                            ATankComesToRest);
 
 }  // namespace natator::test

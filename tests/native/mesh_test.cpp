@@ -30,8 +30,8 @@
 namespace natator {
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
 /// A mesh to be changed and written.
 struct Shape {
@@ -64,7 +64,8 @@ struct Shape {
         text << "solid test\n";
         for (const auto& face : faces) {
             text << " facet normal 0 0 0\n  outer loop\n";
-            for (const int i : face) text << "   vertex " << vertices[i].x() << ' ' << vertices[i].y() << ' ' << vertices[i].z() << '\n';
+            for (const int i : face)
+                text << "   vertex " << vertices[i].x() << ' ' << vertices[i].y() << ' ' << vertices[i].z() << '\n';
             text << "  endloop\n endfacet\n";
         }
         return text.str() + "endsolid test\n";
@@ -72,7 +73,9 @@ struct Shape {
     std::string binary_stl() const {
         std::string bytes(80, ' ');
         bytes.replace(0, 5, "solid");  // as some programs begin it
-        const auto append = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+        const auto append = [&](const auto& value) {
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        };
         append(static_cast<std::uint32_t>(faces.size()));
         for (const auto& face : faces) {
             for (int i = 0; i < 3; ++i) append(0.0f);
@@ -141,7 +144,8 @@ struct Polygons {
 };
 
 std::string replaced(std::string text, const std::string& old, const std::string& by) {
-    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) text.replace(at, old.size(), by);
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size()))
+        text.replace(at, old.size(), by);
     return text;
 }
 
@@ -172,7 +176,8 @@ class Mesh : public testing::Test {
 protected:
     Mesh() {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() / ("natator-mesh-" + std::to_string(::getpid()) + test->name());
+        folder_ =
+            std::filesystem::temp_directory_path() / ("natator-mesh-" + std::to_string(::getpid()) + test->name());
         std::filesystem::create_directories(folder_);
     }
     ~Mesh() override { std::filesystem::remove_all(folder_); }
@@ -215,7 +220,9 @@ TEST_F(Mesh, IsTheSameFromEveryKindOfFile) {
 }
 
 TEST_F(Mesh, OfABoxIsThatBoxOfSlices) {
-    json slices = {{"slices", {{{"height", 5}, {"width", 4}, {"count", 20}}}}, {"joints", {6, 12}}, {"spacing", 0.1},
+    json slices = {{"slices", {{{"height", 5}, {"width", 4}, {"count", 20}}}},
+                   {"joints", {6, 12}},
+                   {"spacing", 0.1},
                    {"rearCentre", {0.5, 0.5, 0.5}}};
     json mesh = creature(write("box.obj", box({3, -7, 4}, {5, -6.5, 4.4}).obj()));
     for (const char* bend : {"sideways", "vertical"}) {
@@ -236,7 +243,8 @@ TEST_F(Mesh, OfABoxIsThatBoxOfSlices) {
 }
 
 TEST_F(Mesh, IsTurnedAndScaledAsTheCreatureSays) {
-    const Shape plain = box({0, 0, 0}, {2, 0.5, 0.4}).add(box({1.5, 0.6, 0.1}, {1.9, 0.9, 0.3}));  // a hump on the front
+    const Shape plain =
+        box({0, 0, 0}, {2, 0.5, 0.4}).add(box({1.5, 0.6, 0.1}, {1.9, 0.9, 0.3}));  // a hump on the front
     Shape turned = plain;  // forward is -z, up x, right -y; a unit is 0.01
     turned.moved([](const Vector3d& v) { return Vector3d(100 * v.y(), -100 * v.z(), -100 * v.x()); });
     json described = creature(write("turned.obj", turned.obj()));
@@ -263,9 +271,35 @@ const Outline outlines[] = {
     {"L", 0.448, {{0, 0}, {2, 0}, {2, 0.4}, {0.8, 0.4}, {0.8, 0.8}, {0, 0.8}}},
     {"T", 0.336, {{0, 0.3}, {1.6, 0.3}, {1.6, 0}, {2, 0}, {2, 0.9}, {1.6, 0.9}, {1.6, 0.6}, {0, 0.6}}},
     {"U", 0.56, {{0, 0}, {2, 0}, {2, 1}, {1.5, 1}, {1.5, 0.4}, {0.5, 0.4}, {0.5, 1}, {0, 1}}},
-    {"whale", 0.312, {{0, 0.4}, {0.3, 0.2}, {0.8, 0.2}, {0.9, 0.05}, {1.2, 0.2}, {1.6, 0.3}, {2, 0}, {1.85, 0.4}, {2, 0.8}, {1.6, 0.5},
-                      {1.3, 0.6}, {0.7, 0.7}, {0.2, 0.6}}},
-    {"teeth", 0.88, {{0, 0}, {4, 0}, {4, 0.4}, {3.5, 0.4}, {3.5, 1}, {3, 1}, {3, 0.4}, {1, 0.4}, {1, 1}, {0.5, 1}, {0.5, 0.4}, {0, 0.4}}},
+    {"whale",
+     0.312,
+     {{0, 0.4},
+      {0.3, 0.2},
+      {0.8, 0.2},
+      {0.9, 0.05},
+      {1.2, 0.2},
+      {1.6, 0.3},
+      {2, 0},
+      {1.85, 0.4},
+      {2, 0.8},
+      {1.6, 0.5},
+      {1.3, 0.6},
+      {0.7, 0.7},
+      {0.2, 0.6}}},
+    {"teeth",
+     0.88,
+     {{0, 0},
+      {4, 0},
+      {4, 0.4},
+      {3.5, 0.4},
+      {3.5, 1},
+      {3, 1},
+      {3, 0.4},
+      {1, 0.4},
+      {1, 1},
+      {0.5, 1},
+      {0.5, 0.4},
+      {0, 0.4}}},
 };
 
 void PrintTo(const Outline& outline, std::ostream* out) {
@@ -284,7 +318,8 @@ Polygons slab(std::vector<std::array<double, 2>> corners, int on_edges) {
     Polygons slab;
     const auto count = static_cast<int>(all.size());
     std::vector<int> low, high;
-    for (int i = 0; i < 2 * count; ++i) slab.vertices.emplace_back(all[i % count][0], all[i % count][1], i < count ? 0 : 0.4);
+    for (int i = 0; i < 2 * count; ++i)
+        slab.vertices.emplace_back(all[i % count][0], all[i % count][1], i < count ? 0 : 0.4);
     for (int i = 0; i < count; ++i) low.push_back(count - 1 - i), high.push_back(count + i);
     slab.faces = {low, high};
     for (int i = 0; i < count; ++i) slab.faces.push_back({i, (i + 1) % count, (i + 1) % count + count, i + count});
@@ -311,7 +346,8 @@ TEST_P(OutlineTest, IsTheSameSolidFromAnyCornerInAnyPlane) {
     const Eigen::Matrix3d tilted = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 3).normalized()).toRotationMatrix();
     Eigen::Matrix3d turned;
     turned << 0, 0, -1, 1, 0, 0, 0, -1, 0;
-    for (const Eigen::Matrix3d& axes : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned, tilted, Eigen::Matrix3d(-turned * tilted)})
+    for (const Eigen::Matrix3d& axes :
+         {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned, tilted, Eigen::Matrix3d(-turned * tilted)})
         for (const int on_edges : {0, 1, 3}) {
             Polygons polygons = slab(outline.corners, on_edges);
             for (Vector3d& vertex : polygons.vertices) vertex = axes * vertex + Vector3d(3, 0, -5);
@@ -369,7 +405,8 @@ INSTANTIATE_TEST_SUITE_P(All, OutlineTest, testing::ValuesIn(outlines));
 TEST(MeshFile, MayHaveAFaceWithAHole) {
     Polygons plate;
     for (const double z : {0.0, 0.4})
-        for (const auto& [x, y] : {std::pair{0., 0.}, {2., 0.}, {2., 2.}, {0., 2.}, {0.5, 0.5}, {0.5, 1.5}, {1.5, 1.5}, {1.5, 0.5}})
+        for (const auto& [x, y] :
+             {std::pair{0., 0.}, {2., 0.}, {2., 2.}, {0., 2.}, {0.5, 0.5}, {0.5, 1.5}, {1.5, 1.5}, {1.5, 0.5}})
             plate.vertices.emplace_back(x, y, z);
     plate.faces = {{0, 4, 7, 6, 5, 4, 0, 3, 2, 1}, {8, 9, 10, 11, 8, 12, 13, 14, 15, 12}};
     for (const int ring : {0, 4})
@@ -382,12 +419,14 @@ TEST(MeshFile, MayHaveAFaceWithAHole) {
     }
 }
 
-/// A globe of quadrilaterals as programs write it: twice the meridian where it begins and ends, and each pole once for each meridian.
+/// A globe of quadrilaterals as programs write it: twice the meridian where it begins and ends, and each pole once for
+/// each meridian.
 TEST(MeshFile, MayHaveSeamsAndPoles) {
     constexpr int meridians = 16, rings = 10;
     double volume = 0;  // of frusta
     for (int k = 0; k < rings; ++k) {
-        const double from = std::numbers::pi * k / rings, to = std::numbers::pi * (k + 1) / rings, r = std::sin(from), q = std::sin(to);
+        const double from = std::numbers::pi * k / rings, to = std::numbers::pi * (k + 1) / rings, r = std::sin(from),
+                     q = std::sin(to);
         volume += (std::cos(from) - std::cos(to)) / 3 * (r * r + r * q + q * q) * 0.25 * meridians / 2 *
                   std::sin(2 * std::numbers::pi / meridians);
     }
@@ -398,8 +437,10 @@ TEST(MeshFile, MayHaveSeamsAndPoles) {
                 for (int k = 0; k <= rings; ++k)
                     for (int i = 0; i <= meridians; ++i) {
                         const double angle = 2 * std::numbers::pi * (joined ? i % meridians : i) / meridians;
-                        const double r = std::sin(std::numbers::pi * k / rings), x = std::cos(std::numbers::pi * k / rings);
-                        globe.vertices.emplace_back(x, 0.5 * r * std::cos(angle) + noise * (i % 3), 0.5 * r * std::sin(angle) - noise * (i % 2));
+                        const double r = std::sin(std::numbers::pi * k / rings),
+                                     x = std::cos(std::numbers::pi * k / rings);
+                        globe.vertices.emplace_back(x, 0.5 * r * std::cos(angle) + noise * (i % 3),
+                                                    0.5 * r * std::sin(angle) - noise * (i % 2));
                     }
                 for (int k = 0; k < rings; ++k)
                     for (int i = 0; i < meridians; ++i) {
@@ -411,7 +452,8 @@ TEST(MeshFile, MayHaveSeamsAndPoles) {
                     }
                 const TriangleMesh mesh = read_mesh(globe.obj(), "globe.obj");
                 EXPECT_NO_THROW(check_mesh(mesh)) << joined << halves << noise;
-                EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>(meridians * (rings - 1) + 2)) << joined << halves << noise;
+                EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>(meridians * (rings - 1) + 2))
+                    << joined << halves << noise;
                 EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * meridians * (rings - 1)));
                 EXPECT_NEAR(signed_volume(mesh) / volume, 1, 1e-6);
             }
@@ -431,7 +473,8 @@ std::string counted_from(int more, const std::string& faces) {
 TEST_F(Mesh, IsWhatItsFacesAre) {
     const std::string plain = box(zero, corner).obj();
     const std::string many[] = {
-        "v 100 -50 1e8\n" + plain.substr(0, plain.find('f')) + "v -3 7 7\n" + counted_from(1, plain.substr(plain.find('f'))),
+        "v 100 -50 1e8\n" + plain.substr(0, plain.find('f')) + "v -3 7 7\n" +
+            counted_from(1, plain.substr(plain.find('f'))),
         plain + "v 9 9 9\n",
         plain + "v 9 9 9\np 9\nl 1 9\nl 9/1 2/1\n",
         plain + "v 9 9 9\nf 9 9 9\nf 9 1 9\nf 1 2 2\n",
@@ -446,7 +489,8 @@ TEST_F(Mesh, IsWhatItsFacesAre) {
         return body;
     };
     const Model expected = model_of_mesh(with_length(plain));
-    for (const std::string& text : many) EXPECT_EQ(model_of_mesh(with_length(text)).position, expected.position) << text;
+    for (const std::string& text : many)
+        EXPECT_EQ(model_of_mesh(with_length(text)).position, expected.position) << text;
 }
 
 struct Spelling {
@@ -459,11 +503,16 @@ void PrintTo(const Spelling& spelling, std::ostream* out) {
     test::print_name(spelling.name, out);
 }
 
-const std::string whole_box = "v 0 0 0\nv 2 0 0\nv 0 .5 0\nv 2. 0.5 0\nv 0 0 4e-1\nv 2 0 +0.4\nv 0 0.5 .4E0\nv 2 0.5 0.4\n"
-                              "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
+const std::string whole_box =
+    "v 0 0 0\nv 2 0 0\nv 0 .5 0\nv 2. 0.5 0\nv 0 0 4e-1\nv 2 0 +0.4\nv 0 0.5 .4E0\nv 2 0.5 0.4\n"
+    "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
 
-std::string text_box() { return box(zero, corner).text_stl(); }
-std::string binary_box() { return box(zero, corner).binary_stl(); }
+std::string text_box() {
+    return box(zero, corner).text_stl();
+}
+std::string binary_box() {
+    return box(zero, corner).binary_stl();
+}
 
 const Spelling spellings[] = {
     {"plain", "a.obj", [] { return whole_box; }},
@@ -475,24 +524,30 @@ const Spelling spellings[] = {
     {"marked", "a.obj", [] { return "\xef\xbb\xbf" + whole_box; }},
     {"utf16", "a.obj", [] { return utf16(u"\ufeff" + std::u16string(whole_box.begin(), whole_box.end()), false); }},
     {"utf16Big", "a.obj", [] { return utf16(u"\ufeff" + std::u16string(whole_box.begin(), whole_box.end()), true); }},
-    {"utf16Bare", "a.obj", [] { return utf16(u"# \u6d77\n" + std::u16string(whole_box.begin(), whole_box.end()), false); }},
+    {"utf16Bare", "a.obj",
+     [] { return utf16(u"# \u6d77\n" + std::u16string(whole_box.begin(), whole_box.end()), false); }},
     {"utf16BareBig", "a.obj", [] { return utf16(std::u16string(whole_box.begin(), whole_box.end()), true); }},
     {"commented", "a.obj", [] { return "# C:\\models\\\n" + replaced(whole_box, "\n", "# v 1 2 \\\n\n#\n"); }},
     {"continued", "a.obj", [] { return replaced(replaced(whole_box, "\nf", "\nf \\\n"), " 8 ", " \\  \r\n8\\\n "); }},
-    {"continuedCr", "a.obj", [] { return replaced(replaced(replaced(whole_box, "\n", "\r"), " 8 ", " \\\r8\\\r "), "v 2 ", "v\\\r2 "); }},
+    {"continuedCr", "a.obj",
+     [] { return replaced(replaced(replaced(whole_box, "\n", "\r"), " 8 ", " \\\r8\\\r "), "v 2 ", "v\\\r2 "); }},
     {"weights", "a.obj", [] { return replaced(whole_box, "\nv", " 1.0\nv"); }},
     {"colours", "a.obj", [] { return "v 0 0 0 0.1 1 0.5\nv 2 0 0 255 0 0 1\n" + whole_box.substr(16); }},
     {"large", "a.obj", [] { return replaced(replaced(whole_box, "v", "V"), "f", "F"); }},
     {"fo", "a.obj", [] { return replaced(whole_box, "f ", "fo "); }},
-    {"textures", "a.obj", [] { return "vt 0 0\nvn 0 0 1\n" + replaced(replaced(whole_box, " 8 ", " 8/1/1 "), "f 1 ", "f 1//1 "); }},
+    {"textures", "a.obj",
+     [] { return "vt 0 0\nvn 0 0 1\n" + replaced(replaced(whole_box, " 8 ", " 8/1/1 "), "f 1 ", "f 1//1 "); }},
     {"emptySlashes", "a.obj", [] { return replaced(replaced(whole_box, " 8 ", " 8// "), "f 1 ", "f 1/ "); }},
     {"backwards", "a.obj", [] { return replaced(whole_box, "f 1 5 7 3", "f -8 -4/-1 -2//-1 -6"); }},
-    {"facesFirst", "a.obj", [] { return whole_box.substr(whole_box.find('f')) + whole_box.substr(0, whole_box.find('f')); }},
+    {"facesFirst", "a.obj",
+     [] { return whole_box.substr(whole_box.find('f')) + whole_box.substr(0, whole_box.find('f')); }},
     {"statements", "a.obj",
      [] {
-         return "mtllib a b.mtl\no f 1 2 3\ng a\ns off\nusemtl v 9 9 9\nvp 0.1\nlod 2\n#\n" + whole_box + "call x\nl 1 2\np 1\n";
+         return "mtllib a b.mtl\no f 1 2 3\ng a\ns off\nusemtl v 9 9 9\nvp 0.1\nlod 2\n#\n" + whole_box +
+                "call x\nl 1 2\np 1\n";
      }},
-    {"repeatedCorners", "a.obj", [] { return replaced(replaced(whole_box, "f 1 5 7 3", "f 1 1 5 7 7 7 3 1"), " 8 6", " 8 6 8 6 6"); }},
+    {"repeatedCorners", "a.obj",
+     [] { return replaced(replaced(whole_box, "f 1 5 7 3", "f 1 1 5 7 7 7 3 1"), " 8 6", " 8 6 8 6 6"); }},
     {"endOfFile", "a.obj", [] { return whole_box + '\x1a'; }},
     {"text", "a.stl", text_box},
     {"largeText", "A.STL", [] { return upper(text_box()); }},
@@ -507,9 +562,13 @@ const Spelling spellings[] = {
     {"named", "a.stl", [] { return replaced(text_box(), "solid test", "solid a fish, facet # 7 \\ vertex é"); }},
     {"nameless", "a.stl", [] { return replaced(text_box(), "solid test", "solid"); }},
     {"endsApart", "a.stl",
-     [] { return replaced(replaced(replaced(text_box(), "endloop", "end loop"), "endfacet", "End Facet"), "endsolid", "end solid"); }},
+     [] {
+         return replaced(replaced(replaced(text_box(), "endloop", "end loop"), "endfacet", "End Facet"), "endsolid",
+                         "end solid");
+     }},
     {"endless", "a.stl", [] { return text_box().substr(0, text_box().find("endsolid")); }},
-    {"severalSolids", "a.stl", [] { return replaced_second(text_box(), " facet", "endsolid test\nsolid another one\n facet"); }},
+    {"severalSolids", "a.stl",
+     [] { return replaced_second(text_box(), " facet", "endsolid test\nsolid another one\n facet"); }},
     {"unendedSolids", "a.stl", [] { return replaced_second(text_box(), " facet", "solid\n facet"); }},
     {"oneLine", "a.stl", [] { return replaced(text_box(), "\n", " "); }},
     {"oneWordALine", "a.stl", [] { return replaced(replaced(text_box(), " test", ""), " ", "\n"); }},
@@ -558,7 +617,8 @@ TEST_F(Mesh, CountsEdgesOnce) {
         for (int x = 0; x < half; ++x)
             for (int y = 0; y < half; ++y)
                 for (int z = -10; z < 10; ++z) {
-                    const double sum = std::abs(x - (half - 1) / 2.0) + std::abs(y - (half - 1) / 2.0) + std::abs(z + 0.5);
+                    const double sum =
+                        std::abs(x - (half - 1) / 2.0) + std::abs(y - (half - 1) / 2.0) + std::abs(z + 0.5);
                     // Slices of the tips, which are one particle high, are left out.
                     const bool tip = std::abs(x - (half - 1) / 2.0) + (half % 2 == 0 ? 1 : 1.5) >= radius;
                     if (sum < radius - 1e-9 && !tip) ++expected;
@@ -600,19 +660,23 @@ TEST_F(Mesh, IsTheSameFileWhereverItIsNamedFrom) {
     const json definition = scene_definition("pool/eel", {{"creature", {{"name", name}, {"profile", nullptr}}}});
     EXPECT_EQ(definition["creature"]["mesh"]["file"], (folder_ / "box.obj").string());
     EXPECT_EQ(definition["creature"]["mesh"]["digest"].get<std::string>().size(), 16u);
-    EXPECT_EQ(build_model(load_scene("pool/eel", {{"creature", {{"name", name}, {"rearCentre", {0.5, 0.5, 0.5}}}}})).body.particles.size(), 400u);
+    EXPECT_EQ(build_model(load_scene("pool/eel", {{"creature", {{"name", name}, {"rearCentre", {0.5, 0.5, 0.5}}}}}))
+                  .body.particles.size(),
+              400u);
 }
 
 /// A scene's file that holds its creature, with a companion: their meshes are beside it; a bundled one needs not be.
 TEST_F(Mesh, IsBesideTheSceneThatHoldsItsCreature) {
     write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
     const auto written = [&](const std::string& file) {
-        const json one{{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}, {"length", 1.2}}}, {"rearCentre", {0.6, 0.6, 0.6}}};
+        const json one{{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}, {"length", 1.2}}},
+                       {"rearCentre", {0.6, 0.6, 0.6}}};
         json other = one;
         other["rearCentre"] = {3, 0.6, 0.6};
-        return write("scene.json", json{{"base", "pool/water"},
-                                        {"creature", one},
-                                        {"companions", json::array({{{"creature", other}}})}}.dump());
+        return write(
+            "scene.json",
+            json{{"base", "pool/water"}, {"creature", one}, {"companions", json::array({{{"creature", other}}})}}
+                .dump());
     };
     const json definition = scene_definition(written("box.obj"), json::object());
     for (const json& creature : {definition["creature"], definition["companions"][0]["creature"]}) {
@@ -621,7 +685,8 @@ TEST_F(Mesh, IsBesideTheSceneThatHoldsItsCreature) {
     }
     EXPECT_EQ(scene_definition(written("ray.obj"), json::object())["creature"]["mesh"]["file"], "ray.obj");
     write("ray.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
-    EXPECT_EQ(scene_definition(written("ray.obj"), json::object())["creature"]["mesh"]["file"], (folder_ / "ray.obj").string());
+    EXPECT_EQ(scene_definition(written("ray.obj"), json::object())["creature"]["mesh"]["file"],
+              (folder_ / "ray.obj").string());
 }
 
 /// What an override cannot take away.
@@ -718,55 +783,103 @@ Shape dumbbell(double waist) {
 const BadMesh bad_meshes[] = {
     {"empty", [] { return std::string(); }, "bad.obj", {"has no faces"}},
     {"number", [] { return std::string("v 0 0 0\nv 1 x 0\n"); }, "bad.obj", {"line 2", "\"x\" is no coordinate"}},
-    {"two_signs", [] { return std::string("v 0 0 0\nv 1 +-2 0\n"); }, "bad.obj", {"line 2", "\"+-2\" is no coordinate"}},
+    {"two_signs",
+     [] { return std::string("v 0 0 0\nv 1 +-2 0\n"); },
+     "bad.obj",
+     {"line 2", "\"+-2\" is no coordinate"}},
     {"missing", [] { return std::string("v 0 0\n"); }, "bad.obj", {"line 1", "a coordinate is missing"}},
     {"nan", [] { return std::string("v 0 0 nan\n"); }, "bad.obj", {"line 1", "\"nan\""}},
     {"huge", [] { return std::string("v 0 0 1e12\n"); }, "bad.obj", {"line 1", "within 1e9"}},
-    {"corner", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); }, "bad.obj", {"line 3", "corner \"3\"", "2 vertices"}},
+    {"corner",
+     [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); },
+     "bad.obj",
+     {"line 3", "corner \"3\"", "2 vertices"}},
     {"corner0", [] { return std::string("v 0 0 0\nf 0 1 1\n"); }, "bad.obj", {"line 2", "corner \"0\""}},
-    {"texture", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1/a/b 2 1\n"); }, "bad.obj", {"line 3", "corner \"1/a/b\"", "7/1/2"}},
+    {"texture",
+     [] { return std::string("v 0 0 0\nv 1 0 0\nf 1/a/b 2 1\n"); },
+     "bad.obj",
+     {"line 3", "corner \"1/a/b\"", "7/1/2"}},
     {"slashes", [] { return std::string("v 0 0 0\nf 1/1/1/1 1 1\n"); }, "bad.obj", {"line 2", "corner \"1/1/1/1\""}},
-    {"marked", [] { return "\xef\xbb\xbf" + std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); }, "bad.obj", {"line 3", "2 vertices"}},
+    {"marked",
+     [] { return "\xef\xbb\xbf" + std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); },
+     "bad.obj",
+     {"line 3", "2 vertices"}},
     {"face", [] { return std::string("v 0 0 0\nf 1 1\n"); }, "bad.obj", {"line 2", "2 corners"}},
     {"repeated", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 1 2\n"); }, "bad.obj", {"line 3", "no area"}},
     {"hole", [] { return without_a_face().obj(); }, "bad.obj", {"a hole at the edge from", "(0, 0, 0)", "alone"}},
-    {"turned", [] { return with_a_turned_face().obj(); }, "bad.obj", {"inverted faces at the edge", "the face of line 14"}},
+    {"turned",
+     [] { return with_a_turned_face().obj(); },
+     "bad.obj",
+     {"inverted faces at the edge", "the face of line 14"}},
     {"insideOut", [] { return box(zero, corner).turned().obj(); }, "bad.obj", {"inside out", "-0.4"}},
-    {"bowTie", [] { return std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n"); }, "bad.obj",
+    {"bowTie",
+     [] { return std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n"); },
+     "bad.obj",
      {"the face of line 5", "(0, 0, 0)", "an outline that cuts or touches itself"}},
-    {"comb", [] { return comb(60'000).obj(); }, "bad.obj", {"the face of line 120004", "outline of 120003 corners", "smaller faces"}},
+    {"comb",
+     [] { return comb(60'000).obj(); },
+     "bad.obj",
+     {"the face of line 120004", "outline of 120003 corners", "smaller faces"}},
     {"behindVertex", [] { return std::string("v 0 0 0 v 1 0 0\n"); }, "bad.obj", {"line 1", "\"v\" behind a vertex"}},
     {"continued", [] { return std::string("v 0 0 0\nf 1 \\\n 1 \\\n x\n"); }, "bad.obj", {"line 2", "corner \"x\""}},
     {"wide", [] { return utf16(u"v 0 0 0\nv 0 \u00e9 0\n", false); }, "bad.obj", {"line 2", "\"?\" is no coordinate"}},
     {"noFacets", [] { return std::string("solid a\nendsolid a\n"); }, "bad.stl", {"has no faces"}},
-    {"manyFacets", [] { return std::string(80, ' ') + std::string("\xff\xff\x0f\0", 4) + std::string(50 << 20, '\0'); }, "bad.stl",
+    {"manyFacets",
+     [] { return std::string(80, ' ') + std::string("\xff\xff\x0f\0", 4) + std::string(50 << 20, '\0'); },
+     "bad.stl",
      {"more than 200000 triangles"}},
     {"fin", [] { return with_a_fin().obj(); }, "bad.obj", {"belongs to 4 faces"}},
-    {"crossed", [] { return box(zero, corner).add(box({0.5, -0.1, 0.1}, {0.8, 0.6, 0.3})).obj(); }, "bad.obj",
+    {"crossed",
+     [] { return box(zero, corner).add(box({0.5, -0.1, 0.1}, {0.8, 0.6, 0.3})).obj(); },
+     "bad.obj",
      {"intersects itself", "the face of line"}},
-    {"touching", [] { return box(zero, corner).add(box({0.5, 0.5, 0.1}, {0.8, 0.7, 0.3})).obj(); }, "bad.obj",
+    {"touching",
+     [] { return box(zero, corner).add(box({0.5, 0.5, 0.1}, {0.8, 0.7, 0.3})).obj(); },
+     "bad.obj",
      {"intersects itself"}},
-    {"inner", [] { return box(zero, corner).add(box({0.5, 0.1, 0.1}, {0.8, 0.4, 0.3})).obj(); }, "bad.obj",
+    {"inner",
+     [] { return box(zero, corner).add(box({0.5, 0.1, 0.1}, {0.8, 0.4, 0.3})).obj(); },
+     "bad.obj",
      {"a part inside another"}},
-    {"apartTurned", [] { return box(zero, corner).add(box({0.5, 0.6, 0.1}, {0.8, 0.9, 0.3}).turned()).obj(); }, "bad.obj",
+    {"apartTurned",
+     [] { return box(zero, corner).add(box({0.5, 0.6, 0.1}, {0.8, 0.9, 0.3}).turned()).obj(); },
+     "bad.obj",
      {"a part whose faces look inwards"}},
     {"thin", [] { return dumbbell(0.1).obj(); }, "bad.obj", {"thinner than two particles at 0.", "of the length"}},
-    {"wing", [] { return box(zero, corner).add(box({1, 0.21, 0.5}, {1.3, 0.24, 1.5})).add(
-                             box({1, 0.21, -1.1}, {1.3, 0.24, -0.1})).obj(); }, "bad.obj",
+    {"wing",
+     [] {
+         return box(zero, corner)
+             .add(box({1, 0.21, 0.5}, {1.3, 0.24, 1.5}))
+             .add(box({1, 0.21, -1.1}, {1.3, 0.24, -0.1}))
+             .obj();
+     },
+     "bad.obj",
      {"too thin for particles around", "1.5"}},
     {"flatBody", [] { return box(zero, {2, 0.5, 0.1}).obj(); }, "bad.obj", {"is wide 1 spacings", "two particles"}},
     {"short", [] { return box(zero, {0.1, 0.5, 0.4}).obj(); }, "bad.obj", {"is 1 spacings long", "unit and length"}},
-    {"tenThousand", [] { return box(zero, 10000 * Vector3d(0.1, 0.1, 0.1)).obj(); }, "bad.obj", {"is 10000 spacings long", "1000"}},
-    {"millions", [] { return box(zero, 900 * Vector3d(0.1, 0.1, 0.1)).obj(); }, "bad.obj", {"more than 16000000 particles"}},
-    {"oneSided", [] { return box(zero, corner).add(box({0.5, 0.6, 0.6}, {1.5, 0.9, 1.2})).obj(); }, "bad.obj",
+    {"tenThousand",
+     [] { return box(zero, 10000 * Vector3d(0.1, 0.1, 0.1)).obj(); },
+     "bad.obj",
+     {"is 10000 spacings long", "1000"}},
+    {"millions",
+     [] { return box(zero, 900 * Vector3d(0.1, 0.1, 0.1)).obj(); },
+     "bad.obj",
+     {"more than 16000000 particles"}},
+    {"oneSided",
+     [] { return box(zero, corner).add(box({0.5, 0.6, 0.6}, {1.5, 0.9, 1.2})).obj(); },
+     "bad.obj",
      {"different halves", "mirrored"}},
-    {"facet", [] { return std::string("solid a\nfacet normal 0 0 1\nvertex 0 0 0\nendfacet\n"); }, "bad.stl",
+    {"facet",
+     [] { return std::string("solid a\nfacet normal 0 0 1\nvertex 0 0 0\nendfacet\n"); },
+     "bad.stl",
      {"line 4", "1 vertices"}},
     {"outside", [] { return std::string("solid a\nvertex 0 0 0\n"); }, "bad.stl", {"line 2", "outside of a facet"}},
     {"within", [] { return std::string("solid a\nfacet\nfacet\n"); }, "bad.stl", {"line 3", "within a facet"}},
     {"word", [] { return std::string("solid a\nfacette\n"); }, "bad.stl", {"line 2", "\"facette\""}},
     {"cutText", [] { return box(zero, corner).text_stl().substr(0, 400); }, "bad.stl", {"ends at line"}},
-    {"cutBinary", [] { return box(zero, corner).binary_stl().substr(0, 300); }, "bad.stl",
+    {"cutBinary",
+     [] { return box(zero, corner).binary_stl().substr(0, 300); },
+     "bad.stl",
      {"has 300 bytes", "12 facets", "684"}},
     {"noStl", [] { return std::string("stl"); }, "bad.stl", {"has 3 bytes"}},
     {"nanBinary",
@@ -775,7 +888,8 @@ const BadMesh bad_meshes[] = {
          shape.vertices[1].x() = std::nan("");
          return shape.binary_stl();
      },
-     "bad.stl", {"facet 3", "no number"}},
+     "bad.stl",
+     {"facet 3", "no number"}},
 };
 
 class BadMeshTest : public Mesh, public testing::WithParamInterface<BadMesh> {};
@@ -791,7 +905,8 @@ INSTANTIATE_TEST_SUITE_P(All, BadMeshTest, testing::ValuesIn(bad_meshes));
 
 const BadInput bad_bodies[] = {
     {R"({"mesh":{"file":"none.obj"}})", "creature.mesh.file: \"none.obj\"", "no such file"},
-    {R"({"mesh":{"file":"m\u00e9 \ud83d\udc1f\u0007.obj"}})", "creature.mesh.file: \"m\u00e9 \U0001f41f\\u0007.obj\"", "no such file"},
+    {R"({"mesh":{"file":"m\u00e9 \ud83d\udc1f\u0007.obj"}})", "creature.mesh.file: \"m\u00e9 \U0001f41f\\u0007.obj\"",
+     "no such file"},
     {R"({"mesh":{"file":"ray.json"}})", "creature.mesh.file: \"ray.json\"", ".obj or .stl"},
     {R"({"mesh":{"file":"/dev/zero.obj"}})", "creature.mesh.file", "no such file"},
     {R"({"mesh":{"file":7}})", "creature.mesh.file", "string"},
@@ -850,7 +965,8 @@ TEST_F(RayTest, BendsUpAndDown) {
     ASSERT_EQ(model.actuators, 5);
     for (const Muscle& muscle : model.muscles) {
         const Spring& spring = model.springs[muscle.spring];
-        const double y = (model.position[spring.a] + model.position[spring.b]).y() / 2 - scene.creature->rear_centre.y();
+        const double y =
+            (model.position[spring.a] + model.position[spring.b]).y() / 2 - scene.creature->rear_centre.y();
         EXPECT_GT(y * muscle.lateral, 0);
         EXPECT_LE(std::abs(muscle.lateral), 1);
     }
@@ -881,7 +997,8 @@ TEST_F(RayTest, HasASkin) {
         used.insert(weights[i].cluster);
         double nearest = 1e9;
         for (const int particle : model.body.particles)
-            nearest = std::min(nearest, (model.position[particle] - scene.creature->rear_centre - skin.vertices[i]).norm());
+            nearest =
+                std::min(nearest, (model.position[particle] - scene.creature->rear_centre - skin.vertices[i]).norm());
         EXPECT_LT(nearest, 3 * scene.creature->spacing);
         // What the file has, by the transformation that is told.
         const Vector3d in_file = skin.origin + skin.axes.transpose() * skin.vertices[i] / skin.unit;

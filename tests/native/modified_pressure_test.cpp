@@ -25,13 +25,19 @@ Model modified(Model model) {
     return model;
 }
 
-std::vector<bench::WaterFigure> figures_of(const std::string& name, int resolution, int substeps, int iterations, bool modified_pressure) {
-    return water_figures(name, {.scheme = Scheme::conserving, .substeps = substeps, .iterations = iterations, .modified_pressure = modified_pressure},
-                      resolution);
+std::vector<bench::WaterFigure> figures_of(const std::string& name, int resolution, int substeps, int iterations,
+                                           bool modified_pressure) {
+    return water_figures(name,
+                         {.scheme = Scheme::conserving,
+                          .substeps = substeps,
+                          .iterations = iterations,
+                          .modified_pressure = modified_pressure},
+                         resolution);
 }
 
-/// q is 0 down to its level, its slope grows to rho g over a kernel support of 0.25, and the gravity that is left is what that slope
-/// leaves. The level is 0.275 deep: two thirds of what two passes hold up in a frame, 0.4, are left to the solver.
+/// q is 0 down to its level, its slope grows to rho g over a kernel support of 0.25, and the gravity that is left is
+/// what that slope leaves. The level is 0.275 deep: two thirds of what two passes hold up in a frame, 0.4, are left to
+/// the solver.
 TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
     Model model = modified(lattice_of_water({4, 10, 4}));
     model.parameters.substeps = model.parameters.iterations = 1;
@@ -45,10 +51,12 @@ TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
     EXPECT_NEAR(carried.pressure(at(0.6), density) - carried.pressure(at(0.3), density), slope * 0.3, 1e-9 * slope);
     for (const double below : {-0.1, 0.05, 0.2, 0.4}) {
         const double step = 1e-6;
-        const double gradient = (carried.pressure(at(below + step), density) - carried.pressure(at(below - step), density)) / (2 * step);
+        const double gradient =
+            (carried.pressure(at(below + step), density) - carried.pressure(at(below - step), density)) / (2 * step);
         EXPECT_NEAR(carried.acceleration(at(below), true, density, 1e-3, 1).y, -gradient / density, 1e-6) << below;
         EXPECT_NEAR(carried.lift(at(below), density, 1e-3).y, gradient * 1e-3, 1e-6) << below;
-        EXPECT_NEAR(carried.acceleration(at(below), false, density, 1e-3, 0.5).y, -gradient * 1e-3 * 0.5, 1e-6) << below;
+        EXPECT_NEAR(carried.acceleration(at(below), false, density, 1e-3, 0.5).y, -gradient * 1e-3 * 0.5, 1e-6)
+            << below;
     }
 }
 
@@ -63,7 +71,8 @@ TEST(ModifiedPressure, PressureAndDepthOfAColumnAreHydrostatic) {
     const auto column = figures_of("column", 20, 2, 2, true);
     EXPECT_NEAR(column.at(0).value, 1, 0.02);  // target of results/water: 5 %
     EXPECT_NEAR(column.at(1).value, 2, 0.04);  // target: 2 %
-    // Four passes in one substep miss that of the depth. What they reach, 1.9496 with a deviation of 0.0001, is told on that page.
+    // Four passes in one substep miss that of the depth. What they reach, 1.9496 with a deviation of 0.0001, is told on
+    // that page.
     const auto fast = figures_of("column", 20, 1, 4, true);
     EXPECT_NEAR(fast.at(0).value, 1, 0.02);
     EXPECT_GE(fast.at(1).value, 1.949);
@@ -101,8 +110,8 @@ TEST(ModifiedPressure, ForcesAreWhatTheWaterDoesToABody) {
     }
 }
 
-/// The solver is left two thirds of what its passes hold up, 2 (1 + N) s^2/(g h) E: deep water needs no more steps, shallow water is
-/// what it was.
+/// The solver is left two thirds of what its passes hold up, 2 (1 + N) s^2/(g h) E: deep water needs no more steps,
+/// shallow water is what it was.
 TEST(ModifiedPressure, WhatPassesDoNotHoldUpIsCarried) {
     Model whole = lattice_of_water({2, 81, 2}), model = modified(whole);
     EXPECT_NEAR(solved_depth(whole), 8, 1e-9);
@@ -115,7 +124,7 @@ TEST(ModifiedPressure, WhatPassesDoNotHoldUpIsCarried) {
     EXPECT_NEAR(solved_depth(model), 0.8, 1e-9);
     model.parameters.substeps = 1;
     EXPECT_NEAR(solved_depth(model), 0.4, 1e-9);
-    model.parameters.gravity *= 2;  // E grows by its root
+    model.parameters.gravity *= 2;                       // E grows by its root
     EXPECT_NEAR(solved_depth(model), 1.5 * 0.25, 1e-9);  // the least
     EXPECT_NEAR(solved_depth(modified(lattice_of_water({2, 16, 2}))), 1.5, 1e-9);
 }
@@ -131,7 +140,8 @@ TEST(ModifiedPressure, ShallowWaterIsWhatItIsWithoutIt) {
     EXPECT_EQ(a.position, b.position);
 }
 
-/// What gravity along the floor pushes against a wall is carried by nobody, and takes as many substeps as that depth of water.
+/// What gravity along the floor pushes against a wall is carried by nobody, and takes as many substeps as that depth of
+/// water.
 TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
     Model model = modified(box_of_water({20, 20, 3}));
     model.parameters.gravity = {-9, -10, 0};
@@ -161,7 +171,7 @@ TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
     add_solid(0.2, 0.3, 0);
     const double one = begin();
     EXPECT_NEAR(without - one, particle_volumes(model).back() / (0.4 * 0.4), 1e-12);
-    add_solid(0.2, 1.5, 0);   // above the water
+    add_solid(0.2, 1.5, 0);    // above the water
     add_solid(0.35, 0.7, 10);  // a body may leave it
     EXPECT_EQ(begin(), one);
 }
@@ -171,7 +181,9 @@ TEST(ModifiedPressure, WaterThatFallsIntoItsTankIsRefused) {
     model.parameters.substeps = model.parameters.iterations = 1;
     EXPECT_TRUE(background_pressure<double>(model).any());
     model.planes[2].offset *= 2;
-    EXPECT_NE(refusal_of([&] { background_pressure<double>(model); }).find("needs a tank that is full: water begins 1.55 above the floor"),
+    EXPECT_NE(refusal_of([&] {
+                  background_pressure<double>(model);
+              }).find("needs a tank that is full: water begins 1.55 above the floor"),
               std::string::npos);
 }
 
@@ -185,13 +197,15 @@ TEST(ModifiedPressure, ThePlanNamesIt) {
     deep.parameters.substeps = deep.parameters.iterations = 1;
     EXPECT_EQ(named(deep), "");
     EXPECT_EQ(named(modified(deep)), "modified pressure");
-    EXPECT_EQ(named(modified(box_of_water({4, 4, 4}))), "modified pressure (carries nothing: the water is shallow or weightless)");
+    EXPECT_EQ(named(modified(box_of_water({4, 4, 4}))),
+              "modified pressure (carries nothing: the water is shallow or weightless)");
 }
 
 /// The level is known only in a tank; without weight there is nothing to carry.
 TEST(ModifiedPressure, WaterThatIsInNoTankIsRefused) {
-    const std::string expected = "model: parameters.modifiedPressure = true: needs a tank with one floor and one wall at each end, or "
-                                 "periodic axes";
+    const std::string expected =
+        "model: parameters.modifiedPressure = true: needs a tank with one floor and one wall at each end, or "
+        "periodic axes";
     Model model = modified(box_of_water({4, 4, 4}));
     EXPECT_EQ(refusal_of([&] { const Solver<float> solver(model); }), "");
     for (std::size_t k = 0; k < model.planes.size(); ++k) {

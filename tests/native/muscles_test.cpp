@@ -190,7 +190,8 @@ TEST(MusclesTest, LargeSlicesAreJoinedByTheSameRules) {
     EXPECT_EQ(model.springs.size(), 301u * 298 * 4);
     std::map<std::pair<int, int>, int> coincident;
     for (const Spring& spring : model.springs) ++coincident[{spring.a, spring.b}];
-    const auto wide = std::count_if(coincident.begin(), coincident.end(), [](const auto& pair) { return pair.second > 1; });
+    const auto wide =
+        std::count_if(coincident.begin(), coincident.end(), [](const auto& pair) { return pair.second > 1; });
     EXPECT_GT(wide, 0);
     EXPECT_LT(static_cast<std::size_t>(wide), coincident.size());
 }

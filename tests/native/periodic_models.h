@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "law_models.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/water_volumes.h"
 
 /// Models of periodic tanks that tests share.
@@ -15,8 +15,10 @@ inline Model made_periodic(Model model, const std::vector<int>& axes) {
     for (const int axis : axes) {
         PeriodicAxis periodic{axis, 0, 0};
         for (const Plane& plane : model.planes)
-            if (plane.normal[axis] == 1) periodic.low = -plane.offset;
-            else if (plane.normal[axis] == -1) periodic.high = plane.offset;
+            if (plane.normal[axis] == 1)
+                periodic.low = -plane.offset;
+            else if (plane.normal[axis] == -1)
+                periodic.high = plane.offset;
         std::erase_if(model.planes, [axis](const Plane& plane) { return std::abs(plane.normal[axis]) == 1; });
         model.periodic.push_back(periodic);
     }
@@ -36,11 +38,11 @@ inline Model moved_on(Model model, std::size_t periodic, double way) {
 
 /// Largest distance between places of `b` and those of `a` moved on by `way`, through the ends too.
 template <class Real>
-double largest_difference(const Model& model, const State<Real>& a, const State<Real>& b, const Eigen::Vector3d& way) {
+double max_difference(const Model& model, const State<Real>& a, const State<Real>& b, const Eigen::Vector3d& way) {
     double largest = 0;
     for (std::size_t i = 0; i < a.position.size(); ++i) {
         const Eigen::Vector3d difference = (b.position[i] - a.position[i]).template cast<double>() - way;
-        const double distance = shortest_way(model, difference).norm();
+        const double distance = minimum_image(model, difference).norm();
         if (!(distance <= largest)) largest = distance;  // also for NaN
     }
     return largest;
@@ -58,7 +60,8 @@ inline Model stirred_periodic_water(const std::vector<int>& axes) {
     return model;
 }
 
-/// Still water around a rigid cube that flies along x and turns; its middle is at `x`. Weightless, all open to the sides.
+/// Still water around a rigid cube that flies along x and turns; its middle is at `x`. Weightless, all open to the
+/// sides.
 inline Model cube_through_periodic_water(double x) {
     Model model = made_periodic(cube_in_water(1.2, 1), {0, 2});
     model.parameters.gravity.setZero();

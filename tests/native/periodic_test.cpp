@@ -31,14 +31,14 @@ State<Real> after_frames(const Model& model, int frames, int threads = 1) {
     return state;
 }
 
-/// Whatever the tank's place and length, what one of a pair sees of the other through an end is bit for bit the opposite of
-/// what that one sees: the images are nowhere rounded.
+/// Whatever the tank's place and length, what one of a pair sees of the other through an end is bit for bit the
+/// opposite of what that one sees: ghosts are nowhere rounded.
 template <class Real>
 void expect_exactly_opposite_pairs() {
     for (const PeriodicAxis& axis : {PeriodicAxis{0, 0, 2.4}, {0, -0.7, 1.1}, {0, 0.1, 4.51}, {0, 100.3, 103}}) {
         Model model = box_of_water({1, 1, 1});
         model.periodic = {axis};
-        const auto seam = seams_of<Real>(model).front();
+        const auto seam = periodic_axes_of<Real>(model).front();
         EXPECT_NEAR(static_cast<double>(seam.low), axis.low, 1e-5);
         EXPECT_NEAR(static_cast<double>(seam.length), axis.length(), 1e-5);
         for (int k = 0; k < 1000; ++k) {
@@ -87,7 +87,8 @@ TEST(Periodic, MomentumIsKeptInWaterWithoutWalls) {
     EXPECT_LE((momentum(model, after) - momentum(model, before)).norm(), 1e-14 * momentum_size(model, before));
 }
 
-/// Where the ends are makes no difference: the same water, half a tank further on, does the same half a tank further on.
+/// Where the ends are makes no difference: the same water, half a tank further on, does the same half a tank further
+/// on.
 TEST(Periodic, TheEndsCanNotBeTold) {
     for (const std::vector<int>& axes : {std::vector<int>{0}, {2}, {0, 2}}) {
         const Model model = stirred_periodic_water(axes);
@@ -95,8 +96,8 @@ TEST(Periodic, TheEndsCanNotBeTold) {
             const double half = model.periodic[k].length() / 2;
             const State<double> here = after_frames<double>(model, 6);
             const State<double> there = after_frames<double>(moved_on(model, k, half), 6);
-            EXPECT_LE(largest_difference(model, here, there, half * Eigen::Vector3d::Unit(axes[k])), 1e-10) << axes[k];
-            EXPECT_GT(largest_difference(model, initial_state<double>(model), here, {0, 0, 0}), 0.05);
+            EXPECT_LE(max_difference(model, here, there, half * Eigen::Vector3d::Unit(axes[k])), 1e-10) << axes[k];
+            EXPECT_GT(max_difference(model, initial_state<double>(model), here, {0, 0, 0}), 0.05);
         }
     }
 }
@@ -108,10 +109,11 @@ TEST(Periodic, AUniformFlowIsWaterAtRest) {
     const Eigen::Vector3d flow(2, 0, -1.5);
     for (auto& v : model.velocity) v = flow;
     const State<double> flowing = after_frames<double>(model, 30);
-    EXPECT_LE(largest_difference(model, still, flowing, 30 * model.time_step * flow), 1e-9);
+    EXPECT_LE(max_difference(model, still, flowing, 30 * model.time_step * flow), 1e-9);
     for (int i = 0; i < model.particles(); ++i) {
         EXPECT_LE((flowing.velocity[i] - still.velocity[i] - flow).norm(), 1e-9);
-        for (const PeriodicAxis& axis : model.periodic) {  // wrapped at the start of a substep, so no further out than its way
+        for (const PeriodicAxis& axis :
+             model.periodic) {  // wrapped at the start of a substep, so no further out than its way
             EXPECT_GE(flowing.position[i][axis.axis], axis.low - 0.05);
             EXPECT_LE(flowing.position[i][axis.axis], axis.high + 0.05);
         }
@@ -141,13 +143,14 @@ TEST(Periodic, AShearWaveDecaysByItsViscosity) {
     };
     const double time = frames / 60.0, viscous = amplitude_after(viscosity), inviscid = amplitude_after(0);
     const double measured = -std::log(viscous / speed) / (k * k * time);
-    std::cout << "measured: viscosity " << measured << " of " << viscosity << ", without it " << inviscid / speed << " is left\n";
+    std::cout << "measured: viscosity " << measured << " of " << viscosity << ", without it " << inviscid / speed
+              << " is left\n";
     EXPECT_NEAR(measured / viscosity, 1, 0.1);
     EXPECT_GT(inviscid, 0.98 * speed);
 }
 
-/// Every particle has the neighbours that the tank set out again and again would give it: through an end, two ends, and an
-/// end and the floor; also those on the very seam, which are there but once.
+/// Every particle has the neighbours that the tank set out again and again would give it: through an end, two ends, and
+/// an end and the floor; also those on the very seam, which are there but once.
 TEST(Periodic, CornersAreFullOfNeighbours) {
     Model model = stirred_periodic_water({0, 2});
     Solver<double> solver(model);
@@ -194,8 +197,8 @@ TEST(Periodic, ABodyGoesRoundAndRound) {
         advance_frames(at_the_seam, seam, b, 1);
         advance_frames(laps_away, laps, c, 1);
     }
-    EXPECT_LE(largest_difference(middle, a, b, {0.4, 0, 0}), 1e-10);
-    EXPECT_LE(largest_difference(middle, a, c, {0.4, 0, 0}), 1e-10);
+    EXPECT_LE(max_difference(middle, a, b, {0.4, 0, 0}), 1e-10);
+    EXPECT_LE(max_difference(middle, a, c, {0.4, 0, 0}), 1e-10);
     double largest = 0;
     const auto forces = in_the_middle.forces(), others = at_the_seam.forces();
     for (const int i : middle.clusters.front().particles) {
@@ -205,7 +208,8 @@ TEST(Periodic, ABodyGoesRoundAndRound) {
         largest = std::max(largest, forces[i].norm());
     }
     EXPECT_GT(largest, 0.1);
-    EXPECT_LE((momentum(seam, b) - before).cwiseProduct(Eigen::Vector3d(1, 0, 1)).norm(), 1e-13 * momentum_size(seam, b));
+    EXPECT_LE((momentum(seam, b) - before).cwiseProduct(Eigen::Vector3d(1, 0, 1)).norm(),
+              1e-13 * momentum_size(seam, b));
 }
 
 TEST(Periodic, WhatABodyFeelsIsTheSameAtTheSeam) {
@@ -272,7 +276,7 @@ const Gait round_beat{2, {0.8, 1}, {0, 0.75}, 1};
 
 TEST(Periodic, DistanceIsCountedAlongTheWay) {
     const Scene scene = round_tank();
-    double first = 0, last = 0, longest_step = 0, most = 0;
+    double first = 0, last = 0, max_step = 0, most = 0;
     bool begun = false;
     EvaluationOptions options;
     options.on_frame = [&](double, const std::vector<Eigen::Vector3d>& places) {
@@ -281,7 +285,7 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
             mean += x.x() / static_cast<double>(places.size());
             most = std::max(most, x.x());
         }
-        if (begun) longest_step = std::max(longest_step, std::abs(mean - last));
+        if (begun) max_step = std::max(max_step, std::abs(mean - last));
         if (!begun) first = mean;
         begun = true;
         last = mean;
@@ -291,7 +295,7 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
     EXPECT_NEAR(swim.distance, last - first, 1e-9);
     EXPECT_GT(swim.distance, 0.02);
     EXPECT_GT(most, 2);  // beyond the end
-    EXPECT_LT(longest_step, 0.05);
+    EXPECT_LT(max_step, 0.05);
 }
 
 TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
@@ -316,7 +320,8 @@ TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
     for (int i = 0; i < model.particles(); ++i) {
         float told = 0;
         std::memcpy(&told, &message[first + 12 * static_cast<std::size_t>(i)], sizeof told);
-        const double x = static_cast<double>(live.state().position[i].x()), lengths = (static_cast<double>(told) - x) / 2;
+        const double x = static_cast<double>(live.state().position[i].x()),
+                     lengths = (static_cast<double>(told) - x) / 2;
         if (!model.is_fluid(i)) {
             ASSERT_EQ(told, live.state().position[i].x());
             continue;
@@ -361,21 +366,31 @@ TEST_P(BadPeriodic, IsRefused) {
     expect_refused("pool/creature-1", json::parse(GetParam().overrides), GetParam().field, GetParam().allowed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BadPeriodic, testing::ValuesIn(std::vector<BadInput>{
-    {R"({"periodic":"x"})", "periodic = \"x\"", "an array of axes, \"x\" or \"z\""},
-    {R"({"periodic":["y"]})", "periodic[0] = \"y\"", "must be \"x\" or \"z\""},
-    {R"({"periodic":["x","q"]})", "periodic[1] = \"q\"", "must be \"x\" or \"z\""},
-    {R"({"periodic":["x","x"]})", "periodic[1] = \"x\"", "named once"},
-    {R"({"periodic":["x"],"scheme":"flex","solver":{"kinematicViscosity":0}})", "periodic: scheme = \"flex\"", "must be \"conserving\""},
-    {R"({"periodic":["x"],"planes":[[0,1,0,0],[1,0,0,0]]})", "periodic[0] = \"x\"", "found 1 at the low end and 0 at the high end"},
-    {R"({"periodic":["x"],"planes":[[0,1,0,0],[1,0,0,-3],[-1,0,0,2.6]]})", "periodic[0] = \"x\"", "low end is below its high end"},
-    {R"({"periodic":["z"]})", "the body is 1.2 long, and the tank along z 1", "must be at least 1.7"},
-    {R"({"periodic":["z"],"creature":null,"planes":[[0,0,1,0],[0,0,-1,0.45]],"fluid":{"count":[9,9,4]}})", "the tank is 0.45 long along z", "must be at least 0.5 (two kernel radii"},
-    {R"({"periodic":["x"],"fluid":{"origin":[-0.1,0.05,0.05]}})", "periodic: particle at (-0.1, ", "must begin within [0, 2.6] along x"},
-    {R"({"periodic":["x"],"obstacles":[{"shape":"sphere","centre":[2.2,0.5,0.5],"radius":0.1}]})", "periodic: has no room for a creature beside obstacles", "contacts"},
-    {R"({"periodic":["x"],"creature":null,"obstacles":[{"shape":"box","centre":[1.3,0.2,0.5],"size":[2.6,0.2,0.2],"spacing":0.1}]})",
-     "periodic: obstacles have a particle at (2.6, 0.1, 0.4), at the high end along x", "a spacing shorter than the tank"},
-}), [](const auto& bad) { return std::to_string(bad.index); });
+INSTANTIATE_TEST_SUITE_P(
+    All, BadPeriodic,
+    testing::ValuesIn(std::vector<BadInput>{
+        {R"({"periodic":"x"})", "periodic = \"x\"", "an array of axes, \"x\" or \"z\""},
+        {R"({"periodic":["y"]})", "periodic[0] = \"y\"", "must be \"x\" or \"z\""},
+        {R"({"periodic":["x","q"]})", "periodic[1] = \"q\"", "must be \"x\" or \"z\""},
+        {R"({"periodic":["x","x"]})", "periodic[1] = \"x\"", "named once"},
+        {R"({"periodic":["x"],"scheme":"flex","solver":{"kinematicViscosity":0}})", "periodic: scheme = \"flex\"",
+         "must be \"conserving\""},
+        {R"({"periodic":["x"],"planes":[[0,1,0,0],[1,0,0,0]]})", "periodic[0] = \"x\"",
+         "found 1 at the low end and 0 at the high end"},
+        {R"({"periodic":["x"],"planes":[[0,1,0,0],[1,0,0,-3],[-1,0,0,2.6]]})", "periodic[0] = \"x\"",
+         "low end is below its high end"},
+        {R"({"periodic":["z"]})", "the body is 1.2 long, and the tank along z 1", "must be at least 1.7"},
+        {R"({"periodic":["z"],"creature":null,"planes":[[0,0,1,0],[0,0,-1,0.45]],"fluid":{"count":[9,9,4]}})",
+         "the tank is 0.45 long along z", "must be at least 0.5 (two kernel radii"},
+        {R"({"periodic":["x"],"fluid":{"origin":[-0.1,0.05,0.05]}})", "periodic: particle at (-0.1, ",
+         "must begin within [0, 2.6] along x"},
+        {R"({"periodic":["x"],"obstacles":[{"shape":"sphere","centre":[2.2,0.5,0.5],"radius":0.1}]})",
+         "periodic: has no room for a creature beside obstacles", "contacts"},
+        {R"({"periodic":["x"],"creature":null,"obstacles":[{"shape":"box","centre":[1.3,0.2,0.5],"size":[2.6,0.2,0.2],"spacing":0.1}]})",
+         "periodic: obstacles have a particle at (2.6, 0.1, 0.4), at the high end along x",
+         "a spacing shorter than the tank"},
+    }),
+    [](const auto& bad) { return std::to_string(bad.index); });
 
 /// An obstacle that goes on through the ends: what is nearest to it is everywhere as near.
 TEST(Periodic, AnObstacleMayGoAllAlong) {
@@ -391,7 +406,8 @@ TEST(Periodic, AllOtherPlanesAreAlongTheAxis) {
         build_model(scene);
         ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("periodic: plane [0.6, 0, 0.8, 0] is not along x"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("periodic: plane [0.6, 0, 0.8, 0] is not along x"), std::string::npos)
+            << error.what();
     }
 }
 
@@ -408,9 +424,13 @@ TEST(Periodic, AMovingTankMovesAlongAxesThatHaveEnds) {
     EXPECT_NEAR(flowing.distance, still.distance - 0.4 * 0.25, 1e-12);
     EXPECT_GT(swim({{"step", 0.001}}).distance, 0.001);
 
-    json overrides = {{"periodic", {"z"}}, {"movingTank", {{"along", "xz"}, {"step", 0.0005}}}, {"fluid", {{"count", {40, 8, 18}}}},
+    json overrides = {{"periodic", {"z"}},
+                      {"movingTank", {{"along", "xz"}, {"step", 0.0005}}},
+                      {"fluid", {{"count", {40, 8, 18}}}},
                       {"planes", {{0, 1, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 4}, {0, 0, 1, 0}, {0, 0, -1, 1.8}}},
-                      {"creature", {{"rearCentre", {1.4, 0.4, 0.9}}}}, {"duration", 0.25}, {"settling", {{"updates", 2}}}};
+                      {"creature", {{"rearCentre", {1.4, 0.4, 0.9}}}},
+                      {"duration", 0.25},
+                      {"settling", {{"updates", 2}}}};
     EXPECT_GT(evaluate(load_scene("pool/creature-1", overrides), round_beat).renewal->times, 0);
 }
 

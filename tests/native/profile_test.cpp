@@ -70,7 +70,8 @@ TEST(ProfileSection, IsRoundSymmetricAndOfTheEllipsesArea) {
                 EXPECT_LE(slice.row(std::max(0, std::min(iy, middle) - 1)), slice.row(std::min(iy, middle)));
             }
             const double area = std::numbers::pi / 4 * height * width;
-            EXPECT_NEAR(slice.particles() / area, 1, std::min(height, width) > 4 ? 0.16 : 1.3) << height << ' ' << width;
+            EXPECT_NEAR(slice.particles() / area, 1, std::min(height, width) > 4 ? 0.16 : 1.3)
+                << height << ' ' << width;
             sum += slice.particles();
             ideal += area;
         }
@@ -133,7 +134,8 @@ std::uint64_t digest(const Model& model) {
         for (int axis = 0; axis < 3; ++axis) add(model.position[i][axis]);
         add(model.inverse_mass[i]);
     }
-    for (const Spring& spring : model.springs) add(spring.a), add(spring.b), add(spring.rest_length), add(spring.stiffness);
+    for (const Spring& spring : model.springs)
+        add(spring.a), add(spring.b), add(spring.rest_length), add(spring.stiffness);
     for (const Muscle& muscle : model.muscles) add(muscle.spring), add(muscle.actuator), add(muscle.lateral);
     for (const Cluster& cluster : model.clusters) {
         for (const int particle : cluster.particles) add(particle);
@@ -146,15 +148,15 @@ std::uint64_t digest(const Model& model) {
 
 /// Of the program before there were profiles.
 TEST(Profile, TheFourCreaturesAreWhatTheyWere) {
-    for (const auto& [scene, hash] : std::map<std::string, std::uint64_t>{
-             {"thesis/creature-1", 0x5de9bba8743e12bau},
-             {"thesis/creature-2", 0x34744f64c38458adu},
-             {"thesis/creature-3", 0x2c31ff83b6cbfd1au},
-             {"thesis/creature-4", 0xb94e521eac2a5d04u},
-             {"open-water/creature-1", 0x6a74b32b34150722u},
-             {"open-water/creature-2", 0xc00ceec2cf2f1345u},
-             {"open-water/creature-3", 0xbad65a187ac8e749u},
-             {"open-water/creature-4", 0xeb8e719f3fc7a0c3u}})
+    for (const auto& [scene, hash] :
+         std::map<std::string, std::uint64_t>{{"thesis/creature-1", 0x5de9bba8743e12bau},
+                                              {"thesis/creature-2", 0x34744f64c38458adu},
+                                              {"thesis/creature-3", 0x2c31ff83b6cbfd1au},
+                                              {"thesis/creature-4", 0xb94e521eac2a5d04u},
+                                              {"open-water/creature-1", 0x6a74b32b34150722u},
+                                              {"open-water/creature-2", 0xc00ceec2cf2f1345u},
+                                              {"open-water/creature-3", 0xbad65a187ac8e749u},
+                                              {"open-water/creature-4", 0xeb8e719f3fc7a0c3u}})
         EXPECT_EQ(digest(build_model(load_scene(scene))), hash) << scene;
 }
 
@@ -208,7 +210,8 @@ TEST_P(ProfileBodyTest, IsAsHeavyAsItsWater) {
 
 /// Its volume is that of the curves, as far as few particles across can follow them.
 TEST_P(ProfileBodyTest, FollowsItsCurves) {
-    const json profile = scene_definition("pool/" + std::string(GetParam().name), json::object())["creature"]["profile"];
+    const json profile =
+        scene_definition("pool/" + std::string(GetParam().name), json::object())["creature"]["profile"];
     const fields::Place nowhere{"", ""};
     const fields::Range any{0, 1000};
     const Curve height = fields::read_curve(profile["height"], nowhere, any);
@@ -229,7 +232,8 @@ TEST_P(ProfileBodyTest, FollowsItsCurves) {
 }
 
 TEST_P(ProfileBodyTest, IsRefinedLikeAnyOther) {
-    const Model fine = build_model(load_scene(std::string("pool/") + GetParam().name, json::parse(R"({"creature":{"refinement":2}})")));
+    const Model fine = build_model(
+        load_scene(std::string("pool/") + GetParam().name, json::parse(R"({"creature":{"refinement":2}})")));
     EXPECT_EQ(fine.body.particles.size(), 8 * model.body.particles.size());
     EXPECT_EQ(fine.springs.size(), 8 * model.springs.size());
 }
@@ -263,7 +267,8 @@ const BadInput bad_profiles[] = {
     {R"({"profile":{"height":80}})", "creature.profile.height: 80 at", "at most 1000 spacings"},
     {R"({"profile":{"height":[[0,0.2],[0.5,0.4],[0.4,0.3],[1,0.2]]}})", "creature.profile.height[2][0] = 0.4",
      "more than 0.5"},
-    {R"({"profile":{"height":[[0,0.2],[0.5,0.4],[0.5,0.3],[1,0.2]]}})", "creature.profile.height[2][0] = 0.5", "ascend"},
+    {R"({"profile":{"height":[[0,0.2],[0.5,0.4],[0.5,0.3],[1,0.2]]}})", "creature.profile.height[2][0] = 0.5",
+     "ascend"},
     {R"({"profile":{"height":[[0.1,0.2],[1,0.4]]}})", "creature.profile.height[0][0] = 0.1", "at 0"},
     {R"({"profile":{"height":[[0,0.2],[0.8,0.4]]}})", "creature.profile.height[1][0] = 0.8", "at least 0.9"},
     {R"({"profile":{"height":[[0,0.2],[1.2,0.4]]}})", "creature.profile.height[1][0] = 1.2", "[0, 1]"},
@@ -281,7 +286,8 @@ const BadInput bad_profiles[] = {
     {R"({"profile":{"joints":[0.5,0.95]}})", "creature.profile.joints[1] = 0.95", "not in the last"},
     {R"({"profile":{"joints":[0.5,0.92]}})", "creature.profile.joints[0], [1] = slices 10, 18", "2 wide"},
     {R"({"profile":{"fin":{"height":0.5}}})", "creature.profile.fin.height = 0.5", "from where the fin begins"},
-    {R"({"profile":{"fin":{"height":[[0,0.5],[1,0.5]]}}})", "creature.profile.fin.height[0][0] = 0", "a body before it"},
+    {R"({"profile":{"fin":{"height":[[0,0.5],[1,0.5]]}}})", "creature.profile.fin.height[0][0] = 0",
+     "a body before it"},
     {R"({"profile":{"fin":{"height":[[0.99,0.5],[1,0.5]]}}})", "creature.profile.fin.height[0][0] = 0.99", "0.975"},
     {R"({"profile":{"fin":{"height":[[0.9,0.05],[1,0.06]]}}})", "creature.profile.fin.height: ", "thinner than two"},
     {R"({"profile":{"fin":{"thickness":0.03}}})", "creature.profile.fin.thickness = 0.03", "half a spacing"},
@@ -314,9 +320,11 @@ TEST(Profile, NamesWhatIsMissing) {
         return std::string("accepted");
     };
     for (const std::string key : {"length", "height", "width", "joints"})
-        EXPECT_EQ(message(key.c_str(), nullptr), "scene \"spindle\": creature.profile." + key + ": missing; must be given");
-    EXPECT_NE(message("height", json::parse("[[0,0.2],[0.9,0.4]]")).find("height[1][0] = 0.9: must be at 1 of the length"),
-              std::string::npos);
+        EXPECT_EQ(message(key.c_str(), nullptr),
+                  "scene \"spindle\": creature.profile." + key + ": missing; must be given");
+    EXPECT_NE(
+        message("height", json::parse("[[0,0.2],[0.9,0.4]]")).find("height[1][0] = 0.9: must be at 1 of the length"),
+        std::string::npos);
 }
 
 /// What only the creature's file has: an override's null takes it away, also through a scene that builds on another.
@@ -338,8 +346,11 @@ TEST(Profile, NullTakesAwayWhatTheCreaturesFileHas) {
 
     const json file_spacing = scene_definition("pool/eel", json::object())["creature"]["spacing"];
     EXPECT_NE(file_spacing, 1);
-    EXPECT_EQ(scene_definition("pool/eel", json::parse(R"({"creature":{"description":null,"spacing":1}})"))["creature"]["spacing"], 1);
-    const json own = json::parse(R"({"creature":{"name":"mine","slices":[{"height":2,"width":2,"count":3}],"joints":[],"spacing":null}})");
+    EXPECT_EQ(scene_definition("pool/eel",
+                               json::parse(R"({"creature":{"description":null,"spacing":1}})"))["creature"]["spacing"],
+              1);
+    const json own = json::parse(
+        R"({"creature":{"name":"mine","slices":[{"height":2,"width":2,"count":3}],"joints":[],"spacing":null}})");
     EXPECT_FALSE(scene_definition("pool/eel", own)["creature"].contains("spacing"));
 }
 

@@ -24,7 +24,7 @@ struct Told {
     std::uint64_t hash = 0;
 
     /// Mean over the substeps.
-    double mean(Residual Residuals::*kind) const {
+    double mean(Residual Residuals::* kind) const {
         double sum = 0;
         for (const Residuals& one : substeps) sum += (one.*kind).mean;
         return sum / static_cast<double>(substeps.size());

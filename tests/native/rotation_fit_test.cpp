@@ -11,7 +11,9 @@ namespace {
 
 class RotationFit : public ::testing::Test {
 protected:
-    Eigen::Vector3d direction() { return Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_)).normalized(); }
+    Eigen::Vector3d direction() {
+        return Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_)).normalized();
+    }
     Eigen::Quaterniond rotation() {
         return Eigen::Quaterniond(normal_(random_), normal_(random_), normal_(random_), normal_(random_)).normalized();
     }

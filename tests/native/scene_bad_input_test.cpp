@@ -22,7 +22,8 @@ const BadInput bad_scenes[] = {
     {R"({"fluid":{"sapcing":1}})", "fluid.sapcing", "did you mean spacing?"},
     {R"({"fluid":{"mass":{"botom":1}}})", "fluid.mass.botom", "did you mean bottom?"},
     {R"({"creature":{"jointz":[4,8]}})", "creature.jointz", "did you mean joints?"},
-    {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont", "did you mean count?"},
+    {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont",
+     "did you mean count?"},
     {R"({"creature":{"profile":{"length":1,"foo":1}}})", "profile.foo", "allowed: length, height, width, fin, joints"},
     {R"({"foo":1})", "foo", "allowed: "},
     {R"({"settling":{"steps":1}})", "settling.steps", "allowed: updates, timeStep, substeps"},
@@ -51,8 +52,8 @@ const BadInput bad_scenes[] = {
     {R"({"timeStep":-0.1})", "timeStep = -0.1", "[1e-06, 1] (s)"},
     {R"({"solver":{"kernelSupport":1.5}})", "solver.kernelSupport = 1.5", "[2, 4] (rest distances of the fluid)"},
     {R"({"solver":{"modifiedPressure":1}})", "solver.modifiedPressure = 1", "true or false"},
-    {R"({"scheme":"conserving","planes":[[0,1,0,0]],"solver":{"modifiedPressure":true}})", "solver.modifiedPressure = true",
-     "must be false here: it needs a tank with one floor"},
+    {R"({"scheme":"conserving","planes":[[0,1,0,0]],"solver":{"modifiedPressure":true}})",
+     "solver.modifiedPressure = true", "must be false here: it needs a tank with one floor"},
     {R"({"solver":{"kinematicViscosity":-1}})", "solver.kinematicViscosity = -1", "[0, 1000] (length^2/s)"},
     {R"({"scheme":"conserving","solver":{"kinematicViscosity":0.3}})", "solver.kinematicViscosity = 0.3",
      "at most 0.24 (0.1 fluidRestDistance^2 / longest substep, settling included)"},
@@ -75,7 +76,8 @@ const BadInput bad_scenes[] = {
     {R"({"solver":{"solidRestDistance":0.16}})", "solver.solidRestDistance = 0.16", "at most radius = 0.15"},
     {R"({"solver":{"fluidRestDistance":0.15}})", "solver.fluidRestDistance = 0.15", "less than radius = 0.15"},
     {R"({"solver":{"radius":1000}})", "solver.fluidRestDistance = 0.1", "at least radius / 20, radius = 1000.0"},
-    {R"({"solver":{"fluidRestDistance":1e-10}})", "solver.fluidRestDistance = 1e-10", "at least radius / 20, radius = 0.15"},
+    {R"({"solver":{"fluidRestDistance":1e-10}})", "solver.fluidRestDistance = 1e-10",
+     "at least radius / 20, radius = 0.15"},
     {R"({"solver":{"relaxationFactor":-0.1}})", "solver.relaxationFactor = -0.1", "[0, 10]"},
     {R"({"planes":[[0,2,0,0]]})", "planes[0][1] = 2", "[-1, 1]"},
     {R"({"planes":[[0.5,0.5,0,0]]})", "planes[0] = [0.5,0.5,0.0,0.0]", "of length 1"},
@@ -105,23 +107,30 @@ const BadInput bad_scenes[] = {
     // Companions and obstacles.
     {R"({"companions":{}})", "companions = {}", "an array of at most 64 companions"},
     {R"({"companions":[{"creature":{"name":"zebra"}}]})", "companions[0].creature.name", "creature-1, creature-2"},
-    {R"({"companions":[{"creature":{"name":"creature-1","spacing":0}}]})", "companions[0].creature.spacing = 0", "(0, 1000]"},
+    {R"({"companions":[{"creature":{"name":"creature-1","spacing":0}}]})", "companions[0].creature.spacing = 0",
+     "(0, 1000]"},
     {R"({"companions":[{"creature":{"name":"creature-1","rearCentre":[3,0.6,0.6]},"gait":{"frequency":1,"amplitude":[1],"phase":[0]}}]})",
      "companions[0].gait.amplitude has length 1", "must have length 2"},
-    {R"({"companions":[{"creature":{"name":"creature-1","rearCentre":[0.6,0.6,0.6]}}]})", "companions[0] overlaps creature",
-     "must be apart"},
-    {R"({"companions":[{"creature":{"name":"creature-1","rearCentre":[9,0.6,0.6]}}]})", "companions[0].creature.rearCentre",
-     "inside all planes"},
+    {R"({"companions":[{"creature":{"name":"creature-1","rearCentre":[0.6,0.6,0.6]}}]})",
+     "companions[0] overlaps creature", "must be apart"},
+    {R"({"companions":[{"creature":{"name":"creature-1","rearCentre":[9,0.6,0.6]}}]})",
+     "companions[0].creature.rearCentre", "inside all planes"},
     {R"({"obstacles":[{"shape":"cone"}]})", "obstacles[0].shape = \"cone\"", "\"sphere\" or \"box\" or \"mesh\""},
     {R"({"obstacles":[{"shape":"mesh","centre":[1,1,1]}]})", "obstacles[0].file", "missing"},
-    {R"({"obstacles":[{"shape":"mesh","file":"none.obj","centre":[1,1,1]}]})", "obstacles[0].file: \"none.obj\"", "no such file"},
-    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"unit":0.01}]})", "obstacles[0].file: \"hoop.obj\"", "spacings"},
-    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"joints":[0.5]}]})", "obstacles[0].joints", "unknown"},
-    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[0.6,0.3,0.6],"unit":0.3}]})", "creature overlaps obstacles[0]", "must be apart"},
+    {R"({"obstacles":[{"shape":"mesh","file":"none.obj","centre":[1,1,1]}]})", "obstacles[0].file: \"none.obj\"",
+     "no such file"},
+    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"unit":0.01}]})",
+     "obstacles[0].file: \"hoop.obj\"", "spacings"},
+    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"joints":[0.5]}]})", "obstacles[0].joints",
+     "unknown"},
+    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[0.6,0.3,0.6],"unit":0.3}]})",
+     "creature overlaps obstacles[0]", "must be apart"},
     {R"({"obstacles":[{"shape":"box","centre":[1,1,1],"radius":1}]})", "obstacles[0].radius", "unknown"},
     {R"({"obstacles":[{"shape":"sphere","centre":[1,1,1]}]})", "obstacles[0].radius", "missing"},
-    {R"({"obstacles":[{"shape":"sphere","centre":[0.6,0.6,0.6],"radius":0.2}]})", "creature overlaps obstacles[0]", "must be apart"},
-    {R"({"obstacles":[{"shape":"sphere","centre":[0,0,0],"radius":900,"spacing":0.01}]})", "particles", "at most 16000000"},
+    {R"({"obstacles":[{"shape":"sphere","centre":[0.6,0.6,0.6],"radius":0.2}]})", "creature overlaps obstacles[0]",
+     "must be apart"},
+    {R"({"obstacles":[{"shape":"sphere","centre":[0,0,0],"radius":900,"spacing":0.01}]})", "particles",
+     "at most 16000000"},
     // Joints.
     {R"({"creature":{"joints":[8,4,12]}})", "creature.joints[1] = 4", "[9, 15]"},
     {R"({"creature":{"joints":[4,4,12]}})", "creature.joints[1] = 4", "[5, 15]"},
@@ -155,7 +164,8 @@ const BadInput bad_scenes[] = {
     {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]},{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]}]})",
      "obstacles[1] = {", "elsewhere than obstacles[0]"},
     // Lengths that a scheme does not tell from none.
-    {R"({"planes":[],"fluid":null,"creature":{"spacing":0.0099}})", "creature.spacing = 0.0099", "at least 0.01 in scheme flex"},
+    {R"({"planes":[],"fluid":null,"creature":{"spacing":0.0099}})", "creature.spacing = 0.0099",
+     "at least 0.01 in scheme flex"},
     {R"({"planes":[],"fluid":null,"companions":[{"creature":{"name":"creature-2","spacing":1e-3,"rearCentre":[5,5,5]}}]})",
      "companions[0].creature.spacing = 0.001", "at least 0.01 in scheme flex"},
     {R"({"scheme":"conserving","fluid":null,"creature":{"spacing":3e-7}})", "creature.spacing = 3e-07",
@@ -174,7 +184,9 @@ INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(bad_scenes));
 
 /// Where no plane is to be touched, scheme conserving has no least length.
 TEST(SceneTest, BodiesMayBeSmallWhereNoLengthIsAbsolute) {
-    const auto load = [](const char* overrides) { return load_scene("thesis/creature-1", nlohmann::json::parse(overrides)); };
+    const auto load = [](const char* overrides) {
+        return load_scene("thesis/creature-1", nlohmann::json::parse(overrides));
+    };
     EXPECT_NO_THROW(load(R"({"planes":[],"fluid":null,"creature":{"spacing":0.01}})"));
     EXPECT_NO_THROW(load(R"({"scheme":"conserving","fluid":null,"creature":{"spacing":6e-7}})"));
     EXPECT_NO_THROW(load(R"({"scheme":"conserving","planes":[],"fluid":null,"creature":{"spacing":1e-8}})"));

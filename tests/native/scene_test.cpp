@@ -43,24 +43,61 @@ std::string message_of(const std::string& scene) {
 }
 
 TEST(SceneTest, AllNamedScenesAreThere) {
-    const std::vector<std::string> expected = {
-        "bench/dam-break",          "bench/pool",               "bench/small-tank",
-        "company/hoop",             "company/pillars",          "company/school",           "endless/creature-2",
-        "endless/eel",              "endless/evolved-eel",      "endless/water",            "endless/wide-water",
-        "goals/cruise",             "goals/hold",               "goals/reach",
-        "goals/turn",
-        "lake/creature-1",          "lake/creature-2",          "lake/creature-3",          "lake/creature-4",          "lake/eel",
-        "lake/fry",                 "lake/ray",                 "lake/tadpole",             "lake/tuna",                "lake/water",
-        "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",
-        "open-water/creature-4",    "open-water/eel",           "open-water/periodic",      "open-water/ray",           "open-water/tadpole",
-        "open-water/tuna",          "open-water/water",         "pool/creature-1",
-        "pool/creature-2",          "pool/creature-3",          "pool/creature-4",
-        "pool/eel",                 "pool/ray",                 "pool/tadpole",             "pool/tuna",
-        "pool/water",
-        "thesis/creature-1",        "thesis/creature-1-vacuum", "thesis/creature-2",
-        "thesis/creature-2-vacuum", "thesis/creature-3",        "thesis/creature-3-vacuum",
-        "thesis/creature-4",        "thesis/creature-4-vacuum", "thesis/tank",
-        "thesis/two-clusters",      "thesis/two-clusters-vacuum"};
+    const std::vector<std::string> expected = {"bench/dam-break",
+                                               "bench/pool",
+                                               "bench/small-tank",
+                                               "company/hoop",
+                                               "company/pillars",
+                                               "company/school",
+                                               "endless/creature-2",
+                                               "endless/eel",
+                                               "endless/evolved-eel",
+                                               "endless/water",
+                                               "endless/wide-water",
+                                               "goals/cruise",
+                                               "goals/hold",
+                                               "goals/reach",
+                                               "goals/turn",
+                                               "lake/creature-1",
+                                               "lake/creature-2",
+                                               "lake/creature-3",
+                                               "lake/creature-4",
+                                               "lake/eel",
+                                               "lake/fry",
+                                               "lake/ray",
+                                               "lake/tadpole",
+                                               "lake/tuna",
+                                               "lake/water",
+                                               "open-water/creature-1",
+                                               "open-water/creature-2",
+                                               "open-water/creature-3",
+                                               "open-water/creature-4",
+                                               "open-water/eel",
+                                               "open-water/periodic",
+                                               "open-water/ray",
+                                               "open-water/tadpole",
+                                               "open-water/tuna",
+                                               "open-water/water",
+                                               "pool/creature-1",
+                                               "pool/creature-2",
+                                               "pool/creature-3",
+                                               "pool/creature-4",
+                                               "pool/eel",
+                                               "pool/ray",
+                                               "pool/tadpole",
+                                               "pool/tuna",
+                                               "pool/water",
+                                               "thesis/creature-1",
+                                               "thesis/creature-1-vacuum",
+                                               "thesis/creature-2",
+                                               "thesis/creature-2-vacuum",
+                                               "thesis/creature-3",
+                                               "thesis/creature-3-vacuum",
+                                               "thesis/creature-4",
+                                               "thesis/creature-4-vacuum",
+                                               "thesis/tank",
+                                               "thesis/two-clusters",
+                                               "thesis/two-clusters-vacuum"};
     EXPECT_EQ(scene_names(), expected);
 }
 
@@ -107,7 +144,8 @@ TEST(SceneTest, TheThesisTankIsTheNamedScene) {
     const Scene scene = thesis_tank(), named = load_scene("thesis/tank");
     const Model made = build_model(scene), read = build_model(named);
     EXPECT_NE(settled_state_key(made, scene.settling, 4), "");
-    EXPECT_EQ(settled_state_key(made, scene.settling, 4), settled_state_key(read, named.settling, 4));  // all parameters, particles, planes
+    EXPECT_EQ(settled_state_key(made, scene.settling, 4),
+              settled_state_key(read, named.settling, 4));  // all parameters, particles, planes
     EXPECT_EQ(scene.name, named.name);
     EXPECT_EQ(scene.duration, named.duration);
     EXPECT_EQ(scene.stopping.no_progress_after, named.stopping.no_progress_after);
@@ -200,7 +238,8 @@ TEST_F(SceneFiles, ALoopOfBasesIsRefused) {
 
 TEST_F(SceneFiles, ABaseThatCannotBeReadIsToldWithWhoNamesIt) {
     const std::string path = write("own.json", R"({"base": "none.json"})");
-    EXPECT_NE(message_of(path).find("own.json\": base: file \"none.json\": cannot be read"), std::string::npos) << message_of(path);
+    EXPECT_NE(message_of(path).find("own.json\": base: file \"none.json\": cannot be read"), std::string::npos)
+        << message_of(path);
 }
 
 TEST_F(SceneFiles, UnreadableAndDamagedFilesAreNamed) {

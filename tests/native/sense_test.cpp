@@ -17,8 +17,8 @@ using Side = SkinPlace::Side;
 
 const Vector3d body_middle(0.5, 0.1, 0.1);
 
-/// A rigid body of 3 slices of 2 x 2 particles that heads along +x, as it lies after a rotation about its body_middle and a
-/// way, and moves with a velocity and an angular velocity over ground; a muscle on each side; water all about it.
+/// A rigid body of 3 slices of 2 x 2 particles that heads along +x, as it lies after a rotation about its body_middle
+/// and a way, and moves with a velocity and an angular velocity over ground; a muscle on each side; water all about it.
 struct Swimmer {
     Model model;
     State<double> state;
@@ -67,7 +67,8 @@ Eigen::Matrix3d rotated_by(double angle, const Vector3d& axis) {
 }
 
 void expect_near(const Vector3d& actual, const Vector3d& expected, const char* what) {
-    EXPECT_LT((actual - expected).norm(), 1e-9) << what << ": " << actual.transpose() << " not " << expected.transpose();
+    EXPECT_LT((actual - expected).norm(), 1e-9)
+        << what << ": " << actual.transpose() << " not " << expected.transpose();
 }
 
 TEST(SenseTest, PoseAndMotionOfARigidBody) {
@@ -114,7 +115,9 @@ TEST(SenseTest, FlowIsWeightedByDistanceAndEndsWhereItIsAskedTo) {
     Swimmer swimmer(Eigen::Matrix3d::Identity(), {0, 0, 0}, {0, 0, 0}, {0, 0, 0});
     swimmer.add_water({1, 0.3, 0.1}, {1, 0, 0});  // 0.1 above the head's upper side
     swimmer.add_water({1, 0.4, 0.1}, {0, 0, 1});  // 0.2
-    const auto above = [&](double within) { return swimmer.senses({.flow = {{0, Side::above}}, .within = within}).flow[0]; };
+    const auto above = [&](double within) {
+        return swimmer.senses({.flow = {{0, Side::above}}, .within = within}).flow[0];
+    };
     EXPECT_EQ(above(0.15).particles, 1);
     expect_near(above(0.15).velocity, {1, 0, 0}, "the nearer one");
     const double near = std::pow(1 - 1.0 / 16, 3), far = std::pow(1 - 4.0 / 16, 3);

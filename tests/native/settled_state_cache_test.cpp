@@ -85,9 +85,9 @@ TEST_F(SettledStateCacheTest, WhatSettledItMakesAnotherStart) {
 TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     hash(scene(), &cache_);
     std::size_t expected = 1;
-    for (const char* other : {R"({"solver":{"viscosity":7}})", R"({"solver":{"modifiedPressure":true}})", R"({"solver":{"maxNeighborsPerParticle":95}})",
-                              R"({"settling":{"updates":99}})", R"({"creature":{"clusterStiffness":0.3}})",
-                              R"({"planes":[[0,1,0,0.001]]})"}) {
+    for (const char* other : {R"({"solver":{"viscosity":7}})", R"({"solver":{"modifiedPressure":true}})",
+                              R"({"solver":{"maxNeighborsPerParticle":95}})", R"({"settling":{"updates":99}})",
+                              R"({"creature":{"clusterStiffness":0.3}})", R"({"planes":[[0,1,0,0.001]]})"}) {
         EXPECT_NE(hash(scene(other), &cache_), 0u);
         EXPECT_EQ(files(), ++expected) << other;
     }
@@ -95,8 +95,8 @@ TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
 
 TEST_F(SettledStateCacheTest, TheWaterOfALatticeMakesAnotherStart) {
     const auto lattice = [](const char* overrides) {
-        nlohmann::json all = {{"scheme", "lattice"}, {"duration", 0.02}, {"settling", {{"updates", 5}}},
-                              {"fluid", {{"disorder", 0}}}};
+        nlohmann::json all = {
+            {"scheme", "lattice"}, {"duration", 0.02}, {"settling", {{"updates", 5}}}, {"fluid", {{"disorder", 0}}}};
         all.merge_patch(nlohmann::json::parse(overrides));
         return load_scene("open-water/creature-2", all);
     };

@@ -162,8 +162,7 @@ TEST_P(FluidParameters, FreeSurfaceDragActsOnWhatHasFewNeighbours) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, FluidParameters, testing::Values(Scheme::flex, Scheme::conserving),
-                         scheme_name);
+INSTANTIATE_TEST_SUITE_P(Schemes, FluidParameters, testing::Values(Scheme::flex, Scheme::conserving), scheme_name);
 
 }  // namespace
 }  // namespace natator

@@ -30,13 +30,14 @@ struct Fluid {
         position.resize(slots, 1e9f);
         velocity.resize(slots);
         correction.resize(slots);
-        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &solid, &response,
-                            &target, &impulse, &impulse_sum, &fastest_square, &zeroth_order_correction})
+        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &solid,
+                            &response, &target, &impulse, &impulse_sum, &max_speed_square, &zeroth_order_correction})
             array->resize(slots);
         crowding.resize(slots);
         zeroth.resize(slots);
         for (auto& array : water_correction) array.resize(slots);
-        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear, &packed_zeroth_order}) array->resize(4 * slots);
+        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear, &packed_zeroth_order})
+            array->resize(4 * slots);
         for (int slot = 0; slot < far_slot; ++slot) {
             position.set(slot, {place(random), place(random), place(random)});
             velocity.set(slot, {place(random), place(random), place(random)});
@@ -109,7 +110,7 @@ struct Fluid {
                               .density = density.data(),
                               .correction = {},
                               .crowding = {s[0], s[1], s[2]},
-                              .fastest_square = fastest_square.data(),
+                              .max_speed_square = max_speed_square.data(),
                               .response = response.data(),
                               .target = target.data(),
                               .impulse = impulse.data(),
@@ -128,7 +129,8 @@ struct Fluid {
     }
 
     Vector3Array<float> position, velocity, correction, crowding, gradient, zeroth;
-    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square, zeroth_order_correction;
+    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, max_speed_square,
+        zeroth_order_correction;
     AlignedVector<float> packed_correction, packed_shear, packed_zeroth_order;
     std::array<AlignedVector<float>, 6> water_correction;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;
@@ -203,8 +205,9 @@ TEST_P(SolverKernels, Water) {
         set.lay_out_zeroth_order_correction(water);
         set.return_zeroth_order_correction(water);
     });
-    for (const auto member : {&Fluid::density, &Fluid::fastest_square, &Fluid::response, &Fluid::impulse,
-                              &Fluid::impulse_sum, &Fluid::zeroth_order_correction, &Fluid::packed_zeroth_order, &Fluid::packed_velocity})
+    for (const auto member :
+         {&Fluid::density, &Fluid::max_speed_square, &Fluid::response, &Fluid::impulse, &Fluid::impulse_sum,
+          &Fluid::zeroth_order_correction, &Fluid::packed_zeroth_order, &Fluid::packed_velocity})
         expect_near(fluid.*member, expected.*member);
     for (int k = 0; k < 6; ++k) expect_near(fluid.water_correction[k], expected.water_correction[k]);
     expect_near(fluid.crowding.x, expected.crowding.x);

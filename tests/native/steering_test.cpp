@@ -119,8 +119,9 @@ TEST(SteeringTest, AnOffsetBendsTheBodyToItsSide) {
 }
 
 TEST(SteeringTest, AScaleIsAnotherAmplitude) {
-    Simulation<float> halved = by_gait_in(steered_vacuum), weaker(SimulationSetup{
-                              .scene = steered_vacuum, .gait = Gait{1.861, {0.973 / 2, 0.690 / 2}, {0, 0.648}}});
+    Simulation<float> halved = by_gait_in(steered_vacuum),
+                      weaker(SimulationSetup{.scene = steered_vacuum,
+                                             .gait = Gait{1.861, {0.973 / 2, 0.690 / 2}, {0, 0.648}}});
     halved.steer({{0.5, 0.5}, {0, 0}});
     EXPECT_EQ(run_to(halved, 20), run_to(weaker, 20));
 }
@@ -148,22 +149,27 @@ TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
               "drive has length 1: must have length 2, one value per actuator of the creature");
     EXPECT_EQ(test::refusal_of([&] { simulation.drive({1, none}); }), "drive[1] = NaN: must be a number in [-2, 2]");
     EXPECT_EQ(test::refusal_of([&] { simulation.drive({2.5, 0}); }), "drive[0] = 2.5: must be a number in [-2, 2]");
-    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, -1}, {0, 0}}); }), "scale[1] = -1: must be a number in [0, 4]");
-    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }), "offset[1] = NaN: must be a number in [-2, 2]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, -1}, {0, 0}}); }),
+              "scale[1] = -1: must be a number in [0, 4]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }),
+              "offset[1] = NaN: must be a number in [-2, 2]");
     EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, 1}, {}}); }),
               "offset has length 0: must have length 2, one value per actuator of the creature");
     EXPECT_EQ(test::refusal_of([&] { simulation.steer({{2, 1}, {0.5, 0}}); }),
-              "scale[0] = 2 and offset[0] = 0.5: scale times the gait's own largest drive, 0.973, plus |offset| must be at most "
+              "scale[0] = 2 and offset[0] = 0.5: scale times the gait's own largest drive, 0.973, plus |offset| must "
+              "be at most "
               "2, is 2.446 (a muscle has no length below 0)");
     EXPECT_EQ(run_to(simulation, 3), run_to(other, 3));
     Gait bent = steered_gait;
     bent.offset = {0.9, 0};
-    EXPECT_NE(test::refusal_of([&] { check_steering({{1, 1}, {0.2, 0}}, bent, 2); }).find("drive, 1.873, plus"), std::string::npos);
+    EXPECT_NE(test::refusal_of([&] { check_steering({{1, 1}, {0.2, 0}}, bent, 2); }).find("drive, 1.873, plus"),
+              std::string::npos);
 
     simulation.steer({{2, 2}, {0, 0}});
     Gait stronger = steered_gait;
     stronger.amplitude[0] = 1.5;
-    EXPECT_NE(test::refusal_of([&] { simulation.set_gait(stronger); }).find("scale[0] = 2 and offset[0] = 0"), std::string::npos);
+    EXPECT_NE(test::refusal_of([&] { simulation.set_gait(stronger); }).find("scale[0] = 2 and offset[0] = 0"),
+              std::string::npos);
     EXPECT_EQ(simulation.gait().amplitude[0], steered_gait.amplitude[0]);
     EXPECT_EQ(test::refusal_of([] { Simulation<float>(SimulationSetup{.scene = "thesis/tank"}).drive({1}); }),
               "drive has length 1: must have length 0, one value per actuator of the creature (there is none)");

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "natator/error.h"
 #include "refusal_of.h"
@@ -76,7 +76,8 @@ TEST(Swimmer, PhasesThatRiseEvenlyAreAWave) {
     const Swimmer wave = swim_case_from_json(document, "file").base;
     document["midline"]["phase"] = {{0, 0}, {1, 1}};
     document["midline"]["waves"] = 5;
-    const Places expected = wave.bent(midline(), length, 2.3), places = swim_case_from_json(document, "file").base.bent(midline(), length, 2.3);
+    const Places expected = wave.bent(midline(), length, 2.3),
+                 places = swim_case_from_json(document, "file").base.bent(midline(), length, 2.3);
     for (std::size_t k = 0; k < places.size(); ++k) EXPECT_TRUE(places[k].isApprox(expected[k], 1e-12)) << k;
 }
 
@@ -94,9 +95,11 @@ TEST(Swimmer, MidlineKeepsItsLengthAndSectionsTurnWithIt) {
                     sum += part;
                 }
                 EXPECT_NEAR(sum, length, 1e-4 * length) << name;
-                const Places section = one.bent({{-1.48, 0, 0}, {-1.5, 0.1, -0.05}, {-1.5, -0.1, 0.05}, {-1.52, 0, 0}}, length, beats);
+                const Places section =
+                    one.bent({{-1.48, 0, 0}, {-1.5, 0.1, -0.05}, {-1.5, -0.1, 0.05}, {-1.52, 0, 0}}, length, beats);
                 EXPECT_NEAR((section[2] - section[1]).norm(), std::hypot(0.2, 0.1), 1e-12);
-                EXPECT_NEAR((section[2] - section[1]).normalized().dot((section[3] - section[0]).normalized()), 0, 2e-2) << name << variant;
+                EXPECT_NEAR((section[2] - section[1]).normalized().dot((section[3] - section[0]).normalized()), 0, 2e-2)
+                    << name << variant;
             }
 }
 
@@ -114,7 +117,8 @@ TEST(Swimmer, DisplacementIsKept) {
     }
 }
 
-/// A plate that is the same from both ends: with the wave reversed it takes the mirrored shape, seen from the other end.
+/// A plate that is the same from both ends: with the wave reversed it takes the mirrored shape, seen from the other
+/// end.
 TEST(Swimmer, WaveReversedIsMirrored) {
     const Swimmer tail = swimmer("plate", "to the tail"), head = swimmer("plate", "to the head");
     for (const double beats : {2.0, 2.3, 2.85}) {
@@ -153,7 +157,8 @@ TEST(Swimmer, LarvaBendsByAWaveTowardsItsTail) {
 TEST(Swimmer, DeformsAsItsFileSays) {
     nlohmann::json document = plain();
     document.erase("midline");
-    document["deformation"] = {{2, 1, 0, 0, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1, 0, 0}};
+    document["deformation"] = {{2, 1, 0, 0, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                               {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1, 0, 0}};
     const Swimmer body = swim_case_from_json(document, "test").base;
     const Places straight{{-0.5, 0.1, 0.05}};
     const double t = 1.3, once = 2 * std::numbers::pi * t, xi = 1 + 2 * -0.25;
@@ -191,7 +196,8 @@ TEST(Swimmer, FilesThatAreWrongAreRefused) {
         {R"({"outline": null})", "eel: outline"},
         {R"({"outline": [[0, 0.1, 0.1]]})", "eel: outline = [[0,0.1,0.1]]: must be an array of two rows or more"},
         {R"({"outline": [[0, 0.1], [1, 0.1]]})", "eel: outline[0] = [0,0.1]: must be an array of 3 numbers"},
-        {R"({"outline": [[0.5, 0.1, 0.1], [0.2, 0.1, 0.1]]})", "eel: outline[1][0] = 0.2: must be in [0, 1] and more than in the row before"},
+        {R"({"outline": [[0.5, 0.1, 0.1], [0.2, 0.1, 0.1]]})",
+         "eel: outline[1][0] = 0.2: must be in [0, 1] and more than in the row before"},
         {R"({"outline": [[0, "x", 0.1], [1, 0.1, 0.1]]})", "eel: outline[0][1] = \"x\": must be"},
         {R"({"slab": true})", "eel: outline[0] = [0,0.05,0.1]: must be an array of 2 numbers"},
         {R"({"midline": null})", "eel: midline"},
@@ -203,20 +209,27 @@ TEST(Swimmer, FilesThatAreWrongAreRefused) {
         {R"({"midline": {"wave": 2}})", "eel: midline.wave: unknown"},
         {R"({"deformation": []})", "eel: deformation = []: must be an array of rows of 18 numbers"},
         {R"({"deformation": [[1, 2]]})", "eel: deformation[0] = [1,2]: must be an array of 18 numbers"},
-        {R"({"deformation": [[0, 1.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]]})", "eel: deformation[0][1] = 1.5: must be a whole number in [0, 20]"},
+        {R"({"deformation": [[0, 1.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]]})",
+         "eel: deformation[0][1] = 1.5: must be a whole number in [0, 20]"},
         {R"({"towed": -1})", "eel: towed = -1: must be"},
         {R"({"variants": [1]})", "eel: variants = [1]: must be an object"},
         {R"({"variants": {"fast": {"viscosity": "low"}}})", "eel (fast): viscosity = \"low\": must be"},
         {R"({"variants": {"a,b": {}}})", "eel: variants = \"a,b\": must be without a comma"},
         {R"({"variants": {"fast": 3}})", "eel (fast)"},
-        {R"({"colour": 3})", "eel: colour: unknown key (= 3); allowed: source, outline, midline, deformation, towed, variants, targets"},
+        {R"({"colour": 3})",
+         "eel: colour: unknown key (= 3); allowed: source, outline, midline, deformation, towed, variants, targets"},
         {R"({"targets": 3})", "eel: targets = 3: must be an array"},
-        {R"({"targets": [{"quantity": "sped", "confirmed": true, "source": "x", "least": 0}]})", "eel: targets[0].quantity = \"sped\": must be one of speed"},
-        {R"({"targets": [{"quantity": 3, "confirmed": true, "source": "x", "least": 0}]})", "eel: targets[0].quantity = 3: must be"},
-        {R"({"targets": [{"quantity": "speed", "confirmed": true, "source": "x"}]})", "eel: targets[0]: needs reference and within, least or greatest"},
-        {R"({"targets": [{"quantity": "speed", "confirmed": true, "source": "x", "reference": 1}]})", "eel: targets[0].within"},
+        {R"({"targets": [{"quantity": "sped", "confirmed": true, "source": "x", "least": 0}]})",
+         "eel: targets[0].quantity = \"sped\": must be one of speed"},
+        {R"({"targets": [{"quantity": 3, "confirmed": true, "source": "x", "least": 0}]})",
+         "eel: targets[0].quantity = 3: must be"},
+        {R"({"targets": [{"quantity": "speed", "confirmed": true, "source": "x"}]})",
+         "eel: targets[0]: needs reference and within, least or greatest"},
+        {R"({"targets": [{"quantity": "speed", "confirmed": true, "source": "x", "reference": 1}]})",
+         "eel: targets[0].within"},
         {R"({"targets": [{"quantity": "speed", "source": "x", "least": 1}]})", "eel: targets[0].confirmed"},
-        {R"({"targets": [{"quantity": "speed", "variant": "slow", "confirmed": true, "source": "x", "least": 1}]})", "eel: targets[0].variant = \"slow\": must be the name of a variant"},
+        {R"({"targets": [{"quantity": "speed", "variant": "slow", "confirmed": true, "source": "x", "least": 1}]})",
+         "eel: targets[0].variant = \"slow\": must be the name of a variant"},
     };
     for (const auto& [patch, message] : wrong) {
         const std::string said = refused(patch);
@@ -228,7 +241,8 @@ TEST(Swimmer, FilesThatAreWrongAreRefused) {
 /// Forwards and back: the walls keep their coordinates, and no water is left outside.
 TEST(Swim, BoxMovesBothWays) {
     for (const double distance : {0.3, -0.3}) {
-        WaterTank<double> tank({10, 2, 2}, {.solver = {.scheme = Scheme::conserving, .precision = Precision::double_precision}});
+        WaterTank<double> tank({10, 2, 2},
+                               {.solver = {.scheme = Scheme::conserving, .precision = Precision::double_precision}});
         const std::vector<Eigen::Vector3d> before = tank.state().position;
         tank.shift(distance);
         int moved = 0;
@@ -241,16 +255,20 @@ TEST(Swim, BoxMovesBothWays) {
     }
 }
 
-/// A slab in water so viscous that nothing of its disorder is left; in thinner water it wanders, see "at rest" of plate.json.
+/// A slab in water so viscous that nothing of its disorder is left; in thinner water it wanders, see "at rest" of
+/// plate.json.
 TEST(Swim, StaysAtRestWithoutMotion) {
     nlohmann::json document = plain();
-    document.merge_patch({{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}, {"viscosity", 0.1}, {"midline", {{"scale", 0}}}});
-    Swim<float> still(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}}, {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
+    document.merge_patch(
+        {{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}, {"viscosity", 0.1}, {"midline", {{"scale", 0}}}});
+    Swim<float> still(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}},
+                      {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
     const Eigen::Vector3d start = still.body().centre();
     ASSERT_TRUE(still.set_kinematic_viscosity(0.1 * water_length * water_length / 2));
     for (long k = 0; k < still.body().frames_per_beat(); ++k) ASSERT_TRUE(still.frame());
     EXPECT_LE((still.body().centre() - start).norm(), 2e-3 * water_length);
-    const double mass = std::pow(water_length / still.spacing(), 3) * 0.25;  // of a length of water, cubic but for its height
+    const double mass =
+        std::pow(water_length / still.spacing(), 3) * 0.25;  // of a length of water, cubic but for its height
     EXPECT_NEAR(still.body().power() / mass, 0, 1e-4);
 }
 
@@ -260,7 +278,8 @@ TEST(Swim, TowedBodyGoesAtItsSpeed) {
     document["midline"]["scale"] = 0;
     document["towed"] = 0.5;
     document.merge_patch({{"slab", true}, {"outline", {{0, 0.05}, {1, 0.05}}}});
-    Swim<float> towed(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}}, {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
+    Swim<float> towed(swim_case_from_json(document, "test").base, {.box = {2.3, 0.25, 1.2}},
+                      {.solver = {.scheme = Scheme::conserving}, .resolution = 12});
     const double start = towed.body().centre().x();
     double force = 0;
     for (long k = 0; k < 2 * towed.body().frames_per_beat(); ++k) {
@@ -280,7 +299,8 @@ LatticeBeat last_beat(const Swimmer& swimmer, int beats, double mach = 0.15, int
     scene.box = {4, 1, 2};
     LatticeSwim swim(swimmer, scene, resolution, mach, {});
     const SwimBody& body = swim.body();
-    const double frames = static_cast<double>(body.frames_per_beat()), mass = std::pow(resolution, 2);  // of a square length
+    const double frames = static_cast<double>(body.frames_per_beat()),
+                 mass = std::pow(resolution, 2);  // of a square length
     LatticeBeat last;
     for (int k = 1; k <= beats; ++k) {
         const Eigen::Vector3d from = body.centre();
@@ -310,9 +330,11 @@ TEST(LatticeSwim, StaysAtRestWithoutMotion) {
     EXPECT_NEAR(still.power, 0, 1e-9);
 }
 
-/// What is gained by a wave to the tail is lost by one to the head, to the target of standing plates, and motion costs power.
+/// What is gained by a wave to the tail is lost by one to the head, to the target of standing plates, and motion costs
+/// power.
 TEST(LatticeSwim, PlatesMirrorEachOther) {
-    const LatticeBeat tail = last_beat(swimmer("plate", "to the tail"), 3, 0.15, 64), head = last_beat(swimmer("plate", "to the head"), 3, 0.15, 64);
+    const LatticeBeat tail = last_beat(swimmer("plate", "to the tail"), 3, 0.15, 64),
+                      head = last_beat(swimmer("plate", "to the head"), 3, 0.15, 64);
     EXPECT_GT(tail.speed, 0.05);
     EXPECT_NEAR(head.speed, -tail.speed, 0.005);
     EXPECT_GT(tail.power, 0.05);
@@ -320,15 +342,16 @@ TEST(LatticeSwim, PlatesMirrorEachOther) {
     EXPECT_NEAR(last_beat(swimmer("plate", "standing"), 3, 0.15, 64).speed, 0, 0.01);
 }
 
-/// A cylinder across its way at Reynolds number 100: three quarters of its drag are pressure (of 1.35, 0.34 is friction: Park, Kwon, Choi 1998).
-/// Few cells have too much friction: 0.43 of 20 across, more of 40.
+/// A cylinder across its way at Reynolds number 100: three quarters of its drag are pressure (of 1.35, 0.34 is
+/// friction: Park, Kwon, Choi 1998). Few cells have too much friction: 0.43 of 20 across, more of 40.
 TEST(LatticeSwim, PressureAndFrictionAreToldApart) {
     nlohmann::json outline = nlohmann::json::array();
     for (int k = 0; k <= 40; ++k) outline.push_back({k / 40.0, std::sqrt(k / 40.0 * (1 - k / 40.0))});
     const auto part = [&](int resolution) {
         SwimScene scene;
         scene.box = {8, 0, 8};
-        LatticeSwim swim(slab({{"outline", outline}, {"midline", {{"scale", 0}}}, {"towed", 1}}), scene, resolution, 0.15, {});
+        LatticeSwim swim(slab({{"outline", outline}, {"midline", {{"scale", 0}}}, {"towed", 1}}), scene, resolution,
+                         0.15, {});
         double force = 0, pressure = 0;
         for (long f = 0; f < 4 * swim.body().frames_per_beat(); ++f) {
             EXPECT_TRUE(swim.frame());

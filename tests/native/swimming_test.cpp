@@ -150,7 +150,8 @@ TEST(Swimming, CavitiesNeedABodyAndADepth) {
 /// The water that a fast body leaves behind closes under pressure only.
 TEST(Swimming, WaterUnderPressureHasNoCavities) {
     const auto cavities_at = [](double gravity) {
-        Scene scene = load_scene("pool/eel", {{"solver", {{"gravity", {0, -gravity, 0}}}}, {"stopping", {{"planeContact", false}}}});
+        Scene scene = load_scene(
+            "pool/eel", {{"solver", {{"gravity", {0, -gravity, 0}}}}, {"stopping", {{"planeContact", false}}}});
         scene.duration = 1.1;
         const Evaluation swim = evaluate(scene, wave_gait(*scene.creature));
         return swim.swimming ? swim.swimming->cavities.value_or(-1) : -1;

@@ -111,7 +111,9 @@ TEST(Threads, EvaluationsAndSimulationsRunSideBySide) {
     Simulation simulation(scene_of(0));
     ASSERT_TRUE(simulation.step(gait));
     const Simulation<float>& seen = simulation;
-    const auto look = [&](int) { return state_hash(seen.state()) + static_cast<std::uint64_t>(1e6 * seen.driven().front()); };
+    const auto look = [&](int) {
+        return state_hash(seen.state()) + static_cast<std::uint64_t>(1e6 * seen.driven().front());
+    };
     EXPECT_EQ(in_threads(4, look), std::vector<std::uint64_t>(4, look(0)));
 }
 

@@ -9,8 +9,8 @@
 namespace natator::bench {
 namespace {
 
-/// The box's steps knock the body harder than vortices swing it, and more often; something else swings nearly as often as these, and
-/// noise passes the mean, too.
+/// The box's steps knock the body harder than vortices swing it, and more often; something else swings nearly as often
+/// as these, and noise passes the mean, too.
 TEST(Towing, TheFrequencyOfTheLiftIsThatOfItsSwings) {
     constexpr double speed = 1.5, frame = 1.0 / 60, swings = 0.26, turn = 2 * std::numbers::pi;
     TowResult result;

@@ -9,7 +9,8 @@
 /// The cases of `bench water` as tests run them.
 namespace natator::test {
 
-inline std::vector<bench::WaterFigure> water_figures(const std::string& water_case, const bench::Setting& solver, int resolution, int start = 1) {
+inline std::vector<bench::WaterFigure> water_figures(const std::string& water_case, const bench::Setting& solver,
+                                                     int resolution, int start = 1) {
     bench::WaterSetting setting;
     setting.solver = solver;
     setting.resolution = resolution;

@@ -54,20 +54,22 @@ TEST(BenchProtocolTest, WaterWritesEveryFigureOfEveryCaseAndTheCurvesBesideIt) {
                             "standing-wave,10,conserving,float,cpu,4,4,no,2.5,1,period (s),ok,",
                             "tilted-gravity,10,conserving,float,cpu,4,4,no,2.5,1,slope under 1 degree (degrees),ok,"})
         EXPECT_NE(table.find(row), std::string::npos) << row << " in " << table;
-    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,no,2.5,0,1\n"), std::string::npos);
+    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,no,2.5,0,1\n"),
+              std::string::npos);
 }
 
 /// The support of the kernel is part of a row's key, but where a scheme has none; what it can't be is refused.
 TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "water.csv").string();
-    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case", "tilted-gravity",
-                                           "--support", "2", "--support", "2.5", "--output", file});
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case",
+                                           "tilted-gravity", "--support", "2", "--support", "2.5", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), quantity = "slope afterwards (degrees)";
     EXPECT_NE(table.find(",support,start,quantity,"), std::string::npos) << table;
     std::vector<std::string> values;
-    for (const char* key : {"conserving,float,cpu,1,1,no,2,1,", "conserving,float,cpu,1,1,no,2.5,1,", "flex,float,cpu,1,1,,,,"}) {
+    for (const char* key :
+         {"conserving,float,cpu,1,1,no,2,1,", "conserving,float,cpu,1,1,no,2.5,1,", "flex,float,cpu,1,1,,,,"}) {
         const std::size_t at = table.find(key + quantity);
         ASSERT_NE(at, std::string::npos) << key << " in " << table;
         values.push_back(table.substr(at + std::string(key + quantity).size(), 12));
@@ -83,8 +85,8 @@ TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
 TEST(BenchProtocolTest, WaterTakesTheModifiedPressure) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "water.csv").string();
-    const Outcome outcome = run_simulator({"bench", "water", "--scheme", "conserving", "--resolution", "20", "--setting", "1x1", "1x1m",
-                                           "--case", "still-water", "--output", file});
+    const Outcome outcome = run_simulator({"bench", "water", "--scheme", "conserving", "--resolution", "20",
+                                           "--setting", "1x1", "1x1m", "--case", "still-water", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file);
     const auto bobbing = [&](const std::string& modified) {
@@ -100,8 +102,8 @@ TEST(BenchProtocolTest, WaterTakesTheModifiedPressure) {
 TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "water.csv").string();
-    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case", "tilted-gravity",
-                                           "--start", "1", "3", "--output", file});
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case",
+                                           "tilted-gravity", "--start", "1", "3", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), quantity = "slope afterwards (degrees),ok,";
     std::vector<std::string> values;
@@ -114,16 +116,20 @@ TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
     EXPECT_EQ(lines(table), 1 + 2 * 3) << table;
     const std::string curves = content(folder.path / "water-curves.csv");
     EXPECT_NE(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,no,2.5,0,"), std::string::npos);
-    EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,no,2.5,0,", curves.find("1,1,no,2.5,0,") + 1), std::string::npos);
+    EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,no,2.5,0,", curves.find("1,1,no,2.5,0,") + 1),
+              std::string::npos);
 }
 
-/// A figure whose viscosity an explicit substep would cut off is not that of the case: its row says so, and has no value.
+/// A figure whose viscosity an explicit substep would cut off is not that of the case: its row says so, and has no
+/// value.
 TEST(BenchProtocolTest, WaterMeasuresNoCaseThatIsTooViscousForItsSubsteps) {
-    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "16", "--setting", "1x1", "--case", "spinning-sphere",
-                                           "--scheme", "conserving"});
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "16", "--setting", "1x1", "--case",
+                                           "spinning-sphere", "--scheme", "conserving"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("spinning-sphere,16,conserving,float,cpu,1,1,no,2.5,1,torque (of Kirchhoff's),too viscous,,,,,no,"),
-              std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(
+                  "spinning-sphere,16,conserving,float,cpu,1,1,no,2.5,1,torque (of Kirchhoff's),too viscous,,,,,no,"),
+              std::string::npos)
+        << outcome.out;
 }
 
 /// Of a file of one's own, and taken up again where rows are there; beats and targets stand beside it.
@@ -135,21 +141,29 @@ TEST(BenchProtocolTest, SwimmersWriteRowsBeatsAndTargets) {
         "variants": {"a": {}, "b": {"midline": {"scale": 0.5}}},
         "targets": [{"quantity": "power", "over": "amplitude", "reference": 2, "within": 0.3, "confirmed": true, "source": "of small waves"},
                     {"quantity": "speed", "variant": "b", "reference": 9, "within": 0.1, "confirmed": false, "source": "none"}]})";
-    const std::vector<std::string> arguments{"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--scheme", "conserving", "--setting", "2x2", "--output", file};
+    const std::vector<std::string> arguments{"bench",     "swimmers", "--case",   own,        "--resolution",
+                                             "8",         "--beats",  "1",        "--scheme", "conserving",
+                                             "--setting", "2x2",      "--output", file};
     const Outcome outcome = run_simulator(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), targets = content(folder.path / "swimmers-targets.csv");
-    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,ok,0.8,240,0.02,"), std::string::npos) << table;
+    EXPECT_NE(table.find("own,a,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,ok,0.8,240,0.02,"), std::string::npos)
+        << table;
     EXPECT_NE(table.find(",9,"), std::string::npos) << "the target of b alone: " << table;
-    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,1,"), std::string::npos);
-    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,power,amplitude,,"), std::string::npos) << targets;
-    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,speed,,,"), std::string::npos) << targets;
+    EXPECT_NE(content(folder.path / "swimmers-beats.csv").find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,1,"),
+              std::string::npos);
+    EXPECT_NE(targets.find("own,all,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,power,amplitude,,"), std::string::npos)
+        << targets;
+    EXPECT_NE(targets.find("own,b,8,1,2.5,1,conserving,float,cpu,2,2,no,2.5,1,,speed,,,"), std::string::npos)
+        << targets;
     EXPECT_NE(targets.find(",no,no\n"), std::string::npos) << targets;
     EXPECT_EQ(run_simulator(arguments).exit_code, 0);
     EXPECT_EQ(content(file), table);
-    const Outcome lattice = run_simulator({"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1", "--scheme", "lattice", "--output", file});
+    const Outcome lattice = run_simulator({"bench", "swimmers", "--case", own, "--resolution", "8", "--beats", "1",
+                                           "--scheme", "lattice", "--output", file});
     ASSERT_EQ(lattice.exit_code, 0) << lattice.err;
-    EXPECT_NE(content(file).find("own,a,8,1,,1,lattice,float,cpu,,,,,,0.15,ok,0.8,111,0.02,"), std::string::npos) << content(file);
+    EXPECT_NE(content(file).find("own,a,8,1,,1,lattice,float,cpu,,,,,,0.15,ok,0.8,111,0.02,"), std::string::npos)
+        << content(file);
 }
 
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
@@ -158,14 +172,16 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"water", "--case", "vortex", "--case", "vortex"}, "--case: vortex is given twice"},
         {{"water", "--case", "towed-sphere", "--scheme", "flex"},
          "--case = towed-sphere: runs in scheme conserving only, and not by --quick; must be left out"},
-        {{"water", "--quick", "--case", "vortex", "towed-sphere"}, "--case = towed-sphere: runs in scheme conserving only"},
+        {{"water", "--quick", "--case", "vortex", "towed-sphere"},
+         "--case = towed-sphere: runs in scheme conserving only"},
         {{"water", "--support", "nan"}, "--support = nan: must be a number in [2, 4]; see "},
         {{"water", "--support", "two"}, "--support = two: must be a number in [2, 4]; see "},
         {{"water", "--resolution", "20", "7"}, "--resolution = 7: must be a whole number in [8, 200]; see "},
         {{"water", "--start", "0"}, "--start = 0: must be a whole number in [1, 1000000]; see "},
         {{"speed", "--batch", "two"}, "--batch = two: must be a whole number in [1, 1048576]; see "},
         {{"stability", "--scheme", "fles"}, "--scheme = fles: must be flex or conserving; see "},
-        {{"water", "--device", "1"}, "--device = 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
+        {{"water", "--device", "1"},
+         "--device = 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
         {{"stages", "--precision", "double"}, "--precision = double: must be float"},
         {{"stability", "--scene", "bathtub"}, "--scene = bathtub: must be small-tank, moving-tank, periodic-tank, "},
         {{"stability", "--duration", "0"}, "--duration = 0: must be a number in [0.01, 1000]"},
@@ -174,13 +190,17 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
         {{"swimmers", "--scheme", "flex"}, "--scheme = flex: has no forces on a body; must be conserving or lattice"},
         {{"swimmers", "--scheme", "latice"}, "--scheme = latice: is unknown; must be conserving or lattice"},
-        {{"swimmers", "--scheme", "lattice", "--pressure", "1"}, "--pressure: is of scheme conserving; must be left out"},
-        {{"swimmers", "--scheme", "lattice", "--setting", "8x4"}, "--setting: is of scheme conserving; must be left out"},
-        {{"swimmers", "--scheme", "lattice", "--support", "2.5"}, "--support: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--pressure", "1"},
+         "--pressure: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--setting", "8x4"},
+         "--setting: is of scheme conserving; must be left out"},
+        {{"swimmers", "--scheme", "lattice", "--support", "2.5"},
+         "--support: is of scheme conserving; must be left out"},
         {{"swimmers", "--scheme", "lattice", "--start", "2"}, "--start: is of scheme conserving; must be left out"},
         {{"swimmers", "--scheme", "conserving", "--mach", "0.1"}, "--mach: is of scheme lattice; must be left out"},
         {{"swimmers", "--mach", "0.6"}, "--mach = 0.6: must be a number in [0.01, 0.5]; see "},
-        {{"swimmers", "--precision", "double"}, "--precision = double: scheme lattice computes in float; must be float"},
+        {{"swimmers", "--precision", "double"},
+         "--precision = double: scheme lattice computes in float; must be float"},
         {{"swimmers", "--case", "lavra"}, "--case = lavra: must be creature-2, creature-2-deformed, eel-2d, "},
         {{"swimmers", "--case", "no/such.json"}, "no/such.json"},
         {{"swimmers", "--case", "plate", "x/plate.json"}, "x/plate.json"},
@@ -209,18 +229,20 @@ TEST(BenchProtocolTest, AFileThatIsNoTableOfTheStudyIsLeftAsItIs) {
     std::ofstream(file) << "notes\n";
     const Outcome outcome = run_simulator({"bench", "water", "--quick", "--output", file});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, "natator-bench: file \"" + file +
-                               "\": holds other columns than this study writes; must be a table of this study, or a new name\n");
+    EXPECT_EQ(outcome.err,
+              "natator-bench: file \"" + file +
+                  "\": holds other columns than this study writes; must be a table of this study, or a new name\n");
     EXPECT_EQ(content(file), "notes\n");
     const Outcome nowhere = run_simulator({"bench", "water", "--quick", "--output", "/no/such/folder/x.csv"});
     EXPECT_EQ(nowhere.exit_code, 1);
-    EXPECT_EQ(nowhere.err, "natator-bench: file \"/no/such/folder/x.csv\": cannot be written: No such file or directory\n");
+    EXPECT_EQ(nowhere.err,
+              "natator-bench: file \"/no/such/folder/x.csv\": cannot be written: No such file or directory\n");
 }
 
 /// --quick chooses a resolution only where none is given.
 TEST(BenchProtocolTest, QuickWaterKeepsTheResolutionThatIsGiven) {
-    const Outcome outcome = run_simulator({"bench", "water", "--quick", "--case", "tilted-gravity", "--scheme", "conserving",
-                                           "--resolution", "8"});
+    const Outcome outcome = run_simulator(
+        {"bench", "water", "--quick", "--case", "tilted-gravity", "--scheme", "conserving", "--resolution", "8"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("\ntilted-gravity,8,"), std::string::npos) << outcome.out;
 }
@@ -229,7 +251,9 @@ TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
     for (const char* setting : {"8", "8x", "x4", "0x4", "8x4x2", "8,4", "-1x4", "8x1001", "fine"}) {
         const Outcome outcome = run_simulator({"bench", "validation", "--part", "tank", "--setting", setting});
         EXPECT_EQ(outcome.exit_code, 2) << setting;
-        EXPECT_NE(outcome.err.find("--setting = \"" + std::string(setting) + "\": must be SUBSTEPSxITERATIONS"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("--setting = \"" + std::string(setting) + "\": must be SUBSTEPSxITERATIONS"),
+                  std::string::npos)
+            << outcome.err;
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
     }
 }
@@ -303,12 +327,16 @@ TEST(BenchProtocolTest, WithoutTheGpuThatWasAskedForThereIsOneLine) {
 TEST(BenchProtocolTest, ThroughputSaysWhatItTakes) {
     const Outcome help = run_simulator({"bench", "throughput", "--help"});
     EXPECT_EQ(help.exit_code, 0) << help.err;
-    for (const char* option : {"--particles", "--batch", "--whole-gpu", "--without-lists", "--device", "--repeats", "1000 - 15000000"})
+    for (const char* option :
+         {"--particles", "--batch", "--whole-gpu", "--without-lists", "--device", "--repeats", "1000 - 15000000"})
         EXPECT_NE(help.out.find(option), std::string::npos) << option << " in " << help.out;
-    for (const std::vector<std::string>& bad :
-         std::vector<std::vector<std::string>>{{"--particles", "999"}, {"--particles", "15000001"}, {"--particles", "many"},
-                                               {"--batch", "0"}, {"--batch", "0x10"}, {"--repeats", "0"},
-                                               {"--scheme", "both"}}) {
+    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--particles", "999"},
+                                                                                     {"--particles", "15000001"},
+                                                                                     {"--particles", "many"},
+                                                                                     {"--batch", "0"},
+                                                                                     {"--batch", "0x10"},
+                                                                                     {"--repeats", "0"},
+                                                                                     {"--scheme", "both"}}) {
         const Outcome outcome = run_simulator({"bench", "throughput", bad[0], bad[1]});
         EXPECT_EQ(outcome.exit_code, 2) << bad[1];
         EXPECT_EQ(outcome.out, "");

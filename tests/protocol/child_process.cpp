@@ -59,7 +59,9 @@ Outcome run_program(const char* program, const std::vector<std::string>& argumen
 
 }  // namespace
 
-const char* simulator() { return NATATOR_SIM_PATH; }
+const char* simulator() {
+    return NATATOR_SIM_PATH;
+}
 
 bool sanitized() {
 #ifdef NATATOR_SANITIZED

@@ -27,7 +27,8 @@ Outcome run_simulator(const std::vector<std::string>& arguments, const std::stri
                       const std::string& out_path = "");
 
 /// The same after this text of a shell, such as "ulimit -f 8".
-Outcome run_limited(const std::string& limits, const std::vector<std::string>& arguments, const std::string& input = "");
+Outcome run_limited(const std::string& limits, const std::vector<std::string>& arguments,
+                    const std::string& input = "");
 
 /// The same with so many bytes of address space and no more.
 Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input);

@@ -17,17 +17,14 @@ namespace {
 
 using nlohmann::json;
 
-const json swim = {{"id", 5},
-                    {"scene", "thesis/creature-1-vacuum"},
-                    {"gait", json::parse(gait)},
-                    {"duration", 0.1}};
+const json swim = {{"id", 5}, {"scene", "thesis/creature-1-vacuum"}, {"gait", json::parse(gait)}, {"duration", 0.1}};
 
 class ConvergeTest : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("natator-converge-" + std::to_string(getpid()) + "-" +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ =
+            std::filesystem::temp_directory_path() / ("natator-converge-" + std::to_string(getpid()) + "-" +
+                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
         record = (folder_ / "runs.jsonl").string();
     }
@@ -78,7 +75,8 @@ TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
 }
 
 TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
-    const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
+    const std::vector<std::string> command = {"converge", "-",      "--starts", "2",
+                                              "--levels", "time/2", "--output", record};
     const Outcome first = run_simulator(command, swim.dump());
     ASSERT_EQ(first.exit_code, 0) << first.err;
     const std::string all = recorded();
@@ -96,15 +94,18 @@ TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
     json other = swim;
     other["gait"]["frequency"] = 1.2;
     EXPECT_EQ(run_simulator({"converge", "-", "--starts", "3", "--levels", "time/2", "--output", record}, swim.dump())
-                  .exit_code, 0);
+                  .exit_code,
+              0);
     EXPECT_EQ(lines(recorded()), 6);
     EXPECT_EQ(run_simulator(command, other.dump()).exit_code, 0);
     EXPECT_EQ(lines(recorded()), 10);
 }
 
 TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
-    ASSERT_EQ(run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, swim.dump())
-                  .exit_code, 0);
+    ASSERT_EQ(
+        run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, swim.dump())
+            .exit_code,
+        0);
     std::istringstream text(recorded());
     std::string line;
     for (int k = 0; k < 4 && std::getline(text, line); ++k) {
@@ -114,7 +115,8 @@ TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
 }
 
 TEST_F(ConvergeTest, PlainWritesTheTable) {
-    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, swim.dump());
+    const Outcome outcome =
+        run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, swim.dump());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("level ", 0), 0u) << outcome.out;
     EXPECT_EQ(lines(outcome.out), 4);
@@ -128,7 +130,8 @@ TEST_F(ConvergeTest, AChangeOfASpeedThatMayBeNoneIsNoShareOfIt) {
     resting["scene"] = "thesis/creature-1";
     resting["duration"] = 0.02;
     resting["gait"]["amplitude"] = {0, 0};
-    resting["overrides"] = {{"settling", {{"updates", 0}}}, {"solver", {{"gravity", {0, 0, 0}}}}, {"fluid", {{"count", {1, 1, 1}}}}};
+    resting["overrides"] = {
+        {"settling", {{"updates", 0}}}, {"solver", {{"gravity", {0, 0, 0}}}}, {"fluid", {{"count", {1, 1, 1}}}}};
     const Outcome outcome = run_simulator({"converge", "-", "--starts", "8", "--levels", "time/2"}, resting.dump());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const json base = json::parse(outcome.out)["levels"][0], finer = json::parse(outcome.out)["levels"][1];
@@ -155,10 +158,13 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
     refused({"converge", "-", "--levels", "time/3"}, swim.dump(), "time/3");
-    refused({"converge", "-", "--levels", "time/2,time/2"}, swim.dump(), "--levels: time/2 is given twice; must be given once");
-    refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, swim.dump(), "--levels: time/2 is given twice");
+    refused({"converge", "-", "--levels", "time/2,time/2"}, swim.dump(),
+            "--levels: time/2 is given twice; must be given once");
+    refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, swim.dump(),
+            "--levels: time/2 is given twice");
     const std::vector<double> eight(8, 0.1);
-    const json beside_pillars = {{"id", 1}, {"scene", "company/pillars"}, {"gait", {{"frequency", 1}, {"amplitude", eight}, {"phase", eight}}}};
+    const json beside_pillars = {
+        {"id", 1}, {"scene", "company/pillars"}, {"gait", {{"frequency", 1}, {"amplitude", eight}, {"phase", eight}}}};
     refused({"converge", "-"}, beside_pillars.dump(), "half the spacing is not known of companions and obstacles");
     refused({"converge", "-", "--starts", "1"}, swim.dump(), "--starts");
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
@@ -176,15 +182,18 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
 }
 
 TEST_F(ConvergeTest, ARecordedLineThatIsNoRunIsRefused) {
-    const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
+    const std::vector<std::string> command = {"converge", "-",      "--starts", "2",
+                                              "--levels", "time/2", "--output", record};
     ASSERT_EQ(run_simulator(command, swim.dump()).exit_code, 0);
     const std::string all = recorded(), second = all.substr(all.find('\n') + 1);
     json first = json::parse(all.substr(0, all.find('\n')));
-    const std::vector<std::pair<json::json_pointer, json>> faults{
-        {"/result"_json_pointer, "x"},          {"/result/distance"_json_pointer, "x"},
-        {"/result/distance"_json_pointer, {}},  {"/result/simulated"_json_pointer, "x"},
-        {"/result/status"_json_pointer, 1},     {"/result/stopped"_json_pointer, {}},
-        {"/of"_json_pointer, 1}};
+    const std::vector<std::pair<json::json_pointer, json>> faults{{"/result"_json_pointer, "x"},
+                                                                  {"/result/distance"_json_pointer, "x"},
+                                                                  {"/result/distance"_json_pointer, {}},
+                                                                  {"/result/simulated"_json_pointer, "x"},
+                                                                  {"/result/status"_json_pointer, 1},
+                                                                  {"/result/stopped"_json_pointer, {}},
+                                                                  {"/of"_json_pointer, 1}};
     for (const auto& [where, value] : faults) {
         json line = first;
         line[where] = value;
@@ -192,19 +201,22 @@ TEST_F(ConvergeTest, ARecordedLineThatIsNoRunIsRefused) {
         const Outcome outcome = run_simulator(command, swim.dump());
         EXPECT_EQ(outcome.exit_code, 2) << where << outcome.err;
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
-        EXPECT_NE(outcome.err.find("line 2 is no run of natator-sim converge"), std::string::npos) << where << outcome.err;
+        EXPECT_NE(outcome.err.find("line 2 is no run of natator-sim converge"), std::string::npos)
+            << where << outcome.err;
     }
 }
 
 /// Two at once would do the same runs, and write each twice.
 TEST_F(ConvergeTest, AFileThatAnotherHasIsRefused) {
-    const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
+    const std::vector<std::string> command = {"converge", "-",      "--starts", "2",
+                                              "--levels", "time/2", "--output", record};
     const int other = ::open(record.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
     const Outcome refused = run_simulator(command, swim.dump());
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_EQ(lines(refused.err), 1) << refused.err;
-    EXPECT_NE(refused.err.find(record + "\": is in use by another natator-sim converge"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(record + "\": is in use by another natator-sim converge"), std::string::npos)
+        << refused.err;
     EXPECT_EQ(recorded(), "");
     ::close(other);
     EXPECT_EQ(run_simulator(command, swim.dump()).exit_code, 0);

@@ -36,8 +36,8 @@ TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
     const json result = result_of(request("thesis/creature-1", 0.1));
     std::vector<std::string> keys;
     for (const auto& [key, value] : result.items()) keys.push_back(key);
-    EXPECT_EQ(keys, (std::vector<std::string>{"course", "distance", "fitness", "frames", "hash", "id", "laws", "precision",
-                                              "scheme", "simulated", "status", "stopped"}));
+    EXPECT_EQ(keys, (std::vector<std::string>{"course", "distance", "fitness", "frames", "hash", "id", "laws",
+                                              "precision", "scheme", "simulated", "status", "stopped"}));
     for (const char* figure : {"linearMomentum", "angularMomentum", "densityErrorMean", "densityErrorMax"}) {
         EXPECT_GT(result["laws"].at(figure).get<double>(), 0) << figure;
         EXPECT_LT(result["laws"].at(figure).get<double>(), 1) << figure;
@@ -66,7 +66,8 @@ TEST(EvaluateProtocolTest, ASwimmerInWaterHasItsNumbers) {
     EXPECT_GT(amplitude, 0.01);
     EXPECT_NEAR(numbers.at("reynolds").get<double>(), speed * length / 0.01, 1e-6);
     EXPECT_NEAR(numbers.at("strouhal").get<double>(), 1.861 * amplitude / speed, 1e-6);
-    EXPECT_NEAR(numbers.at("swimmingNumber").get<double>(), 2 * 3.14159265358979 * 1.861 * amplitude * length / 0.01, 1e-6);
+    EXPECT_NEAR(numbers.at("swimmingNumber").get<double>(), 2 * 3.14159265358979 * 1.861 * amplitude * length / 0.01,
+                1e-6);
     EXPECT_GE(numbers.at("cavities").get<double>(), 0);
     EXPECT_GT(result.at("work").get<double>(), 0);
 }
@@ -144,7 +145,8 @@ TEST(EvaluateProtocolTest, OptionsOfGpusAreRefusedOnTheCpu) {
     json asked = request("thesis/creature-1-vacuum", 0.1);
     const Outcome refused = run_simulator({"evaluate", "--device", "1023"}, asked.dump());
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_EQ(refused.err, "natator-sim: --device = 1023: the backend is cpu; must be left out, or beside --backend cuda or auto\n");
+    EXPECT_EQ(refused.err,
+              "natator-sim: --device = 1023: the backend is cpu; must be left out, or beside --backend cuda or auto\n");
     EXPECT_EQ(json::parse(refused.out)["status"], "error");
     asked["backend"] = "cuda";
     EXPECT_EQ(run_simulator({"evaluate", "--device", "1023"}, asked.dump()).exit_code, 4);

@@ -51,16 +51,17 @@ TEST_F(OutputFilesTest, ARunThatIsToldToEndLeavesTheFileAsItWasAndNothingBesideI
     for (const char* signal : {"TERM", "INT", "HUP", "QUIT", "XCPU", "KILL"}) {
         std::ofstream(file) << "computed before\n";
         const std::string beside = "'" + file + "'.$$";
-        const Outcome outcome = run_limited("(while kill -0 $$ && ! [ -s " + beside + " ]; do sleep 0.01; done; kill -" + signal +
-                                            " $$) 2> /dev/null & true", arguments);
+        const Outcome outcome = run_limited("(while kill -0 $$ && ! [ -s " + beside +
+                                                " ]; do sleep 0.01; done; kill -" + signal + " $$) 2> /dev/null & true",
+                                            arguments);
         EXPECT_EQ(outcome.exit_code, -1) << signal;
         EXPECT_EQ(first_line(file), "computed before") << signal;
         EXPECT_EQ(files(), signal == std::string("KILL") ? 2u : 1u) << signal;  // no program hears that one
     }
 }
 
-/// Files of more than a few kilobytes cannot be written, as on a full disk. There is a signal for that, which ends a program that
-/// does not ignore it.
+/// Files of more than a few kilobytes cannot be written, as on a full disk. There is a signal for that, which ends a
+/// program that does not ignore it.
 TEST_F(OutputFilesTest, AFileThatGetsTooLargeIsAFailureAndLeavesTheOneBefore) {
     for (const char* signal : {"", "trap '' XFSZ; "}) {
         for (const char* option : {"--trajectory", "--snapshot"}) {
@@ -68,7 +69,8 @@ TEST_F(OutputFilesTest, AFileThatGetsTooLargeIsAFailureAndLeavesTheOneBefore) {
             const Outcome outcome = run_limited(std::string(signal) + "ulimit -f 8", run_writing(option, file));
             EXPECT_EQ(outcome.exit_code, 1) << signal << option;
             EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
-            EXPECT_NE(outcome.err.find("\"" + file + "\": cannot be written: File too large"), std::string::npos) << outcome.err;
+            EXPECT_NE(outcome.err.find("\"" + file + "\": cannot be written: File too large"), std::string::npos)
+                << outcome.err;
             EXPECT_EQ(first_line(file), "computed before") << signal << option;
             EXPECT_EQ(files(), 1u) << signal << option;
         }
@@ -80,7 +82,8 @@ TEST_F(OutputFilesTest, NoFileThatGetsTooLargeEndsAProgramWithoutAWord) {
     const auto limited = [](const std::vector<std::string>& arguments, const std::string& input = "") {
         return run_limited("ulimit -f 1", arguments, input);
     };
-    const std::string request = R"({"id":1,"scene":"thesis/creature-1-vacuum","duration":0.1,"gait":)" + std::string(gait) + "}";
+    const std::string request =
+        R"({"id":1,"scene":"thesis/creature-1-vacuum","duration":0.1,"gait":)" + std::string(gait) + "}";
     const Outcome record = limited({"converge", "-", "--starts", "2", "--levels", "time/2", "--output", file}, request);
     EXPECT_EQ(record.exit_code, 1);
     EXPECT_NE(record.err.find("cannot be written: File too large"), std::string::npos) << record.err;
@@ -92,8 +95,9 @@ TEST_F(OutputFilesTest, NoFileThatGetsTooLargeEndsAProgramWithoutAWord) {
     const Outcome out = run_limited("ulimit -f 1; exec > '" + file + "'", {"info"});
     EXPECT_EQ(out.exit_code, 1);
     EXPECT_EQ(out.err, "natator-sim: standard output cannot be written: File too large\n");
-    const Outcome cached = run_limited("ulimit -f 8; export NATATOR_CACHE='" + cache + "'", {"evaluate"},
-                                       R"({"id":1,"scene":"thesis/creature-1","duration":0.1,"gait":)" + std::string(gait) + "}");
+    const Outcome cached =
+        run_limited("ulimit -f 8; export NATATOR_CACHE='" + cache + "'", {"evaluate"},
+                    R"({"id":1,"scene":"thesis/creature-1","duration":0.1,"gait":)" + std::string(gait) + "}");
     EXPECT_EQ(cached.exit_code, 0) << cached.err;
     EXPECT_TRUE(fs::is_empty(cache));
 }
@@ -114,7 +118,8 @@ TEST_F(OutputFilesTest, WhatIsNoRegularFileIsWrittenDirectly) {
     ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
     std::string read;
     std::thread reader([&] { read = first_line(file); });
-    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--trajectory", file});
+    const Outcome outcome =
+        run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--trajectory", file});
     reader.join();
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(read, header_of_trajectory);

@@ -83,7 +83,8 @@ TEST(InfoTest, SaysWhatIsFittedToTheWater) {
 TEST(InfoTest, OverridesCanComeFromAFile) {
     const TemporaryPath file("overrides.json");
     std::ofstream(file.path) << R"({"duration":3})";
-    EXPECT_EQ(json::parse(run_simulator({"info", "pool/eel", "--json", "--overrides", file.path}).out).at("duration"), 3);
+    EXPECT_EQ(json::parse(run_simulator({"info", "pool/eel", "--json", "--overrides", file.path}).out).at("duration"),
+              3);
 }
 
 TEST(InfoTest, ReadsTheInstructionSetFromTheEnvironment) {
@@ -96,7 +97,8 @@ TEST(InfoTest, ReadsTheInstructionSetFromTheEnvironment) {
 TEST(InfoTest, RefusesALimitInTheEnvironmentThatIsNoDecimalNumber) {
     const Outcome refused = run_limited("export NATATOR_MOST_WORK=0x1p60", {"run", "pool/eel", "--duration", "0.1"});
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_MOST_WORK = \"0x1p60\": must be a decimal number above 0\n");
+    EXPECT_EQ(refused.err,
+              "natator-sim: environment: NATATOR_MOST_WORK = \"0x1p60\": must be a decimal number above 0\n");
 }
 
 TEST(InfoTest, TellsOfAxesThatHaveNoEnds) {
@@ -107,16 +109,19 @@ TEST(InfoTest, TellsOfAxesThatHaveNoEnds) {
     EXPECT_EQ(info.at("planes"), 3);
     const Outcome refused = run_simulator({"run", "open-water/periodic", "--scheme", "flex"});
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_NE(refused.err.find("periodic: scheme = \"flex\": must be \"conserving\""), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("periodic: scheme = \"flex\": must be \"conserving\""), std::string::npos)
+        << refused.err;
 }
 
 TEST(InfoTest, TellsOfTheMeshAndTheWaysABodyBends) {
-    const Outcome outcome = run_simulator({"info", "pool/ray", "--json", "--overrides", R"({"creature":{"bend":"both","joint":"line"}})"});
+    const Outcome outcome =
+        run_simulator({"info", "pool/ray", "--json", "--overrides", R"({"creature":{"bend":"both","joint":"line"}})"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const json info = json::parse(outcome.out);
     EXPECT_EQ(info.at("bends"), "0 to 4 sideways, 5 to 9 up and down");
     EXPECT_EQ(info.at("joint"), "line");
-    EXPECT_EQ(info.at("mesh").get<std::string>().find("ray.obj, 1152 triangles, a unit is 0.04, volume 0.106"), 0u) << outcome.out;
+    EXPECT_EQ(info.at("mesh").get<std::string>().find("ray.obj, 1152 triangles, a unit is 0.04, volume 0.106"), 0u)
+        << outcome.out;
     const json plain = json::parse(run_simulator({"info", "pool/eel", "--json"}).out);
     for (const char* key : {"bends", "joint", "mesh"}) EXPECT_FALSE(plain.contains(key)) << key;
 }
@@ -124,8 +129,9 @@ TEST(InfoTest, TellsOfTheMeshAndTheWaysABodyBends) {
 TEST(InfoTest, RefusesAMeshWithAHoleInOneLine) {
     const TemporaryPath file("hole.obj");
     std::ofstream(file.path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
-    const Outcome outcome = run_simulator(
-        {"info", "pool/water", "--overrides", json({{"creature", {{"mesh", {{"file", file.path}, {"joints", {0.5}}}}}}}).dump()});
+    const Outcome outcome =
+        run_simulator({"info", "pool/water", "--overrides",
+                       json({{"creature", {{"mesh", {{"file", file.path}, {"joints", {0.5}}}}}}}).dump()});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err.find("a hole at the edge from (1, 0, 0) to (0, 1, 0)"), std::string::npos) << outcome.err;
@@ -147,7 +153,8 @@ TEST(RunTest, FiguresHaveThreeDigits) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::regex number(R"((?:distance|speed|number|tail|work|wall time) +-?([\d.]+))");
     int figures = 0;
-    for (std::sregex_iterator found(outcome.out.begin(), outcome.out.end(), number), end; found != end; ++found, ++figures) {
+    for (std::sregex_iterator found(outcome.out.begin(), outcome.out.end(), number), end; found != end;
+         ++found, ++figures) {
         const std::string digits = std::regex_replace((*found)[1].str(), std::regex(R"(^0?\.0*|0+$|\.)"), "");
         EXPECT_LE(digits.size(), 3u) << found->str();
     }
@@ -181,16 +188,18 @@ TEST(InfoTest, WritesAGaitToBeginWith) {
     const Outcome gait = run_simulator({"info", "pool/creature-1", "--gait-template"});
     ASSERT_EQ(gait.exit_code, 0) << gait.err;
     EXPECT_EQ(gait.out, "{\n  \"frequency\": 2.0,\n  \"amplitude\": [0.76, 1.0],\n  \"phase\": [0.0, 0.88]\n}\n");
-    EXPECT_EQ(json::parse(run_simulator({"info", "pool/creature-1", "--gait-template", "--json"}).out), json::parse(gait.out));
+    EXPECT_EQ(json::parse(run_simulator({"info", "pool/creature-1", "--gait-template", "--json"}).out),
+              json::parse(gait.out));
     const auto refusal = [](const std::vector<std::string>& arguments) {
         const Outcome outcome = run_simulator(arguments);
         EXPECT_EQ(outcome.exit_code, 2);
         return outcome.err;
     };
     EXPECT_NE(refusal({"info", "pool/water", "--gait-template"}).find("it has no creature"), std::string::npos);
-    EXPECT_NE(refusal({"info", "pool/eel", "--gait-template", "--overrides", R"({"creature":{"profile":{"joints":[0.5]}}})"})
-                  .find("an actuator needs two joints"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal({"info", "pool/eel", "--gait-template", "--overrides", R"({"creature":{"profile":{"joints":[0.5]}}})"})
+            .find("an actuator needs two joints"),
+        std::string::npos);
     EXPECT_NE(refusal({"info", "--gait-template"}).find("needs a scene"), std::string::npos);
 }
 
@@ -212,7 +221,8 @@ TEST(InfoTest, DescribesWaterOnALattice) {
     for (const char* scene : {"lake/water", "lake/creature-2"}) {
         const Outcome text = run_simulator({"info", scene});
         EXPECT_EQ(text.exit_code, 0) << text.err;
-        EXPECT_NE(text.out.find("cells           120\n                48\n                48\n"), std::string::npos) << text.out;
+        EXPECT_NE(text.out.find("cells           120\n                48\n                48\n"), std::string::npos)
+            << text.out;
         EXPECT_EQ(json::parse(run_simulator({"info", scene, "--json"}).out).at("cells"), json({120, 48, 48}));
     }
     const Outcome run = run_simulator({"run", "lake/water", "--duration", "0.1"});
@@ -291,16 +301,20 @@ long peak_of_run(std::vector<std::string> arguments) {
     return used.ru_maxrss;
 }
 
-/// What a run is said to need is what it takes, and not much more: of both schemes and precisions, of one thread and two.
+/// What a run is said to need is what it takes, and not much more: of both schemes and precisions, of one thread and
+/// two.
 TEST(RunTest, MemoryIsWhatWasSaid) {
     if (sanitized()) GTEST_SKIP() << "sanitizers take memory of their own";
     const char* const settings = R"("settling":{"updates":0},"planes":[[0,1,0,0]],"stopping":{"planeContact":false})";
     const std::vector<std::vector<std::string>> ways{
-        {"flex", "float", "1", "[90,20,100]"},       {"flex", "double", "2", "[70,20,100]"},       {"conserving", "float", "1", "[40,20,50]"},
-        {"conserving", "float", "2", "[40,20,50]"}, {"conserving", "double", "1", "[40,20,50]"}, {"conserving", "double", "2", "[40,10,80]"}};
+        {"flex", "float", "1", "[90,20,100]"},       {"flex", "double", "2", "[70,20,100]"},
+        {"conserving", "float", "1", "[40,20,50]"},  {"conserving", "float", "2", "[40,20,50]"},
+        {"conserving", "double", "1", "[40,20,50]"}, {"conserving", "double", "2", "[40,10,80]"}};
     for (const auto& way : ways) {
-        const std::string overrides = std::string("{") + settings + R"(,"fluid":{"clearance":0,"spacing":0.1,"count":)" + way[3] + "}}";
-        const std::vector<std::string> run{"run", "thesis/tank", "--scheme", way[0], "--precision", way[1], "--threads", way[2], "--duration", "0.02",
+        const std::string overrides =
+            std::string("{") + settings + R"(,"fluid":{"clearance":0,"spacing":0.1,"count":)" + way[3] + "}}";
+        const std::vector<std::string> run{"run",        "thesis/tank", "--scheme", way[0],       "--precision",
+                                           way[1],       "--threads",   way[2],     "--duration", "0.02",
                                            "--no-cache", "--overrides", overrides};
         const Outcome refused = run_limited("export NATATOR_MOST_MEMORY=1e-9", run);
         const std::size_t at = refused.err.find("need about ");
@@ -312,16 +326,19 @@ TEST(RunTest, MemoryIsWhatWasSaid) {
     }
 }
 
-/// Without --at it is that of the run's last frame: of a duration that frames do not fill, up or down, and of a run that ends early.
+/// Without --at it is that of the run's last frame: of a duration that frames do not fill, up or down, and of a run
+/// that ends early.
 TEST(RunTest, ASnapshotOfTheEndIsThatOfTheLastFrame) {
     struct Run {
         const char *scene, *duration, *overrides, *end;
     };
-    for (const Run& run : {Run{"thesis/creature-1-vacuum", "0.105", "{}", "0.1"}, Run{"thesis/creature-1-vacuum", "0.11", "{}", "0.116666667"},
+    for (const Run& run : {Run{"thesis/creature-1-vacuum", "0.105", "{}", "0.1"},
+                           Run{"thesis/creature-1-vacuum", "0.11", "{}", "0.116666667"},
                            Run{"thesis/creature-1-vacuum", "0.1", R"({"timeStep":0.03})", "0.09"},
                            Run{"thesis/creature-1", "3", R"({"stopping":{"noProgressAfter":0.05}})", ""}}) {
         const TemporaryPath file("-snapshot.csv");
-        const Outcome outcome = run_simulator({"run", run.scene, "--duration", run.duration, "--overrides", run.overrides, "--snapshot", file.path});
+        const Outcome outcome = run_simulator(
+            {"run", run.scene, "--duration", run.duration, "--overrides", run.overrides, "--snapshot", file.path});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         std::ifstream in(file.path);
         std::string line;
@@ -331,7 +348,8 @@ TEST(RunTest, ASnapshotOfTheEndIsThatOfTheLastFrame) {
         EXPECT_NEAR(std::stod(line), std::stod(outcome.out.substr(at)), 1e-6) << line;
         EXPECT_TRUE(*run.end == 0 || line.substr(0, line.find(',')) == run.end) << line;
     }
-    const Outcome beyond = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.105", "--snapshot", "/dev/null", "--at", "0.104"});
+    const Outcome beyond = run_simulator(
+        {"run", "thesis/creature-1-vacuum", "--duration", "0.105", "--snapshot", "/dev/null", "--at", "0.104"});
     EXPECT_EQ(beyond.exit_code, 2);
     EXPECT_EQ(beyond.err, "natator-sim: --at = 0.104: must be at most 0.1, the end of the last frame\n");
 }
@@ -439,8 +457,10 @@ TEST(RunTest, ATrajectoryThatCannotBeWrittenIsAFailure) {
 // Of what is found out when the last of it is written, too.
 TEST(RunTest, AFullDiskIsTheReasonThatIsTold) {
     for (const char* option : {"--trajectory", "--snapshot"}) {
-        const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05", option, "/dev/full"});
-        EXPECT_EQ(outcome.err, "natator-sim: file \"/dev/full\": cannot be written: No space left on device\n") << option;
+        const Outcome outcome =
+            run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05", option, "/dev/full"});
+        EXPECT_EQ(outcome.err, "natator-sim: file \"/dev/full\": cannot be written: No space left on device\n")
+            << option;
     }
 }
 
@@ -483,9 +503,8 @@ TEST(RunTest, ASnapshotThatCannotBeWrittenIsAFailure) {
 
 TEST(RunTest, ATrajectoryHasNoNumbersThatAreNone) {
     const TemporaryPath csv("unstable.csv");
-    const Outcome outcome =
-        run_simulator({"run", "thesis/creature-1", "--trajectory", csv.path, "--overrides",
-                       R"({"solver":{"relaxationMode":"global"}})"});
+    const Outcome outcome = run_simulator({"run", "thesis/creature-1", "--trajectory", csv.path, "--overrides",
+                                           R"({"solver":{"relaxationMode":"global"}})"});
     ASSERT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
     const std::vector<std::string> rows = file_lines(csv.path);
     EXPECT_EQ(rows, std::vector<std::string>{}) << "there was no start to write";
@@ -561,8 +580,9 @@ TEST(RunTest, BackendAutoRunsEverywhereAndCudaRecordsNothing) {
 TEST(ParticlesTest, WhatCostsTooMuchIsRefused) {
     const TemporaryPath file("dear.json");
     const auto refusal = [&file](const json& change) {
-        json experiment = json::parse(R"({"name":"dear","dt":0.01,"substeps":1,"pos":[[0,1,0]],"vel":[[0,0,0]],"invm":[1],)"
-                                      R"("phase":[1],"params":{"radius":0.15}})");
+        json experiment =
+            json::parse(R"({"name":"dear","dt":0.01,"substeps":1,"pos":[[0,1,0]],"vel":[[0,0,0]],"invm":[1],)"
+                        R"("phase":[1],"params":{"radius":0.15}})");
         experiment.merge_patch(change);
         std::ofstream(file.path) << json::array({experiment});
         const Outcome outcome = run_simulator({"particles", file.path});
@@ -622,10 +642,11 @@ TEST(ParticlesTest, WhatCannotBeUsedIsRefusedInTheWordsOfScenes) {
 
 /// A body without two joints has no muscle: who runs it is told so.
 TEST(RunTest, ACreatureThatCannotMoveIsSaid) {
-    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--overrides",
-                                           R"({"creature":{"joints":[8]}})"});
+    const Outcome outcome = run_simulator(
+        {"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--overrides", R"({"creature":{"joints":[8]}})"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("it cannot move by itself (an actuator needs two joints)"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("it cannot move by itself (an actuator needs two joints)"), std::string::npos)
+        << outcome.out;
 }
 
 }  // namespace

@@ -194,7 +194,8 @@ TEST(StreamCommandTest, BadCommandsAreAnsweredAndChangeNothing) {
         {R"({"do":"rate","value":-1})", "value = -1"},
         {R"({"do":"rate","value":1e-9})", "0.001"},
         {R"({"do":"run","id":"x"})", "id"},
-        {R"({"do":"run","id":9007199254740992})", "id = 9007199254740992: must be a whole number in [0, 9007199254740991]"},
+        {R"({"do":"run","id":9007199254740992})",
+         "id = 9007199254740992: must be a whole number in [0, 9007199254740991]"},
         {R"({"do":"gait","gait":{"frequency":1,"amplitude":[1],"phase":[0]}})", "gait.amplitude"},
         {R"({"do":"gait","gait":{"frequency":0,"amplitude":[1,1],"phase":[0,0]}})", "gait.frequency"},
         {R"({"do":"overrides","overrides":{"solver":{"substeps":0}}})", "solver.substeps"},
@@ -271,7 +272,9 @@ TEST(StreamCommandTest, AnUnstableSceneStopsAndStartsAnewWhenItIsMended) {
 TEST(StreamCommandTest, TheEndComesBeforeTheAnswerOfTheStepThatReachesIt) {
     StreamClient client(paused_in(vacuum, {"--until", "0.05"}));
     client.expect("SCEN");
-    client.send_line(R"({"id":1,"do":"step","frames":10,"sense":true})" "\n" R"({"id":2,"do":"step","sense":true})");
+    client.send_line(R"({"id":1,"do":"step","frames":10,"sense":true})"
+                     "\n"
+                     R"({"id":2,"do":"step","sense":true})");
     EXPECT_EQ(client.expect("STOP"), json::parse(R"({"reason":"until"})"));
     const json answer = client.expect("ANSW");
     EXPECT_EQ(answer["ok"], true);

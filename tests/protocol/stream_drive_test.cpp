@@ -1,4 +1,5 @@
-// natator-sim stream driven from outside: actuator values, steering, senses, in lock-step (sim-native/protocol/stream.md).
+// natator-sim stream driven from outside: actuator values, steering, senses, in lock-step
+// (sim-native/protocol/stream.md).
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,7 +12,8 @@ namespace {
 using nlohmann::json;
 
 const std::string small_tank = "bench/small-tank";
-const json skin_places = {{{"slice", 1}, {"side", "left"}}, {{"slice", 1}, {"side", "right"}}, {{"slice", 4}, {"side", "above"}}};
+const json skin_places = {
+    {{"slice", 1}, {"side", "left"}}, {{"slice", 1}, {"side", "right"}}, {{"slice", 4}, {"side", "above"}}};
 const json all_senses{{"do", "sense"}, {"flow", skin_places}, {"target", {3, 0.5, 0.4}}};
 
 std::vector<std::string> driven_in(const std::string& scene, const std::vector<std::string>& more = {}) {
@@ -46,7 +48,8 @@ std::pair<json, std::string> swim_in_the_loop(const std::vector<std::string>& mo
 
 TEST(StreamDriveTest, TheSameCommandsGiveTheSameBits) {
     for (const char* scheme : {"flex", "conserving"}) {
-        const auto once = swim_in_the_loop({"--scheme", scheme}), again = swim_in_the_loop({"--scheme", scheme, "--threads", "2"});
+        const auto once = swim_in_the_loop({"--scheme", scheme}),
+                   again = swim_in_the_loop({"--scheme", scheme, "--threads", "2"});
         EXPECT_EQ(once.first, again.first);
         EXPECT_EQ(once.second, again.second);
         EXPECT_EQ(once.first["frame"], 12);
@@ -136,9 +139,11 @@ TEST(StreamDriveTest, SensesComeInAnswersAndBeforeFrames) {
 
 /// Companions beat by their own gaits; commands and senses are the swimmer's alone.
 TEST(StreamDriveTest, CompanionsAreNotDriven) {
-    const json overrides = {{"fluid", nullptr},
-                            {"companions", {{{"creature", {{"name", "ray"}, {"rearCentre", {0.5, 0.6, 3}}}},
-                                             {"gait", {{"frequency", 2}, {"amplitude", {0.5, 0.5, 0.5, 0.5, 0.5}}, {"phase", {0, 0, 0, 0, 0}}}}}}}};
+    const json overrides = {
+        {"fluid", nullptr},
+        {"companions",
+         {{{"creature", {{"name", "ray"}, {"rearCentre", {0.5, 0.6, 3}}}},
+           {"gait", {{"frequency", 2}, {"amplitude", {0.5, 0.5, 0.5, 0.5, 0.5}}, {"phase", {0, 0, 0, 0, 0}}}}}}}};
     StreamClient client(driven_in(vacuum, {"--overrides", overrides.dump()}));
     const json scene = client.expect("SCEN");
     ASSERT_EQ(scene["actuators"], 2);
@@ -149,8 +154,9 @@ TEST(StreamDriveTest, CompanionsAreNotDriven) {
     const json senses = driven_step(client, {0.5, -0.5}, 3);
     EXPECT_EQ(senses["drive"], json({0.5, -0.5}));
     EXPECT_EQ(senses["bend"].size(), 2u);
-    EXPECT_NE(client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"].get<std::string>().find("must have length 2"),
-              std::string::npos);
+    EXPECT_NE(
+        client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"].get<std::string>().find("must have length 2"),
+        std::string::npos);
 }
 
 TEST(StreamDriveTest, ResetChoosesTheStart) {
@@ -164,7 +170,11 @@ TEST(StreamDriveTest, ResetChoosesTheStart) {
         take_start(client);
         seen.push_back(hash_of(take_step(client, 6)));
     }
-    const json request{{"id", 1}, {"scene", small_tank}, {"gait", json::parse(gait)}, {"duration", 0.1}, {"start", 4},
+    const json request{{"id", 1},
+                       {"scene", small_tank},
+                       {"gait", json::parse(gait)},
+                       {"duration", 0.1},
+                       {"start", 4},
                        {"overrides", {{"stopping", {{"planeContact", false}, {"noProgressAfter", 0}}}}}};
     EXPECT_EQ(seen[0], json::parse(run_simulator({"evaluate"}, request.dump()).out)["hash"]);
     EXPECT_NE(seen[1], seen[0]);

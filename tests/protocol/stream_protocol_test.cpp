@@ -24,36 +24,13 @@ double resident(pid_t process) {
 TEST(StreamTest, TheSceneIsComplete) {
     StreamClient client(paused_in(water, {"--overrides", R"({"solver":{"substeps":5}})"}));
     const json scene = client.expect("SCEN");
-    const std::vector<std::string> expected{"protocol",
-                                            "program",
-                                            "number",
-                                            "restarted",
-                                            "scene",
-                                            "overrides",
-                                            "gait",
-                                            "scheme",
-                                            "precision",
-                                            "definition",
-                                            "timeStep",
-                                            "duration",
-                                            "radius",
-                                            "solidRestDistance",
-                                            "fluidRestDistance",
-                                            "planes",
-                                            "periodic",
-                                            "fields",
-                                            "particles",
-                                            "mass",
-                                            "fluid",
-                                            "body",
-                                            "slices",
-                                            "bodyLength",
-                                            "companions",
-                                            "clusters",
-                                            "joints",
-                                            "actuators",
-                                            "muscles",
-                                            "skin"};
+    const std::vector<std::string> expected{
+        "protocol",  "program",  "number",    "restarted",         "scene",
+        "overrides", "gait",     "scheme",    "precision",         "definition",
+        "timeStep",  "duration", "radius",    "solidRestDistance", "fluidRestDistance",
+        "planes",    "periodic", "fields",    "particles",         "mass",
+        "fluid",     "body",     "slices",    "bodyLength",        "companions",
+        "clusters",  "joints",   "actuators", "muscles",           "skin"};
     std::set<std::string> keys;
     for (const auto& [key, value] : scene.items()) keys.insert(key);
     EXPECT_EQ(keys, std::set<std::string>(expected.begin(), expected.end()));
@@ -192,7 +169,8 @@ TEST(StreamTest, FramesAreThoseOfEvaluateBitByBit) {
 
 /// The end is after the nearest frame, as that of an evaluation; but for no time at all after one at least.
 TEST(StreamTest, AnEndBetweenTwoFramesIsTheNearer) {
-    for (const auto& [until, frames] : {std::pair("0", 0), {"0.001", 1}, {"0.02", 1}, {"0.03", 2}, {"0.0249", 1}, {"0.0251", 2}}) {
+    for (const auto& [until, frames] :
+         {std::pair("0", 0), {"0.001", 1}, {"0.02", 1}, {"0.03", 2}, {"0.0249", 1}, {"0.0251", 2}}) {
         StreamClient client({vacuum, "--rate", "0", "--lossless", "--until", until});
         client.expect("SCEN");
         client.send({{"do", "credit"}, {"frames", 10}});

@@ -94,7 +94,7 @@ class EvaluationTest(unittest.TestCase):
 
     def test_an_interrupted_simulator_is_closed(self):
         with natator.Simulator(1) as simulator:
-            with mock.patch("natator.program.hear", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            with mock.patch("natator.program.exchange", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
                 simulator.evaluate(TANK, GAIT, duration=0.05)
             with self.assertRaisesRegex(natator.ProgramError, "closed"):
                 simulator.evaluate(TANK, GAIT, duration=0.05)

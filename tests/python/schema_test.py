@@ -16,7 +16,7 @@ TAKEN = [
     {"do": "step", "drive": [[0, 0], [0.5, 2]], "sense": True}, {"do": "step", "scale": [0, 0.5], "offset": [0.2, 0]},
     {"do": "drive", "drive": [2, -2]}, {"do": "steer"}, {"do": "steer", "scale": [4, 0]}, {"do": "sense"},
     {"do": "sense", "flow": [{"slice": 8, "side": "below"}], "within": 1000, "target": [1, -1e6, 0.5], "each": True},
-    {"do": "sense", "target": None, "flow": [], "each": False}, {"do": "rate", "value": 0}, {"do": "rate", "value": 0.001},
+    {"do": "sense", "target": None, "flow": [], "each": False}, {"do": "water"}, {"do": "rate", "value": 0}, {"do": "rate", "value": 0.001},
     {"do": "gait", "gait": GAIT}, {"do": "overrides", "overrides": {"duration": 3}},
     {"do": "scene", "scene": "bench/small-tank", "overrides": {}, "gait": GAIT, "start": 3},
 ]

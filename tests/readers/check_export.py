@@ -287,6 +287,40 @@ class Check:
                 else:
                     self._vtp_points(name, block, frame, self.water if name == "water" else self.solids)
 
+    def vti(self):
+        """The water on its grid; some of its cells are summed up anew from the particles."""
+        import pyvista
+
+        reader = pyvista.get_reader(self.folder / "water.pvd")
+        self.same("times", reader.time_values, [frame["time"] for frame in self.reference.frames])
+        spacing = self.reference.scene["fluidRestDistance"]
+        for frame in self.reference.frames:
+            reader.set_active_time_value(frame["time"])
+            grid = reader.read()[0]
+            self.same("time", grid.field_data["TimeValue"], [frame["time"]])
+            centres, places = grid.cell_centers().points.astype(float), frame["position"][self.water].astype(float)
+            self.near("corner", grid.bounds[::2], places.min(0) - spacing / 2)
+            for cell in np.random.default_rng(1).integers(grid.n_cells, size=100):
+                q = np.linalg.norm(places - centres[cell], axis=1) / (2 * spacing)
+                weight = np.where(q < 1, 21 / (16 * np.pi) * (1 - q) ** 4 * (4 * q + 1), 0)
+                self.close("density", grid["density"][cell], weight.sum())
+                if weight.sum() > 1e-3:
+                    self.close("velocity", grid["velocity"][cell], weight @ frame["velocity"][self.water] / weight.sum())
+            shape = [count - 1 for count in grid.dimensions]
+            velocity = [grid["velocity"][:, axis].reshape(shape, order="F") for axis in range(3)]
+            x, y, z = ([np.gradient(component, spacing, axis=axis) for axis in range(3)] for component in velocity)
+            for axis, curl in enumerate((z[1] - y[2], x[2] - z[0], y[0] - x[1])):
+                self.close("vorticity", grid["vorticity"][:, axis], curl.ravel(order="F"))
+            q = -(x[0] ** 2 + y[1] ** 2 + z[2] ** 2) / 2 - x[1] * y[0] - x[2] * z[0] - y[2] * z[1]
+            self.close("Q", grid["Q"], q.ravel(order="F"))
+
+    def close(self, what, found, expected):
+        """Within the rounding of sums of floats."""
+        found, expected = np.asarray(found), np.asarray(expected)
+        if not np.allclose(found, expected, rtol=1e-4, atol=1e-4 * max(1, np.abs(expected).max())):
+            raise Difference(f"{what}: {found}; expected {expected}")
+        self.compared += expected.size
+
     def _vtp_points(self, name, block, frame, particles):
         self.same(f"{name} position", block.points, frame["position"][particles])
         for field in self.fields[1:]:

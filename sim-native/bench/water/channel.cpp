@@ -23,11 +23,9 @@ struct Channel {
     double difference() const { return right - left; }
     double mean() const { return (left + right) / 2; }
 
-    /// Of the water far from the ends, `across` in parts of H from the middle: the flow of Couette for the difference of
-    /// the speeds, and that of Poiseuille for their mean.
-    double velocity(double across) const {
-        return difference() * across - mean() / 2 * (1 - 12 * across * across);
-    }
+    /// Of the water far from the ends, `across` in parts of H from the middle: the flow of Couette for the difference
+    /// of the speeds, and that of Poiseuille for their mean.
+    double velocity(double across) const { return difference() * across - mean() / 2 * (1 - 12 * across * across); }
     /// Of that flow at the right wall, 1/s.
     double shear() const { return (difference() + 6 * mean()) / height; }
     /// Along x, which makes that flow without a slope of the surface, length/s^2.
@@ -48,18 +46,17 @@ public:
         square_ += exact * exact;
         product_ += exact * velocity;
     }
-    double part() const {
-        return (count_ * product_ - exact_ * velocity_) / (count_ * square_ - exact_ * exact_);
-    }
+    double part() const { return (count_ * product_ - exact_ * velocity_) / (count_ * square_ - exact_ * exact_); }
     double offset() const { return (velocity_ - part() * exact_) / count_; }
 
 private:
     double count_ = 0, exact_ = 0, velocity_ = 0, square_ = 0, product_ = 0;
 };
 
-/// The walls are endless belts: what leaves the box at one end comes in again at the other, where no water feels it. What
-/// moves them in the middle is what the water there dissipates. The viscosity is that of the water's own flow, apart from
-/// the walls; how it goes with these is in their drag and in the slip length, by which they seem to stand further apart.
+/// The walls are endless belts: what leaves the box at one end comes in again at the other, where no water feels it.
+/// What moves them in the middle is what the water there dissipates. The viscosity is that of the water's own flow,
+/// apart from the walls; how it goes with these is in their drag and in the slip length, by which they seem to stand
+/// further apart.
 template <class Real>
 WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
     const double spacing = spacing_of(setting);

@@ -58,8 +58,8 @@ WaterRun run_as(const WaterSetting& setting) {
 
 }  // namespace
 
-/// Water at rest, as deep as the other cases are long: its pressure, how far it gives way under its weight, and how much its
-/// particles still move.
+/// Water at rest, as deep as the other cases are long: its pressure, how far it gives way under its weight, and how
+/// much its particles still move.
 WaterRun run_column(const WaterSetting& setting) {
     return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double counted_from = 35;  ///< of the way with vortices, diameters
 
-/// A cylinder across a slab: at resolution 20 it is 10 particles across, and the slab three deep between planes that let
-/// the water slip, so that the flow is plane.
+/// A cylinder across a slab: at resolution 20 it is 10 particles across, and the slab three deep between planes that
+/// let the water slip, so that the flow is plane.
 Towing across_slab(const WaterSetting& setting, double length, double height, const std::vector<Towing::Leg>& legs) {
     const double diameter = 0.5 * water_length;
     return {.count = {particles_along(length * diameter, setting), particles_along(height * diameter, setting), 3},
@@ -29,9 +29,9 @@ WaterFigure drag_figure(double measured, double unbounded, double faster) {
 
 }  // namespace
 
-/// Towed through resting water without vortices yet. References: Dennis and Chang (1970), whose drag falls as the Reynolds
-/// number to the power 0.426 between the two. In a box half as long its ends raise the drag by a tenth, in one longer by a half
-/// it is the same within 1 %.
+/// Towed through resting water without vortices yet. References: Dennis and Chang (1970), whose drag falls as the
+/// Reynolds number to the power 0.426 between the two. In a box half as long its ends raise the drag by a tenth, in one
+/// longer by a half it is the same within 1 %.
 WaterRun run_towed_cylinder(const WaterSetting& setting) {
     constexpr double length = 24, height = 12, drag[2] = {1.522, 2.045};
     const Towing towing = across_slab(setting, length, height, {{40, 9}, {20, 5}});
@@ -47,7 +47,8 @@ WaterRun run_towed_cylinder(const WaterSetting& setting) {
     return run;
 }
 
-/// The same until the wake has become a street of vortices. References: drag 1.33 to 1.38, Strouhal number 0.164 to 0.166.
+/// The same until the wake has become a street of vortices. References: drag 1.33 to 1.38, Strouhal number 0.164 to
+/// 0.166.
 WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     constexpr double height = 10, reynolds = 100, drag = 1.355, strouhal = 0.165;
     Towing towing = across_slab(setting, 20, height, {{reynolds, 60}});
@@ -56,8 +57,9 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     WaterRun& run = result.run;
     if (run.instability || result.legs.empty()) return run;
     const double faster = 1 + blockage_of_cylinder(drag, result.diameter, height * towing.diameter);
-    run.figures = {drag_figure(mean(result.legs[0], &TowSample::drag, counted_from), drag, faster),
-                   figure_within(0.05, lift_frequency(result, counted_from) * result.diameter / towing.speed, strouhal * faster)};
+    run.figures = {
+        drag_figure(mean(result.legs[0], &TowSample::drag, counted_from), drag, faster),
+        figure_within(0.05, lift_frequency(result, counted_from) * result.diameter / towing.speed, strouhal * faster)};
     run.curve = calm_lift(result);
     return run;
 }

@@ -18,7 +18,9 @@ Eigen::Vector3d FreeMotion::centre() const {
 }
 
 std::vector<Eigen::Vector3d> FreeMotion::set_off(const std::vector<Eigen::Vector3d>& shape, double time) {
-    const auto turned = [](double angle) { return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix(); };
+    const auto turned = [](double angle) {
+        return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    };
     const Eigen::Vector3d here = centre(), middle = mean(shape);
     const Eigen::Matrix3d now = turned(angle_);
     double of_bending = 0, inertia = 0;

@@ -9,19 +9,20 @@
 
 namespace natator::bench {
 
-/// A swimmer in water on a lattice, in a box with walls without friction. Its particles are a cell apart, at least one across, in an even or
-/// odd number as fits its width. A frame is a step.
+/// A swimmer in water on a lattice, in a box with walls without friction. Its particles are a cell apart, at least one
+/// across, in an even or odd number as fits its width. A frame is a step.
 class LatticeSwim {
 public:
-    /// `scene.box`: one cell high if the swimmer is a slab. `mach`: of 1.2 lengths a beat, which is about what a tail does.
+    /// `scene.box`: one cell high if the swimmer is a slab. `mach`: of 1.2 lengths a beat, which is about what a tail
+    /// does.
     LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int resolution, double mach, std::optional<int> gpu);
 
     const SwimBody& body() const { return *body_; }
     double spacing() const { return box_.cell; }  ///< a cell of water has mass 1
     /// False if something is not finite.
     bool frame();
-    /// Of the last frame's force on the body along x what acts along the surface's normal, mass length/s^2: by the outline's, which goes with
-    /// the body as its places do.
+    /// Of the last frame's force on the body along x what acts along the surface's normal, mass length/s^2: by the
+    /// outline's, which goes with the body as its places do.
     double pressure() const { return pressure_; }
     WaterRun run() const { return run_; }  ///< its particles: the lattice's cells
 

@@ -10,18 +10,20 @@ namespace natator::bench {
 namespace {
 
 /// What the curve of a fall shows.
-enum class Fallen { way, speed };
+enum class FallQuantity { way, speed };
 
 /// What a sphere of this density (of the water's) does in a tank as wide and high as long once it is let go.
 struct Fall {
     double density = 1;
     double duration = 1;  ///< s
-    Fallen curve = Fallen::way;
+    FallQuantity curve = FallQuantity::way;
 };
 
-/// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let go.
+/// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let
+/// go.
 void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
-    const auto sphere = hold([&](const Eigen::Vector3d& x) { return (x - centre).norm() <= 0.15 * water_length; }, model);
+    const auto sphere =
+        hold([&](const Eigen::Vector3d& x) { return (x - centre).norm() <= 0.15 * water_length; }, model);
     model.clusters = {make_cluster(sphere, model.position, 1)};
 }
 
@@ -42,15 +44,15 @@ Eigen::Vector3d mean_of_sphere(const std::vector<Vector3<Real>>& of_all, const M
 
 /// The curve is how far the sphere has fallen, length, or how fast it falls, length/s.
 template <class Real>
-WaterRun follow(double duration, Fallen what, WaterTank<Real>& tank) {
+WaterRun follow(double duration, FallQuantity what, WaterTank<Real>& tank) {
     const auto height = [&] { return mean_of_sphere(tank.state().position, tank.model()).y(); };
-    if (what == Fallen::speed)
+    if (what == FallQuantity::speed)
         return tank.follow(duration, [&] { return -mean_of_sphere(tank.state().velocity, tank.model()).y(); });
     return tank.follow(duration, [&, start = height()] { return start - height(); });
 }
 
-/// s, before it is let go: without the damping that has brought it to rest, water first bobs up and down, three times a second, and
-/// a sphere that is free goes with it.
+/// s, before it is let go: without the damping that has brought it to rest, water first bobs up and down, three times a
+/// second, and a sphere that is free goes with it.
 constexpr double held = 1.5;
 
 /// Of the sphere, of the water's: lets it go.
@@ -63,9 +65,8 @@ void set_density(double density, WaterTank<Real>& tank) {
 
 template <class Real>
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
-    WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
-        immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model);
-    });
+    WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting,
+                         [&](Model& model) { immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model); });
     for (long k = 0; k < std::lround(held / tank.model().time_step); ++k)
         if (!tank.frame()) return tank.run();
     set_density(fall.density, tank);
@@ -101,7 +102,8 @@ constexpr double release_gravity = 8, release_viscosity = 0.008, release_duratio
 constexpr double release_width = 1.4 * water_length, release_height = 1.8 * water_length;
 constexpr double counted = 2;  ///< s, at the end
 
-/// The same by Schiller and Naumann's drag on a sphere that carries its added mass along: speed over the last `counted`.
+/// The same by Schiller and Naumann's drag on a sphere that carries its added mass along: speed over the last
+/// `counted`.
 double expected_speed(double excess, double sphere_diameter) {
     constexpr double step = 1e-3;
     double speed = 1e-6, way = 0;
@@ -110,8 +112,8 @@ double expected_speed(double excess, double sphere_diameter) {
         const double drag = drag_of_sphere(speed * sphere_diameter / release_viscosity);
         const double between = blockage_of_sphere(drag, sphere_diameter, release_width * release_width);
         const double passing = speed * (1 + std::min(between, 0.2));
-        const double held_back = 0.75 / sphere_diameter * passing * passing *
-                                 drag_of_sphere(passing * sphere_diameter / release_viscosity);
+        const double held_back =
+            0.75 / sphere_diameter * passing * passing * drag_of_sphere(passing * sphere_diameter / release_viscosity);
         speed += step * (excess * release_gravity - held_back) / (1 + excess + added_mass);
         if (time >= release_duration - counted) way += step * speed;
     }
@@ -128,7 +130,7 @@ WaterRun release(const Release& how, const WaterSetting& setting) {
     const double sphere_diameter = diameter(tank.model());
     if (!tank.set_kinematic_viscosity(release_viscosity)) return tank.run();
     set_density(1 + how.excess, tank);
-    WaterRun run = follow(release_duration, Fallen::way, tank);
+    WaterRun run = follow(release_duration, FallQuantity::way, tank);
     if (run.instability) return run;
     const auto frames_counted = static_cast<std::size_t>(std::lround(counted / tank.model().time_step));
     const WaterSample& begin = run.curve[run.curve.size() - 1 - frames_counted];
@@ -153,10 +155,10 @@ WaterRun run_neutral_sphere(const WaterSetting& setting) {
     return run;
 }
 
-/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as its way is
-/// longer by half a substep, and before it has enough of that for a drag.
+/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as
+/// its way is longer by half a substep, and before it has enough of that for a drag.
 WaterRun run_added_mass(const WaterSetting& setting) {
-    const Fall fall{.density = 2, .duration = 0.05, .curve = Fallen::speed};
+    const Fall fall{.density = 2, .duration = 0.05, .curve = FallQuantity::speed};
     WaterRun run = let_go(fall, setting);
     if (run.instability) return run;
     const double acceleration = run.curve.back().value / fall.duration;

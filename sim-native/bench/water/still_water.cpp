@@ -25,8 +25,8 @@ WaterRun run_as(const WaterSetting& setting) {
 
 }  // namespace
 
-/// A narrow column of water at rest, as deep as the other cases are long, without viscosity: does it stay so, or bob up and down as
-/// a whole? Its speed is that of twice its mean height.
+/// A narrow column of water at rest, as deep as the other cases are long, without viscosity: does it stay so, or bob up
+/// and down as a whole? Its speed is that of twice its mean height.
 WaterRun run_still_water(const WaterSetting& setting) {
     return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }

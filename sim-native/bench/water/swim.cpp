@@ -34,8 +34,8 @@ double Helm::rate(double angle, double out) {
     return (course_per_drift * mean.y() - mean.x()) / steering_time;
 }
 
-SwimBody::SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose, std::vector<Eigen::Vector3d> places, double frame,
-                   double kept)
+SwimBody::SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose,
+                   std::vector<Eigen::Vector3d> places, double frame, double kept)
     : swimmer_(swimmer),
       scene_(scene),
       start_(nose),
@@ -81,7 +81,8 @@ double SwimBody::end_frame(double spacing, double far) {
     time_ += frame_;
     unshifted_ += motion_.centre().x() - before_;
     motion_.steer(helm_.rate(motion_.angle(), (motion_.centre() - start_).z() / scene_.length));
-    const double box_step = std::copysign(std::max(1.0, std::round(far * scene_.length / spacing)) * spacing, unshifted_);
+    const double box_step =
+        std::copysign(std::max(1.0, std::round(far * scene_.length / spacing)) * spacing, unshifted_);
     if (std::abs(unshifted_) < std::abs(box_step)) return 0;
     motion_.shift({-box_step, 0, 0});
     shifted_ += box_step;
@@ -96,7 +97,8 @@ Swim<Real>::Swim(const Swimmer& swimmer, const SwimScene& scene, const WaterSett
       start_(scene.box.x() / 2.3 * nose_at * scene.length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
       tank_(count_, setting, [&](Model& model) {
           model.parameters.gravity = {0, -scene.gravity, 0};
-          held_ = hold([&](const Eigen::Vector3d& x) { return swimmer.holds(x - start_, scene.length, spacing_); }, model);
+          held_ =
+              hold([&](const Eigen::Vector3d& x) { return swimmer.holds(x - start_, scene.length, spacing_); }, model);
       }) {
     std::vector<Eigen::Vector3d> places;
     for (const int i : held_) places.push_back(tank_.state().position[i].template cast<double>());
@@ -109,13 +111,15 @@ bool Swim<Real>::frame() {
     body_->begin_frame();
     const auto set_off = [&] {
         const std::vector<Eigen::Vector3d>& velocities = body_->set_off(h);
-        for (std::size_t k = 0; k < held_.size(); ++k) tank_.state().velocity[held_[k]] = velocities[k].template cast<Real>();
+        for (std::size_t k = 0; k < held_.size(); ++k)
+            tank_.state().velocity[held_[k]] = velocities[k].template cast<Real>();
     };
     const auto arrive = [&](double, const std::vector<Vector3<Real>>& forces) {
         std::vector<Eigen::Vector3d> on_body;
         for (const int i : held_) on_body.push_back(forces[i].template cast<double>());
         body_->arrive(on_body, h);
-        for (std::size_t k = 0; k < held_.size(); ++k) tank_.state().position[held_[k]] = body_->places()[k].template cast<Real>();
+        for (std::size_t k = 0; k < held_.size(); ++k)
+            tank_.state().position[held_[k]] = body_->places()[k].template cast<Real>();
     };
     if (!tank_.drive(set_off, arrive)) return false;
     if (const double by = body_->end_frame(spacing_, step); by != 0) tank_.shift(by);

@@ -10,10 +10,10 @@ namespace natator::bench {
 
 /// How a swimmer is put into the tank.
 struct SwimScene {
-    double length = water_length;          ///< of the body
-    double beat = 2;                       ///< s
-    Eigen::Vector3d box{2.3, 0.8, 1.2};    ///< of the body's length
-    double gravity = 5;                    ///< length/s^2: enough for the water to follow the tail
+    double length = water_length;        ///< of the body
+    double beat = 2;                     ///< s
+    Eigen::Vector3d box{2.3, 0.8, 1.2};  ///< of the body's length
+    double gravity = 5;                  ///< length/s^2: enough for the water to follow the tail
 };
 
 /// Where a body's centre and its tail's end were.
@@ -24,8 +24,8 @@ struct Track {
     double beat(const Eigen::Vector3d& side) const;
 };
 
-/// Keeps a body on its course along x and in the middle: every beat throws it off by a degree or so; it is turned back slowly, by
-/// what it does in the mean over a beat.
+/// Keeps a body on its course along x and in the middle: every beat throws it off by a degree or so; it is turned back
+/// slowly, by what it does in the mean over a beat.
 class Helm {
 public:
     explicit Helm(long frames_per_beat) : size_(static_cast<std::size_t>(frames_per_beat)) {}
@@ -40,12 +40,13 @@ private:
     double drift_ = 0;
 };
 
-/// A swimmer in a box of water that goes along with it: what is the same in any water. A frame is what the water is looked at by.
+/// A swimmer in a box of water that goes along with it: what is the same in any water. A frame is what the water is
+/// looked at by.
 class SwimBody {
 public:
     /// Particles of mass 1 at `places`, straight; `nose`: where its nose is.
-    SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose, std::vector<Eigen::Vector3d> places, double frame,
-             double kept);
+    SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::Vector3d& nose,
+             std::vector<Eigen::Vector3d> places, double frame, double kept);
 
     long frames_per_beat() const { return frames_per_beat_; }
     void begin_frame();
@@ -62,7 +63,8 @@ public:
     double drift() const { return helm_.drift(); }
     Eigen::Vector3d centre() const { return motion_.centre() + Eigen::Vector3d(shifted_, 0, 0); }
     Eigen::Vector3d tail() const { return motion_.places()[tail_] + Eigen::Vector3d(shifted_, 0, 0); }
-    /// Of the water's on the body along x in the last frame, mass length/s^2, and what the body gave the water, mass length^2/s^3.
+    /// Of the water's on the body along x in the last frame, mass length/s^2, and what the body gave the water, mass
+    /// length^2/s^3.
     double force() const { return force_; }
     double power() const { return power_; }
 
@@ -109,8 +111,8 @@ private:
 extern template class Swim<float>;
 extern template class Swim<double>;
 
-/// f A / U against the Reynolds number U L / nu, A the tail's beat from side to side: of larvae that swim (van Leeuwen, Voesenek,
-/// Müller, 2015), 2.5 at Re 60 and 0.72 at Re 1400, as a power of Re between.
+/// f A / U against the Reynolds number U L / nu, A the tail's beat from side to side: of larvae that swim (van Leeuwen,
+/// Voesenek, Müller, 2015), 2.5 at Re 60 and 0.72 at Re 1400, as a power of Re between.
 double strouhal_of_larvae(double reynolds);
 /// The Reynolds number that this line gives where f A L / nu is so much.
 double reynolds_of_larvae(double beating);

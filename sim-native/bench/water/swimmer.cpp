@@ -23,14 +23,16 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr const char* kind = "references/swimmers";
 
 std::vector<double> read_row(const json& value, const Place& place, std::size_t size, const fields::Range& range) {
-    if (!value.is_array() || value.size() != size) fields::refuse(place, value, "an array of " + std::to_string(size) + " numbers");
+    if (!value.is_array() || value.size() != size)
+        fields::refuse(place, value, "an array of " + std::to_string(size) + " numbers");
     std::vector<double> row(size);
     for (std::size_t i = 0; i < size; ++i) fields::read(value[i], place.item(i), range, row[i]);
     return row;
 }
 
 /// Rows of s and `columns` numbers, ascending in s.
-std::vector<std::vector<double>> read_table(const json& value, const Place& place, std::size_t columns, const fields::Range& range) {
+std::vector<std::vector<double>> read_table(const json& value, const Place& place, std::size_t columns,
+                                            const fields::Range& range) {
     if (!value.is_array() || value.size() < 2) fields::refuse(place, value, "an array of two rows or more");
     std::vector<std::vector<double>> table;
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -50,7 +52,8 @@ Profile column(const std::vector<std::vector<double>>& table, std::size_t k) {
 
 Profile read_profile(const json& value, const Place& place) {
     const fields::Range range{-1000, 1000};
-    if (value.is_array() && !value.empty() && value[0].is_number()) return {read_row(value, place, value.size(), range), {}};
+    if (value.is_array() && !value.empty() && value[0].is_number())
+        return {read_row(value, place, value.size(), range), {}};
     return column(read_table(value, place, 1, range), 1);
 }
 
@@ -61,7 +64,8 @@ Deformation read_deformation(const json& value, const Place& place) {
     for (std::size_t i = 0; i < value.size(); ++i) {
         const std::vector<double> row = read_row(value[i], place.item(i), 18, {-1e6, 1e6});
         for (int a = 0; a < 3; ++a)
-            if (row[a] < 0 || row[a] > 20 || row[a] != std::floor(row[a])) fields::refuse(place.item(i).item(a), value[i][a], "a whole number in [0, 20]");
+            if (row[a] < 0 || row[a] > 20 || row[a] != std::floor(row[a]))
+                fields::refuse(place.item(i).item(a), value[i][a], "a whole number in [0, 20]");
         Deformation::Term term{Eigen::Vector3d(row[0], row[1], row[2]).cast<int>(), {}};
         for (std::size_t k = 3; k < 18; k += 3) term.by.emplace_back(row[k], row[k + 1], row[k + 2]);
         deformation.terms.push_back(term);
@@ -93,9 +97,11 @@ SwimTarget read_target(const json& value, const Place& place, const SwimCase& of
     for (const char* key : {"quantity", "over", "zeroOf"})
         if (value.contains(key) && std::ranges::count(swim_quantities(), value[key].get<std::string>()) == 0)
             fields::refuse(place.key(key), value[key], "one of " + fields::listed(swim_quantities()));
-    if (!read.variant.empty() && std::ranges::none_of(of.variants, [&](const auto& one) { return one.first == read.variant; }))
+    if (!read.variant.empty() &&
+        std::ranges::none_of(of.variants, [&](const auto& one) { return one.first == read.variant; }))
         fields::refuse(place.key("variant"), value["variant"], "the name of a variant");
-    SwimTarget target{read.quantity, read.variant, read.over, read.zero_of, {}, read.least, read.greatest, read.confirmed};
+    SwimTarget target{read.quantity, read.variant,  read.over,     read.zero_of, {},
+                      read.least,    read.greatest, read.confirmed};
     if (value.contains("reference")) {
         target.reference = read.reference;
         fields::required(value, place, "within");
@@ -111,8 +117,9 @@ SwimTarget read_target(const json& value, const Place& place, const SwimCase& of
 }  // namespace
 
 const std::vector<std::string>& swim_quantities() {
-    static const std::vector<std::string> names{"speed", "spread", "lateral", "slip", "tail_beat", "strouhal", "reynolds",
-                                                "swimming_number", "amplitude", "force", "power", "pressure_force", "thrust"};
+    static const std::vector<std::string> names{
+        "speed",           "spread",    "lateral", "slip",  "tail_beat",      "strouhal", "reynolds",
+        "swimming_number", "amplitude", "force",   "power", "pressure_force", "thrust"};
     return names;
 }
 
@@ -136,7 +143,8 @@ double Swimmer::grown(double beats) const {
 }
 
 double Swimmer::bending(double s, double beats) const {
-    return grown(beats) * scale * amplitude.at(s) * std::sin(turn * (beats - (phase.given() ? phase.at(s) : waves * s)));
+    return grown(beats) * scale * amplitude.at(s) *
+           std::sin(turn * (beats - (phase.given() ? phase.at(s) : waves * s)));
 }
 
 double Swimmer::slope(double s, double ds, double beats) const {
@@ -160,16 +168,19 @@ Eigen::Vector3d Swimmer::normal(const Eigen::Vector3d& x, double length, double 
     const auto out = [&](double along, double y, double z) {  // 1 on the surface
         const Eigen::Vector2d half = half_axes(std::clamp(-along / length, 0.0, 1.0), length, wider);
         if (slab) return std::abs(z) / half.x();
-        return square ? std::max(std::abs(z) / half.x(), std::abs(y) / half.y()) : std::hypot(z / half.x(), y / half.y());
+        return square ? std::max(std::abs(z) / half.x(), std::abs(y) / half.y())
+                      : std::hypot(z / half.x(), y / half.y());
     };
     const double d = 1e-4 * length;
-    const Eigen::Vector3d gradient(out(x.x() + d, x.y(), x.z()) - out(x.x() - d, x.y(), x.z()), out(x.x(), x.y() + d, x.z()) - out(x.x(), x.y() - d, x.z()),
+    const Eigen::Vector3d gradient(out(x.x() + d, x.y(), x.z()) - out(x.x() - d, x.y(), x.z()),
+                                   out(x.x(), x.y() + d, x.z()) - out(x.x(), x.y() - d, x.z()),
                                    out(x.x(), x.y(), x.z() + d) - out(x.x(), x.y(), x.z() - d));
     return gradient.norm() > 0 ? gradient.normalized().eval() : gradient;
 }
 
 std::vector<Eigen::Vector3d> Deformation::of(const std::vector<Eigen::Vector3d>& places, double beats) const {
-    const double once = turn * beats, time[] = {1, std::cos(once), std::sin(once), std::cos(2 * once), std::sin(2 * once)};
+    const double once = turn * beats,
+                 time[] = {1, std::cos(once), std::sin(once), std::cos(2 * once), std::sin(2 * once)};
     std::vector<Eigen::Vector3d> now;  // by term
     int most = 0;
     for (const Term& term : terms) {
@@ -181,7 +192,8 @@ std::vector<Eigen::Vector3d> Deformation::of(const std::vector<Eigen::Vector3d>&
     for (const Eigen::Vector3d& place : places) {
         const double along = 1 + 2 * place.x();
         for (int i = 1; i <= most; ++i) powers[i] = powers[i - 1].cwiseProduct(place);
-        for (int i = 1; i <= most; ++i) powers[i].x() = i == 1 ? along : 2 * along * powers[i - 1].x() - powers[i - 2].x();
+        for (int i = 1; i <= most; ++i)
+            powers[i].x() = i == 1 ? along : 2 * along * powers[i - 1].x() - powers[i - 2].x();
         Eigen::Vector3d& sum = result.emplace_back(Eigen::Vector3d::Zero());
         for (std::size_t k = 0; k < terms.size(); ++k) {
             const Eigen::Vector3i& order = terms[k].order;
@@ -191,7 +203,8 @@ std::vector<Eigen::Vector3d> Deformation::of(const std::vector<Eigen::Vector3d>&
     return result;
 }
 
-std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& straight, double length, double beats) const {
+std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& straight, double length,
+                                           double beats) const {
     if (!deformation.terms.empty()) {
         std::vector<Eigen::Vector3d> places;
         for (const Eigen::Vector3d& at : straight) places.push_back(at / length);
@@ -200,8 +213,10 @@ std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& s
         return places;
     }
     const double ds = 1.0 / parts;
-    std::vector<double> angle(parts + 1), x(parts + 1), z(parts + 1);  // of the midline, by its parts' ends; of the length
-    // dz is the sine of the angle times the way along the midline, and its tangent times that along the axis: both keep z and the length.
+    std::vector<double> angle(parts + 1), x(parts + 1),
+        z(parts + 1);  // of the midline, by its parts' ends; of the length
+    // dz is the sine of the angle times the way along the midline, and its tangent times that along the axis: both keep
+    // z and the length.
     const auto angle_at = [&](double s) {
         const double rise = slope(s, ds, beats);
         return wave == Wave::displacement ? std::asin(rise) : std::atan(rise);
@@ -223,15 +238,19 @@ std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& s
     for (const Eigen::Vector3d& at : straight) {
         const double s = std::clamp(-at.x() / length, 0.0, 1.0) * parts;
         const int k = std::min(static_cast<int>(s), parts - 1);
-        const auto here = [&, part = s - k](const std::vector<double>& of) { return of[k] + part * (of[k + 1] - of[k]); };
+        const auto here = [&, part = s - k](const std::vector<double>& of) {
+            return of[k] + part * (of[k + 1] - of[k]);
+        };
         const double turned = here(angle);
-        places.emplace_back(length * here(x) + at.z() * std::sin(turned), at.y(), length * here(z) + at.z() * std::cos(turned));
+        places.emplace_back(length * here(x) + at.z() * std::sin(turned), at.y(),
+                            length * here(z) + at.z() * std::cos(turned));
     }
     return places;
 }
 
 void read_midline(const json& midline, const Place& place, Swimmer& swimmer) {
-    fields::read_object<Swimmer>(midline, place, {{"scale", &Swimmer::scale, {0, 10}}, {"waves", &Swimmer::waves, {-10, 10}}},
+    fields::read_object<Swimmer>(midline, place,
+                                 {{"scale", &Swimmer::scale, {0, 10}}, {"waves", &Swimmer::waves, {-10, 10}}},
                                  {"by", "amplitude", "phase", "ramp"}, swimmer);
     using Wave = Swimmer::Wave;
     swimmer.wave = fields::read_choice<Wave>(fields::required(midline, place, "by"), place.key("by"),
@@ -247,18 +266,22 @@ void read_midline(const json& midline, const Place& place, Swimmer& swimmer) {
     for (int t = 0; t < 50 && swimmer.wave == Wave::displacement; ++t)
         for (int k = 0; k <= parts; ++k)
             if (!(std::abs(swimmer.slope(k * ds, ds, 9 + t / 50.0)) < 1))
-                fields::refuse(place, "rises by more than its length at s = " + number_text(k * ds) + "; must rise less");
+                fields::refuse(place,
+                               "rises by more than its length at s = " + number_text(k * ds) + "; must rise less");
 }
 
 Swimmer swimmer_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     Swimmer swimmer;
-    fields::read_object<Swimmer>(document, top, {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
-                                 {"source", "outline", "midline", "deformation", "towed", "variants", "targets"}, swimmer);
+    fields::read_object<Swimmer>(
+        document, top,
+        {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
+        {"source", "outline", "midline", "deformation", "towed", "variants", "targets"}, swimmer);
     for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
     std::string source;
     fields::read(document["source"], top.key("source"), {}, source);
-    const auto outline = read_table(fields::required(document, top, "outline"), top.key("outline"), swimmer.slab ? 1 : 2, {0, 1});
+    const auto outline =
+        read_table(fields::required(document, top, "outline"), top.key("outline"), swimmer.slab ? 1 : 2, {0, 1});
     swimmer.half_width = column(outline, 1);
     if (!swimmer.slab) swimmer.half_height = column(outline, 2);
     if (document.contains("deformation"))

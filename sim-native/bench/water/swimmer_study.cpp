@@ -29,7 +29,7 @@ struct Beat {
     double pressure = 0, thrust = 0;  ///< on a lattice
 };
 
-struct Swum {
+struct SwimResult {
     WaterRun run;
     std::vector<Beat> beats;
     double tail_beat = 0;  ///< in the counted beats
@@ -39,10 +39,12 @@ struct Swum {
 
 /// `height`: of a slab, in lengths.
 template <class AnySwim>
-void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, double height, const SwimmerStudy& study, Swum& swum) {
+void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, double height, const SwimmerStudy& study,
+            SwimResult& swum) {
     const SwimBody& body = swim.body();
     const double length = scene.length, beat = scene.beat;
-    const double mass = std::pow(length / swim.spacing(), 3) * (swimmer.slab ? height : 1);  // of a cubic length of water
+    const double mass =
+        std::pow(length / swim.spacing(), 3) * (swimmer.slab ? height : 1);  // of a cubic length of water
     const auto frames = static_cast<double>(body.frames_per_beat());
     Track counted;
     for (int k = 0; k < study.beats; ++k) {
@@ -74,14 +76,14 @@ void follow(AnySwim& swim, const Swimmer& swimmer, const SwimScene& scene, doubl
 }
 
 template <class Real>
-Swum swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+SwimResult swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
     SwimScene scene;
     scene.box *= pool.box;
     if (swimmer.slab) scene.box.y() = slab_height;
     const double length = scene.length, beat = scene.beat;
     scene.gravity = 2 * *pool.pressure / scene.box.y() * length / (beat * beat);
     Swim<Real> swim(swimmer, scene, pool.water);
-    Swum swum;
+    SwimResult swum;
     swum.steps = swim.body().frames_per_beat() * pool.water.solver.substeps;
     swum.viscous = !swim.set_kinematic_viscosity(swimmer.viscosity * length * length / beat);
     if (swum.viscous)
@@ -91,12 +93,12 @@ Swum swim_among_particles(const Swimmer& swimmer, const SwimmerStudy& study, con
     return swum;
 }
 
-Swum swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
+SwimResult swim_on_lattice(const Swimmer& swimmer, const SwimmerStudy& study, const Pool& pool) {
     const int resolution = pool.water.resolution;
     SwimScene scene;
     scene.box = pool.box * Eigen::Vector3d(4, 1, 2);
     LatticeSwim swim(swimmer, scene, resolution, *pool.mach, pool.water.gpu);
-    Swum swum;
+    SwimResult swum;
     swum.steps = swim.body().frames_per_beat();
     follow(swim, swimmer, scene, 1.0 / resolution, study, swum);
     return swum;
@@ -111,26 +113,35 @@ Row key_of(const SwimCase& one, const std::string& variant, const SwimmerStudy& 
     const WaterSetting& water = pool.water;
     const Setting& solver = water.solver;
     const auto number = [](const std::optional<double>& value) { return value ? number_text(*value) : ""; };
-    Row key{one.name, variant, std::to_string(water.resolution), number_text(pool.box), number(pool.pressure), std::to_string(study.beats),
-            pool.mach ? "lattice" : to_string(solver.scheme), to_string(solver.precision), water.gpu ? "cuda" : "cpu"};
+    Row key{one.name,
+            variant,
+            std::to_string(water.resolution),
+            number_text(pool.box),
+            number(pool.pressure),
+            std::to_string(study.beats),
+            pool.mach ? "lattice" : to_string(solver.scheme),
+            to_string(solver.precision),
+            water.gpu ? "cuda" : "cpu"};
     if (pool.mach)
         key = joined_rows(key, Row(5));
     else
-        key = joined_rows(key, {std::to_string(solver.substeps), std::to_string(solver.iterations), yes_or_no(solver.modified_pressure),
-                                number_text(water.support), std::to_string(water.start)});
+        key = joined_rows(
+            key, {std::to_string(solver.substeps), std::to_string(solver.iterations),
+                  yes_or_no(solver.modified_pressure), number_text(water.support), std::to_string(water.start)});
     key.push_back(number(pool.mach));
     return key;
 }
 
-Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
-    const auto mean = [&](double Beat::*of) {
+Figures figures_of(const SwimResult& swum, const Swimmer& swimmer, int counted) {
+    const auto mean = [&](double Beat::* of) {
         double sum = 0;
         for (auto beat = swum.beats.end() - counted; beat != swum.beats.end(); ++beat) sum += (*beat).*of / counted;
         return sum;
     };
     const double speed = swimmer.towed.value_or(mean(&Beat::speed));
     double square = 0;
-    for (auto beat = swum.beats.end() - counted; beat != swum.beats.end(); ++beat) square += std::pow(beat->speed - speed, 2);
+    for (auto beat = swum.beats.end() - counted; beat != swum.beats.end(); ++beat)
+        square += std::pow(beat->speed - speed, 2);
     return {{"speed", speed},
             {"spread", counted > 1 ? std::sqrt(square / (counted - 1)) : 0},
             {"lateral", mean(&Beat::lateral)},
@@ -148,18 +159,21 @@ Figures figures_of(const Swum& swum, const Swimmer& swimmer, int counted) {
 
 Row judged(double value, const SwimTarget& target) {
     const bool compared = target.reference && *target.reference != 0;
-    return {target.reference ? measured_text(*target.reference) : "", compared ? measured_text(value / *target.reference - 1) : "",
+    return {target.reference ? measured_text(*target.reference) : "",
+            compared ? measured_text(value / *target.reference - 1) : "",
             yes_or_no(target.least <= value && value <= target.greatest), yes_or_no(target.confirmed)};
 }
 
-void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study, const Pool& pool, ResultTable& table,
-             ResultTable& beats, const std::function<void(const std::string&)>& report) {
+void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant, const SwimmerStudy& study,
+             const Pool& pool, ResultTable& table, ResultTable& beats,
+             const std::function<void(const std::string&)>& report) {
     const Swimmer& swimmer = variant.second;
     const Row key = key_of(one, variant.first, study, pool);
     if (table.has(key)) return;
-    const Swum swum = pool.mach ? swim_on_lattice(swimmer, study, pool) : in_precision(pool.water.solver.precision, [&](auto real) {
-        return swim_among_particles<decltype(real)>(swimmer, study, pool);
-    });
+    const SwimResult swum =
+        pool.mach ? swim_on_lattice(swimmer, study, pool) : in_precision(pool.water.solver.precision, [&](auto real) {
+            return swim_among_particles<decltype(real)>(swimmer, study, pool);
+        });
     for (std::size_t k = 0; k < swum.beats.size(); ++k) {
         const Beat& beat = swum.beats[k];
         Row row = joined_rows(key, {std::to_string(k + 1)});
@@ -172,9 +186,13 @@ void run_one(const SwimCase& one, const std::pair<std::string, Swimmer>& variant
     const bool ok = !swum.viscous && !swum.run.instability;
     Figures figures;
     if (ok) figures = figures_of(swum, swimmer, study.counted);
-    Row row = joined_rows(key, {ok ? "ok" : swum.viscous ? "too viscous" : "unstable", measured_text(widest * pool.water.resolution), std::to_string(swum.steps),
+    Row row = joined_rows(key, {ok             ? "ok"
+                                : swum.viscous ? "too viscous"
+                                               : "unstable",
+                                measured_text(widest * pool.water.resolution), std::to_string(swum.steps),
                                 number_text(swimmer.viscosity)});
-    for (const std::string& name : swim_quantities()) row.push_back(ok && (pool.mach || !only_on_lattice(name)) ? measured_text(figures[name]) : "");
+    for (const std::string& name : swim_quantities())
+        row.push_back(ok && (pool.mach || !only_on_lattice(name)) ? measured_text(figures[name]) : "");
     row = joined_rows(row, {std::to_string(swum.run.particles), measured_text(swum.run.seconds)});
     const auto target = std::ranges::find_if(one.targets, [&](const SwimTarget& of) {
         return of.over.empty() && of.zero_of.empty() && (of.variant.empty() || of.variant == variant.first);
@@ -189,8 +207,10 @@ std::vector<Pool> pools_of(const SwimmerStudy& study, int resolution, double box
     for (const double pressure : study.pressures)
         for (const Setting& setting : study.settings)
             for (const double support : study.supports)
-                for (const int start : study.starts) pools.push_back({box, {}, pressure, {setting, resolution, study.gpu, support, start}});
-    for (const double mach : study.machs) pools.push_back({box, mach, {}, {.solver = {}, .resolution = resolution, .gpu = study.gpu}});
+                for (const int start : study.starts)
+                    pools.push_back({box, {}, pressure, {setting, resolution, study.gpu, support, start}});
+    for (const double mach : study.machs)
+        pools.push_back({box, mach, {}, {.solver = {}, .resolution = resolution, .gpu = study.gpu}});
     return pools;
 }
 
@@ -198,7 +218,8 @@ std::vector<Pool> pools_of(const SwimmerStudy& study, int resolution, double box
 double exponent(const std::vector<Eigen::Vector2d>& points) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     std::vector<Eigen::Vector2d> logs;
-    for (const Eigen::Vector2d& point : points) logs.emplace_back(std::log(std::abs(point.x())), std::log(std::abs(point.y())));
+    for (const Eigen::Vector2d& point : points)
+        logs.emplace_back(std::log(std::abs(point.x())), std::log(std::abs(point.y())));
     for (const Eigen::Vector2d& point : logs) mean += point / static_cast<double>(logs.size());
     double along = 0, across = 0;
     for (const Eigen::Vector2d& point : logs) {
@@ -221,8 +242,9 @@ double at_zero(std::vector<Eigen::Vector2d> points) {
 }  // namespace
 
 Row swimmer_columns() {
-    Row columns{"case", "variant", "resolution", "box", "pressure", "beats", "scheme", "precision", "backend", "substeps", "iterations",
-                "modified_pressure", "support", "start", "mach", "status", "across", "steps", "viscosity"};
+    Row columns{"case",      "variant", "resolution", "box",        "pressure",          "beats",   "scheme",
+                "precision", "backend", "substeps",   "iterations", "modified_pressure", "support", "start",
+                "mach",      "status",  "across",     "steps",      "viscosity"};
     columns = joined_rows(columns, swim_quantities());
     return joined_rows(columns, {"particles", "run_time", "reference", "deviation", "met", "confirmed"});
 }
@@ -239,7 +261,8 @@ void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTabl
     for (const std::string& name : study.cases) {
         cases.push_back(read_swim_case(name));
         if (std::ranges::count(cases, cases.back().name, &SwimCase::name) > 1)
-            throw InputError(name + ": another case is named \"" + cases.back().name + "\" too; must have a name of its own");
+            throw InputError(name + ": another case is named \"" + cases.back().name +
+                             "\" too; must have a name of its own");
     }
     for (const SwimCase& one : cases)
         for (const int resolution : study.resolutions)

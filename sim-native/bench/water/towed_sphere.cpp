@@ -6,8 +6,8 @@
 
 namespace natator::bench {
 
-/// A sphere that is held and towed through resting water at one speed, ever more viscous: the water's own drag, without what
-/// a fall would depend on, its weight and buoyancy. At resolution 20 it is 8 particles across.
+/// A sphere that is held and towed through resting water at one speed, ever more viscous: the water's own drag, without
+/// what a fall would depend on, its weight and buoyancy. At resolution 20 it is 8 particles across.
 WaterRun run_towed_sphere(const WaterSetting& setting) {
     const double diameter = 0.4 * water_length, width = 1.6 * water_length;
     const int across = particles_along(width, setting);

@@ -27,8 +27,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     const double density = 1 / std::pow(spacing, 3);  // particles of mass 1
 
     TowResult result;
-    result.diameter = towing.cylinder ? std::sqrt(4 * volume / (std::numbers::pi * width))
-                                      : diameter_of_sphere(volume);
+    result.diameter = towing.cylinder ? std::sqrt(4 * volume / (std::numbers::pi * width)) : diameter_of_sphere(volume);
     const double diameter = result.diameter;
     const double area = diameter * (towing.cylinder ? width : std::numbers::pi / 4 * diameter);
     const double scale = density * towing.speed * towing.speed / 2 * area;

@@ -15,14 +15,15 @@ struct Towing {
         double way;  ///< diameters
     };
 
-    Eigen::Vector3i count;           ///< particles of the box
-    Eigen::Vector3d middle;          ///< of the body
-    double diameter = 1;             ///< as asked for; its particles make it a little more or less
-    bool cylinder = false;           ///< across the whole box along z; else a sphere
-    double speed = 1;                ///< after a diameter in which it grows evenly
-    double gravity = 1;              ///< enough for the water to close behind the body
+    Eigen::Vector3i count;   ///< particles of the box
+    Eigen::Vector3d middle;  ///< of the body
+    double diameter = 1;     ///< as asked for; its particles make it a little more or less
+    bool cylinder = false;   ///< across the whole box along z; else a sphere
+    double speed = 1;        ///< after a diameter in which it grows evenly
+    double gravity = 1;      ///< enough for the water to close behind the body
     std::vector<Leg> legs;
-    double sway = 0;  ///< of the speed: once to and fro across the way, along y, in the first ten diameters: sets off vortices
+    /// of the speed: once to and fro across the way, along y, in the first ten diameters: sets off vortices
+    double sway = 0;
 };
 
 struct TowSample {
@@ -33,10 +34,11 @@ struct TowSample {
 };
 
 struct TowResult {
-    WaterRun run;           ///< without figures
-    double diameter = 0;    ///< of a sphere or circle of the volume that the body's particles have
-    double box_step = 0;    ///< diameters that the box is moved on by at a time; each gives the body a knock
-    std::vector<std::vector<TowSample>> legs;  ///< a sample a frame; without those whose viscosity is more than a substep bears
+    WaterRun run;         ///< without figures
+    double diameter = 0;  ///< of a sphere or circle of the volume that the body's particles have
+    double box_step = 0;  ///< diameters that the box is moved on by at a time; each gives the body a knock
+    /// a sample a frame; without those whose viscosity is more than a substep bears
+    std::vector<std::vector<TowSample>> legs;
 };
 
 TowResult tow(const Towing& towing, const WaterSetting& setting);

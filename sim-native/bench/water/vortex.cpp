@@ -9,17 +9,17 @@
 namespace natator::bench {
 namespace {
 
-constexpr double speed = 0.5;   ///< U, length/s
-constexpr int turnovers = 4;    ///< how long it is followed, in L / U
+constexpr double speed = 0.5;  ///< U, length/s
+constexpr int turnovers = 4;   ///< how long it is followed, in L / U
 constexpr int layers = 8;
-constexpr double faint = 0.05;       ///< amplitudes below this say nothing of the decay
-constexpr double unlimited = 1e6;    ///< Reynolds number of a flow that does not decay
+constexpr double faint = 0.05;     ///< amplitudes below this say nothing of the decay
+constexpr double unlimited = 1e6;  ///< Reynolds number of a flow that does not decay
 
 /// One cell of a Taylor-Green flow between free-slip walls: u = U sin(kx) cos(kz), w = -U cos(kx) sin(kz), k = pi / L.
 Eigen::Vector3d flow_at(const Eigen::Vector3d& x) {
     constexpr double k = std::numbers::pi / water_length;
-    return speed * Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.z()), 0,
-                                   -std::cos(k * x.x()) * std::sin(k * x.z()));
+    return speed *
+           Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.z()), 0, -std::cos(k * x.x()) * std::sin(k * x.z()));
 }
 
 /// Part of the flow that is left, by projection on it.
@@ -92,8 +92,8 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
     throw std::logic_error("no run with viscosity");
 }
 
-/// Water that has rested packs closer once it turns, and what it loses of its height moves it. `stirred`: it has turned once
-/// before, and is set turning anew.
+/// Water that has rested packs closer once it turns, and what it loses of its height moves it. `stirred`: it has turned
+/// once before, and is set turning anew.
 template <class Real>
 WaterRun run_as(const WaterSetting& setting, bool stirred) {
     WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
@@ -116,10 +116,11 @@ WaterRun run_as(const WaterSetting& setting, bool stirred) {
     const bool fine = setting.resolution >= 40;
     const double viscosity = viscosity_from(decay_rate(run.curve));
     const double reynolds = viscosity > 0 ? std::min(speed * water_length / viscosity, unlimited) : unlimited;
-    run.figures = {{.value = run.curve[frames_per_turnover].value, .reference = 1, .least = fine ? 0.98 : 0.95},
-                   {.value = reynolds, .reference = std::numeric_limits<double>::infinity(), .least = fine ? 1100.0 : 600.0},
-                   {.value = (most.kinetic - first.kinetic) / first.kinetic, .reference = 0, .greatest = 0.001},
-                   {.value = (most.whole - first.whole) / first.kinetic, .reference = 0, .greatest = 0.001}};
+    run.figures = {
+        {.value = run.curve[frames_per_turnover].value, .reference = 1, .least = fine ? 0.98 : 0.95},
+        {.value = reynolds, .reference = std::numeric_limits<double>::infinity(), .least = fine ? 1100.0 : 600.0},
+        {.value = (most.kinetic - first.kinetic) / first.kinetic, .reference = 0, .greatest = 0.001},
+        {.value = (most.whole - first.whole) / first.kinetic, .reference = 0, .greatest = 0.001}};
     return run;
 }
 

@@ -15,8 +15,8 @@ namespace natator::bench {
 /// How a case is computed.
 struct WaterSetting {
     Setting solver;
-    int resolution = 20;  ///< particles along the case's length
-    std::optional<int> gpu{};  ///< its number; none: on the CPU
+    int resolution = 20;                                            ///< particles along the case's length
+    std::optional<int> gpu{};                                       ///< its number; none: on the CPU
     double support = SolverParameters().conserving.kernel_support;  ///< of the kernel of scheme conserving, in spacings
     int start = 1;  ///< of scheme conserving: each begins with its water disordered otherwise
 };
@@ -24,7 +24,7 @@ struct WaterSetting {
 /// One number that a case gives, beside what it should be.
 struct WaterFigure {
     double value = 0;
-    double reference = 0;  ///< exact
+    double reference = 0;                                       ///< exact
     double least = -std::numeric_limits<double>::infinity();    ///< the target: from here
     double greatest = std::numeric_limits<double>::infinity();  ///< to here
 
@@ -33,10 +33,8 @@ struct WaterFigure {
 
 /// The target: within this part of what it should be.
 inline WaterFigure figure_within(double part, double value, double reference) {
-    return {.value = value,
-            .reference = reference,
-            .least = (1 - part) * reference,
-            .greatest = (1 + part) * reference};
+    return {
+        .value = value, .reference = reference, .least = (1 - part) * reference, .greatest = (1 + part) * reference};
 }
 
 /// A point of the curve that a case follows.
@@ -47,9 +45,9 @@ struct WaterSample {
 
 struct WaterRun {
     int particles = 0;
-    double seconds = 0;                      ///< wall time of the frames
-    std::vector<WaterFigure> figures;        ///< of the case's quantities: of the first ones where the others' viscosity is more than a
-                                             ///< substep bears
+    double seconds = 0;                ///< wall time of the frames
+    std::vector<WaterFigure> figures;  ///< of the case's quantities: of the first ones where the others' viscosity is
+                                       ///< more than a substep bears
     std::vector<WaterSample> curve;
     std::optional<Instability> instability;  ///< then figures mean nothing
 };
@@ -59,8 +57,8 @@ struct WaterCase {
     std::string curve;                    ///< what the curve shows
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
-    bool held = false;  ///< takes minutes, and most of these need the forces on held bodies or the pressures: runs only where
-                        ///< they are known, in scheme conserving
+    bool held = false;  ///< takes minutes, and most of these need the forces on held bodies or the pressures: runs only
+                        ///< where they are known, in scheme conserving
 };
 
 /// All cases.

@@ -33,7 +33,8 @@ Row name_of_curve(const WaterCase& one, const WaterSetting& setting) {
 }
 
 Row name_of(const WaterCase& one, const WaterSetting& setting) {
-    return with(name_of_curve(one, setting), setting.solver.scheme == Scheme::conserving ? std::to_string(setting.start) : "");
+    return with(name_of_curve(one, setting),
+                setting.solver.scheme == Scheme::conserving ? std::to_string(setting.start) : "");
 }
 
 bool is_done(const WaterCase& one, const Row& name, const ResultTable& table) {
@@ -75,12 +76,14 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
 }  // namespace
 
 Row water_columns() {
-    return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "modified_pressure", "support",
-            "start",    "quantity", "status",  "value",  "reference", "least",   "greatest", "met",        "particles", "run_time"};
+    return {"case",    "resolution", "scheme",   "precision", "backend", "substeps",  "iterations", "modified_pressure",
+            "support", "start",      "quantity", "status",    "value",   "reference", "least",      "greatest",
+            "met",     "particles",  "run_time"};
 }
 
 Row water_curve_columns() {
-    return {"case", "resolution", "scheme", "precision", "backend", "substeps", "iterations", "modified_pressure", "support", "time", "value"};
+    return {"case",       "resolution",        "scheme",  "precision", "backend", "substeps",
+            "iterations", "modified_pressure", "support", "time",      "value"};
 }
 
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,

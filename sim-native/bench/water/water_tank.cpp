@@ -82,9 +82,12 @@ typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) {
     const auto step_by = [this](auto solver) -> Step {
         pressures_ = [solver] { return solver->pressures(); };
         forces_ = [solver] { return solver->forces(); };
-        return [solver](State<Real>& state, double time, int substeps) { return solver->update(state, time, substeps); };
+        return
+            [solver](State<Real>& state, double time, int substeps) { return solver->update(state, time, substeps); };
     };
-    if (setting_.gpu) return step_by(std::make_shared<GpuSolver<Real>>(model, GpuSolverOptions{.device = *setting_.gpu, .forces = true}));
+    if (setting_.gpu)
+        return step_by(
+            std::make_shared<GpuSolver<Real>>(model, GpuSolverOptions{.device = *setting_.gpu, .forces = true}));
     return step_by(std::make_shared<Solver<Real>>(model, Execution{.forces = true}));
 }
 

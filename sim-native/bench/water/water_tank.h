@@ -15,12 +15,16 @@ namespace natator::bench {
 /// Length of the cases along x, in units of the scene. With 20 particles along it their spacing is that of the thesis.
 inline constexpr double water_length = 2;
 
-inline double spacing_of(const WaterSetting& setting) { return water_length / setting.resolution; }
+inline double spacing_of(const WaterSetting& setting) {
+    return water_length / setting.resolution;
+}
 /// How many particles fit along a length.
 inline int particles_along(double length, const WaterSetting& setting) {
     return static_cast<int>(std::lround(length / spacing_of(setting)));
 }
-inline double diameter_of_sphere(double volume) { return std::cbrt(6 * volume / std::numbers::pi); }
+inline double diameter_of_sphere(double volume) {
+    return std::cbrt(6 * volume / std::numbers::pi);
+}
 
 /// How a body is moved.
 struct Motion {
@@ -60,25 +64,26 @@ public:
 
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
-    /// Frames for as long as that, s, as far as the water stays stable. The curve is value() before the first and after every
-    /// one.
+    /// Frames for as long as that, s, as far as the water stays stable. The curve is value() before the first and after
+    /// every one.
     WaterRun follow(double duration, const std::function<double()>& value);
     /// A frame while the particles of infinite mass move as one rigid body.
     bool drive(const Motion& motion, Load& load);
     /// A frame while each particle of infinite mass moves at the velocity that `velocity` gives it; `force` becomes the
     /// mean force of the water on each particle.
     bool drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force);
-    /// A frame: before each substep `set_off` gives the particles of infinite mass their velocities, after it `arrive` gets the
-    /// substep, s, and the forces of the water on each particle, and moves them on.
+    /// A frame: before each substep `set_off` gives the particles of infinite mass their velocities, after it `arrive`
+    /// gets the substep, s, and the forces of the water on each particle, and moves them on.
     bool drive(const std::function<void()>& set_off,
                const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
-    /// Moves the walls along x by so much, or back: the water that is left behind the rear one is put before the front, at rest.
-    /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
+    /// Moves the walls along x by so much, or back: the water that is left behind the rear one is put before the front,
+    /// at rest. All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
     /// Of the model, from now on.
     void change(const Change& how);
     void set_gravity(const Eigen::Vector3d& gravity);
-    /// length^2/s; means nothing to the schemes that take none. False where it is more than a substep bears; then it stays as it was.
+    /// length^2/s; means nothing to the schemes that take none. False where it is more than a substep bears; then it
+    /// stays as it was.
     [[nodiscard]] bool set_kinematic_viscosity(double viscosity);
 
     /// A run with what is known of the tank so far: particles, wall time of the frames, instability.

@@ -20,9 +20,7 @@ void add_precision(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "precision", "Run time against error over 0.25 s, for scenes x schemes x precisions x substeps x iterations.");
     add_study_options(command, options->common, {"float", "double"});
-    command->add_option("--scene", options->scenes, "Scenes.")
-        ->check(one_of(subject_names()))
-        ->capture_default_str();
+    command->add_option("--scene", options->scenes, "Scenes.")->check(one_of(subject_names()))->capture_default_str();
     add_grid(command, options->grid);
     add_repeats(command, options->repeats, "Time measurements per setting; their median counts.");
     command->callback([options, &status] {

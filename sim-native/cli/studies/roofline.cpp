@@ -20,8 +20,9 @@ void add_roofline(CLI::App& app, int& status) {
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations. On a GPU: "
-                    "how near those of scheme conserving come to loops that only fetch.");
+        "roofline",
+        "How near the stages come to what the processor can do: measured roofs, counted operations. On a GPU: "
+        "how near those of scheme conserving come to loops that only fetch.");
     command->add_option("--scheme", options->common.schemes, "flex, conserving; the latter alone on a GPU.")
         ->check(one_of({"flex", "conserving"}))
         ->capture_default_str();

@@ -37,7 +37,8 @@ void add_speed(CLI::App& app, int& status) {
         ->check(whole_number_in(1, limits::threads))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
-                        "Substeps and iterations, such as 2x4, or 1x2m for the modified pressure, instead of the scene's; rows name them behind the scene.");
+                        "Substeps and iterations, such as 2x4, or 1x2m for the modified pressure, instead of the "
+                        "scene's; rows name them behind the scene.");
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const StudyOptions& common = options->common;
@@ -46,16 +47,17 @@ void add_speed(CLI::App& app, int& status) {
         const bool gpu = on_gpu(options->backend, {});
         ResultTable table = gpu ? ResultTable(common.output, gpu_speed_columns(), gpu_speed_key_columns)
                                 : ResultTable(common.output, speed_columns(), speed_key_columns);
-        ResultTable profile = gpu ? table_beside(common, "profile", gpu_speed_profile_columns(), gpu_speed_key_columns + 1)
-                                  : table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
+        ResultTable profile =
+            gpu ? table_beside(common, "profile", gpu_speed_profile_columns(), gpu_speed_key_columns + 1)
+                : table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
         if (gpu)
-            run_gpu_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->batches,
-                                 options->backend.device, options->repeats, common.quick, options->backend.whole_gpu,
-                                 options->backend.without_lists},
-                                table, profile, report);
+            run_gpu_speed_study(
+                {scenes, common.chosen_schemes(), common.chosen_precisions(), options->batches, options->backend.device,
+                 options->repeats, common.quick, options->backend.whole_gpu, options->backend.without_lists},
+                table, profile, report);
         else
-            run_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads, options->repeats,
-                             common.quick},
+            run_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads,
+                             options->repeats, common.quick},
                             table, profile, report);
         if (common.output.empty()) print(table.text() + profile.text());
         status = ok;

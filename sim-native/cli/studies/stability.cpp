@@ -28,13 +28,16 @@ void add_stability(CLI::App& app, int& status) {
         BackendChoice backend;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "stability", "Sweep one thing, or two, to the point where it breaks a law: ok or unstable, and how much of what laws allow was used.");
+    CLI::App* command = app.add_subcommand("stability",
+                                           "Sweep one thing, or two, to the point where it breaks a law: ok or "
+                                           "unstable, and how much of what laws allow was used.");
     add_study_options(command, options->common, {"float"});
     command->add_option("--axis", options->axes, "What to sweep, such as dt or dt:iterations. Default: all.");
     std::vector<std::string> names;
     for (const StabilityScene& scene : stability_scenes()) names.push_back(scene.name);
-    command->add_option("--scene", options->scenes, "What is put under stress.")->check(one_of(names))->capture_default_str();
+    command->add_option("--scene", options->scenes, "What is put under stress.")
+        ->check(one_of(names))
+        ->capture_default_str();
     command->add_option("--duration", options->duration, "Of each run, s; at least 8 frames are run. Rows do not tell.")
         ->check(number_in(0.01, 1000))
         ->capture_default_str();

@@ -23,9 +23,7 @@ void add_stages(CLI::App& app, int& status) {
     command->add_option("--feature", asked.features, "Features of a scene.")
         ->check(one_of(stage_feature_names()))
         ->capture_default_str();
-    command->add_option("--state", asked.states, "off, on.")
-        ->check(one_of({"off", "on"}))
-        ->capture_default_str();
+    command->add_option("--state", asked.states, "off, on.")->check(one_of({"off", "on"}))->capture_default_str();
     command->add_flag("--skipped-only", asked.skipped_only, "Do not also run everything without skipping.");
     add_repeats(command, asked.repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {

@@ -17,7 +17,8 @@ std::vector<Setting> settings_at(const StudyOptions& common, const std::vector<S
     std::vector<Setting> settings;
     for (const Scheme scheme : common.chosen_schemes())
         for (const Precision precision : common.chosen_precisions())
-            for (const Steps& one : steps) settings.push_back({scheme, precision, one.substeps, one.iterations, one.modified_pressure});
+            for (const Steps& one : steps)
+                settings.push_back({scheme, precision, one.substeps, one.iterations, one.modified_pressure});
     return settings;
 }
 
@@ -86,12 +87,15 @@ std::optional<int> WaterOptions::gpu() const {
 
 void add_water_options(CLI::App* command, WaterOptions& water) {
     add_backend_options(command, water.backend);
-    command->add_option("--setting", water.settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")
+    command
+        ->add_option("--setting", water.settings,
+                     "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")
         ->capture_default_str();
     command->add_option("--support", water.supports, "Of the kernel of scheme conserving, in particle distances.")
         ->check(number_in(limits::min_kernel_support, limits::max_kernel_support))
         ->capture_default_str();
-    command->add_option("--start", water.starts, "Of scheme conserving: each begins with its water disordered otherwise.")
+    command
+        ->add_option("--start", water.starts, "Of scheme conserving: each begins with its water disordered otherwise.")
         ->check(whole_number_in(1, 1'000'000))
         ->capture_default_str();
 }
@@ -108,7 +112,8 @@ void finish(const StudyOptions& common, const ResultTable& table) {
     if (common.output.empty()) print(table.text());
 }
 
-void finish(const StudyOptions& common, const ResultTable& table, const ResultTable& summary, const std::string& suffix) {
+void finish(const StudyOptions& common, const ResultTable& table, const ResultTable& summary,
+            const std::string& suffix) {
     if (common.output.empty())
         print(table.text());
     else

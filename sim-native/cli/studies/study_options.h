@@ -48,7 +48,8 @@ struct WaterOptions {
     std::vector<int> starts{1};
     BackendChoice backend;
 
-    /// Number of the GPU to compute on, if not on the CPU. Throws InputError where options of a GPU are given for a CPU.
+    /// Number of the GPU to compute on, if not on the CPU. Throws InputError where options of a GPU are given for a
+    /// CPU.
     std::optional<int> gpu() const;
 };
 /// Adds --setting, --support, --start and those of the backend.

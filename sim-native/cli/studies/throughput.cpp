@@ -30,14 +30,16 @@ void add_throughput(CLI::App& app, int& status) {
         ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
-                        "Substeps and iterations, such as 2x4, or 1x2m for the modified pressure, instead of the scene's; deep water may need more substeps, and gets them.");
+                        "Substeps and iterations, such as 2x4, or 1x2m for the modified pressure, instead of the "
+                        "scene's; deep water may need more substeps, and gets them.");
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const StudyOptions& common = options->common;
         on_gpu(options->backend, {});
-        ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
-                              options->batches,        options->backend.device,    options->repeats,
-                              common.quick,            options->backend.whole_gpu, options->backend.without_lists};
+        ThroughputStudy study{
+            common.chosen_schemes(),       common.chosen_precisions(), options->particles, options->batches,
+            options->backend.device,       options->repeats,           common.quick,       options->backend.whole_gpu,
+            options->backend.without_lists};
         if (!options->settings.empty()) study.settings.clear();
         for (const std::string& setting : options->settings) study.settings.push_back(steps_of(setting));
         if (common.quick) {

@@ -18,7 +18,8 @@ namespace {
 void refuse_modified_pressure(const std::vector<std::string>& settings) {
     for (const std::string& setting : settings)
         if (steps_of(setting).modified_pressure)
-            throw InputError("--setting = " + quoted(setting) + ": must be without m, a column that collapses is no tank that stays full");
+            throw InputError("--setting = " + quoted(setting) +
+                             ": must be without m, a column that collapses is no tank that stays full");
 }
 
 }  // namespace
@@ -31,8 +32,8 @@ void add_validation(CLI::App& app, int& status) {
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("validation",
-                                              "Front of a collapsing column against the experiment of Martin and Moyce "
-                                              "(1952), density of the fluid at rest against other simulators.");
+                                           "Front of a collapsing column against the experiment of Martin and Moyce "
+                                           "(1952), density of the fluid at rest against other simulators.");
     add_study_options(command, options->common, {"float"});
     command->add_option("--part", options->parts, "dam-break, tank.")
         ->check(one_of({"dam-break", "tank"}))

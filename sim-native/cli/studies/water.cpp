@@ -15,10 +15,12 @@ namespace {
 
 /// Refuses a case of which the study does nothing.
 void refuse_cases_left_out(const WaterStudy& study) {
-    const bool conserving = std::ranges::any_of(study.settings, [](const Setting& one) { return one.scheme == Scheme::conserving; });
+    const bool conserving =
+        std::ranges::any_of(study.settings, [](const Setting& one) { return one.scheme == Scheme::conserving; });
     for (const WaterCase& one : water_cases())
         if (one.held && !(study.held && conserving) && std::ranges::count(study.cases, one.name) > 0)
-            throw InputError("--case = " + one.name + ": runs in scheme conserving only, and not by --quick; must be left out");
+            throw InputError("--case = " + one.name +
+                             ": runs in scheme conserving only, and not by --quick; must be left out");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct Device {
     int multiprocessors = 0;
 };
 
-/// All of them; empty without a GPU, without its driver, or if this library was built without CUDA.
+/// All GPUs of this machine; empty without a driver, or if this library was built without CUDA.
 std::vector<Device> cuda_devices();
 
 /// Why the GPU's stages cannot do a scene, in one line; none if they can.
@@ -45,22 +45,25 @@ struct BatchTimes {
 /// How a batch is computed.
 struct BatchOptions {
     Precision precision = Precision::single_precision;
-    int device = 0;               ///< number of the GPU, see cuda_devices
-    bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
+    int device = 0;  ///< number of the GPU, see cuda_devices
+    /// members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
+    bool whole_gpu = false;
     /// Search the water's neighbours in every pass in place of storing lists; scheme `conserving`. The same bits, less
     /// memory, slower. A scene whose lists do not fit into the device's memory is computed like that anyway.
     bool without_lists = false;
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
-    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time. The same bits
+    /// where settled starts are kept; null settles every time. The same bits
+    const SettledStateCache* starts = nullptr;
 };
 
-/// Evaluates gaits in one scene on a GPU. In scheme `lattice` the water is on the GPU and bodies are on the host, a thread a member. Small scenes of scheme `flex` run one for each block of threads, or for
-/// several blocks where members are few. Everything else runs side by side by kernels of the whole GPU: scheme
-/// `conserving`, `options.whole_gpu`, more than 65 535 particles, and more than 20 000 in double or with effects.
-/// Result k belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number.
-/// A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last
-/// substep again, to name its stage. May be called from several threads at once. Throws InputError when a gait does not fit the scene or the scene needs what the
-/// GPU's stages do not do, NoDevice without that GPU or if this library was built without CUDA.
+/// Evaluates gaits in one scene on a GPU. In scheme `lattice` the GPU computes the water, and a host thread per member
+/// its bodies. Small scenes of scheme `flex` run in a block of threads each, or in several blocks where members are
+/// few. Everything else runs side by side by kernels of the whole GPU: scheme `conserving`, `options.whole_gpu`, more
+/// than 65 535 particles, and more than 20 000 in double or with effects. Result k belongs to member k. The result of a
+/// member is the same, bit by bit, whatever the others and their number. A batch that does not fit into the device's
+/// memory is computed in parts. For an unstable member the CPU repeats the last substep, to name the stage that failed.
+/// May be called from several threads at once. Throws InputError when a gait does not fit the scene or the scene needs
+/// what the GPU's stages do not do, NoDevice without that GPU or if this library was built without CUDA.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         const BatchOptions& options = {});
 
@@ -70,9 +73,9 @@ using MemberResult = std::variant<Evaluation, std::string>;
 /// Evaluates members that fit the scene together, in one launch: result k belongs to member k.
 using EvaluateTogether = std::function<std::vector<Evaluation>(const std::vector<BatchMember>&)>;
 
-/// Evaluates members of one scene so that one that can't be used costs the others nothing: each is checked first, the
-/// good ones go together. What is wrong with the scene, or costs too much (cost.h), all are told at once. Throws nothing
-/// but what memory for the results does.
+/// Evaluates members of one scene. Each is checked first, and only the valid ones are evaluated, together: a bad member
+/// costs the others nothing. An error in the scene, or a scene that costs too much (cost.h), is the answer for every
+/// member. Throws nothing but std::bad_alloc where there is no memory for the results.
 std::vector<MemberResult> evaluate_members(const Scene& scene, const std::vector<BatchMember>& members,
                                            const EvaluateTogether& together);
 

@@ -25,8 +25,8 @@ Gait resting_gait(int actuators);
 /// with power p != 1: ((sin + 1) / 2)^p * 2 - 1, thesis 4.2.
 double activation(const Gait& gait, int actuator, double time);
 
-/// What a program outside does to a swimmer's muscles while it swims: each actuator is driven by scale times what the gait
-/// gives it, plus offset. One value for each actuator in both lists.
+/// What a program outside does to a swimmer's muscles while it swims: each actuator is driven by scale times what the
+/// gait gives it, plus offset. One value for each actuator in both lists.
 struct Steering {
     std::vector<double> scale;   ///< factor on the gait's drive, [0, 4]
     std::vector<double> offset;  ///< added to it, [-2, 2]; positive bends the body to its left, or down
@@ -41,20 +41,22 @@ Steering steering_of_drive(const std::vector<double>& values);
 /// Whether the gait alone drives the muscles.
 bool leaves_gait(const Steering& steering);
 
-/// Throws InputError unless there is a value for each actuator, each within [-2, 2]. `name` is what the message calls them.
+/// Throws InputError unless there is a value for each actuator, each within [-2, 2]. `name` is what the message calls
+/// them.
 void check_drive(const std::vector<double>& values, int actuators, const char* name = "drive");
 
-/// Throws InputError unless both lists have a value for each actuator, each within its range, and scale times the gait's
-/// own largest drive, amplitude plus |offset|, plus |offset| is at most 2 for each: no muscle has a length below 0. The gait must fit (check_gait).
+/// Throws InputError unless both lists have a value for each actuator, each within its range, and scale times the
+/// gait's own largest drive, amplitude plus |offset|, plus |offset| is at most 2 for each: no muscle has a length below
+/// 0. The gait must fit (check_gait).
 void check_steering(const Steering& steering, const Gait& gait, int actuators);
 
-/// What drives the actuators at a part (0 to 1) of the way from one steering to another, if the gait gives `driven`: all of
-/// it goes in a straight line. Throws InputError unless both steerings have a value for each.
+/// What drives the actuators at a part (0 to 1) of the way from one steering to another, if the gait gives `driven`:
+/// all of it goes in a straight line. Throws InputError unless both steerings have a value for each.
 std::vector<double> steer(const Steering& from, const Steering& to, double part, std::vector<double> driven);
 
-/// A gait to begin with: a wave that runs from head to tail and grows on its way, at 2 beats a second, half a wave on the
-/// body. Muscles that bend another way than the first rest. Values are rounded to hundredths. Every bundled creature swims
-/// by it.
+/// A gait to begin with: a wave that runs from head to tail and grows on its way, at 2 beats a second, half a wave on
+/// the body. Muscles that bend another way than the first rest. Values are rounded to hundredths. Every bundled
+/// creature swims by it.
 Gait wave_gait(const Creature& creature);
 
 }  // namespace natator

@@ -22,19 +22,21 @@ inline constexpr double neighbours = 2e9;
 /// radius / fluid_rest_distance: the rest density is a sum over that many particles cubed, and fluid at rest has 3000
 /// neighbours at a ratio of 8 already. Room for four times those at 20 is still counted in 32 bits.
 inline constexpr int radius_ratio = 20;
-/// kernel_support, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density; the volume
-/// of a particle is a sum over the cube of so many.
+/// kernel_support, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density;
+/// the volume of a particle is a sum over the cube of so many.
 inline constexpr double min_kernel_support = 2, max_kernel_support = 4;
-/// Threads of a solver: they meet several times in each iteration, and more of them than processors only wait for each other.
+/// Threads of a solver: they meet several times in each iteration, and more of them than processors only wait for each
+/// other.
 inline constexpr int threads = 1024;
 /// Lattice points that are looked at when the fluid is kept clear of a body, a minute's worth.
 inline constexpr double clearance_points = 1e10;
 
-/// Time steps of an evaluation, or of a stream that has an end: they are counted in 32 bits, and a file of a path has a line for each.
+/// Time steps of an evaluation, or of a stream that has an end: they are counted in 32 bits, and a file of a path has a
+/// line for each.
 inline constexpr double time_steps = 1e7;
-/// Visits of a pair of particles in one evaluation, an estimate that is rather too high (cost.h): a core does one to two
-/// thousand million a second, so this is about an hour of one. 4 s of the thesis' tank are 3e9, of 10 million particles
-/// 5e12. $NATATOR_MOST_WORK replaces it.
+/// Visits of a pair of particles in one evaluation, an estimate that is rather too high (cost.h): a core does one to
+/// two thousand million a second, so this is about an hour of one. 4 s of the thesis' tank are 3e9, of 10 million
+/// particles 5e12. $NATATOR_MOST_WORK replaces it.
 inline constexpr double work = 5e12;
 /// Part of this machine's memory that one evaluation may take. $NATATOR_MOST_MEMORY (GiB) replaces it.
 inline constexpr double part_of_memory = 0.9;

@@ -8,8 +8,8 @@
 
 namespace natator {
 
-/// The folder in which named scenes and creatures are looked up: $NATATOR_DATA if it is not empty, else `../share/natator`
-/// beside the folder of the running program. It is not said that it exists.
+/// The folder in which named scenes and creatures are looked up: $NATATOR_DATA if it is not empty, else
+/// `../share/natator` beside the folder of the running program. It is not said that it exists.
 std::filesystem::path data_directory();
 
 /// Where a scene is looked up, and what is changed in it.
@@ -19,9 +19,8 @@ struct SceneOptions {
 };
 
 /// Reads and validates a scene. `name` is a named scene (`thesis/creature-1`) or the path of a file ending in `.json`,
-/// relative to the working directory. Keys that are absent take the values of thesis_tank(), but for planes and fluid, of which there
-/// are none.
-/// Throws InputError naming the scene, the field's path, its value and what is allowed.
+/// relative to the working directory. Keys that are absent take the values of thesis_tank(), but for planes and fluid,
+/// of which there are none. Throws InputError naming the scene, the field's path, its value and what is allowed.
 Scene load_scene(const std::string& name, const SceneOptions& options = {});
 
 /// Validates a scene given as JSON text; `name` is used in messages. A `base` is not resolved here. Throws InputError.

@@ -9,8 +9,8 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 
-/// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as many
-/// particles. Real is float or double.
+/// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as
+/// many particles. Real is float or double.
 namespace natator {
 
 /// Mean x over the body's particles, length (thesis 2.6); 0 without a body.
@@ -47,8 +47,8 @@ Eigen::Vector3d rest_centre(const Model& model);
 /// `places` as in pose_of, and refused as there; the identity for fewer than three.
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
-/// `places`: of a body's particles, in the order of Body::particles; of more or fewer InputError is thrown. A body of fewer than three
-/// has no rotation.
+/// `places`: of a body's particles, in the order of Body::particles; of more or fewer InputError is thrown. A body of
+/// fewer than three has no rotation.
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
 /// Places of the body's particles in the coordinates of its tank, in the order of Body::particles.
@@ -59,11 +59,11 @@ std::vector<Eigen::Vector3d> body_places_in_tank(const Body& body, const State<R
 template <class Real>
 std::vector<Eigen::Vector3d> body_places(const Body& body, const State<Real>& state);
 
-/// Where a body has gone and how it lies, against the model at rest. Its rotation is that of all its particles that fits
-/// best (Umeyama 1991), so that bends to both sides do not count.
+/// Where a body has gone and how it lies, against the model at rest. Its rotation is that of all its particles that
+/// fits best (Umeyama 1991), so that bends to both sides do not count.
 struct Course {
-    double forward = 0;  ///< way along its own heading, length: along the bisector of headings at start and end, which is
-                         ///< the chord of an arc
+    double forward = 0;  ///< way along its own heading, length: along the bisector of headings at start and end, which
+                         ///< is the chord of an arc
     double yaw = 0;      ///< angle of the heading in the horizontal plane, from +x towards +z, rad
     double roll = 0;     ///< angle of its back about its heading, from the vertical towards its right, rad
 };
@@ -92,46 +92,58 @@ Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, co
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state);
 
-/// How a swimmer moves, in the numbers of fluid mechanics. U = |change of mean x| / simulated time, L = the body's length,
-/// f = the gait's frequency, A = peak-to-peak amplitude of the tail, nu = kinematic_viscosity.
+/// How a swimmer moves, in the numbers of fluid mechanics. U = |change of mean x| / simulated time, L = the body's
+/// length, f = the gait's frequency, A = peak-to-peak amplitude of the tail, nu = kinematic_viscosity.
 struct SwimmingNumbers {
     double tail_amplitude = 0;              ///< A, length: mean over the last beats, three at most
     std::optional<double> strouhal;         ///< f A / U; none at rest
     std::optional<double> reynolds;         ///< U L / nu; none where nu is 0
     std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola and others 2014); none where nu is 0
     double across = 0;                      ///< water_across of the body
-    std::optional<double> cavities;         ///< at the end, in volumes of the body, see cavities(); none without gravity
+    /// at the end, in volumes of the body, see cavities(); none without gravity
+    std::optional<double> cavities;
 };
 
-/// How many spacings of the water, or cells, the body is across: the lesser of width and height of its thickest slice at rest. Below
-/// `min_spacings_across` its speed may change by half and more with a finer water. 0 without a body or water.
+/// How many spacings of the water, or cells, the body is across: the lesser of width and height of its thickest slice
+/// at rest. Below `min_spacings_across` its speed may change by half and more with a finer water. 0 without a body or
+/// water.
 double water_across(const Model& model);
 inline constexpr double min_spacings_across = 4;
-/// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `min_spacings_across`; else empty.
+/// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `min_spacings_across`;
+/// else empty.
 std::string warning_of_across(double across);
 
 /// Mean z of the body's last slice, length: across the swimmer's heading at the start. 0 without a body.
 template <class Real>
 double tail_z(const Body& body, const State<Real>& state);
 
-/// Peak-to-peak amplitude of a periodic motion that may drift: in each of the last three periods, as far as there are so
-/// many, the range of what is left once the line from its first to its last value is taken off; their mean. `path` has a
-/// value every `time_step` (s). None if it is shorter than a period, or a period than eight steps.
+/// Peak-to-peak amplitude of a periodic motion that may drift: in each of the last three periods, as far as there are
+/// so many, the range of what is left once the line from its first to its last value is taken off; their mean. `path`
+/// has a value every `time_step` (s). None if it is shorter than a period, or a period than eight steps.
 std::optional<double> peak_to_peak(const std::vector<double>& path, double time_step, double period);
 
-/// Volume of the water, in volumes of the body, that is held together no longer although it lies deep: with less than 0.9 of
-/// rest density, below which the scheme gives water no pressure, and deeper below the surface than the kernel's support.
-/// Water follows a body that moves at u only where its pressure exceeds some rho u^2 / 2; elsewhere it tears off, as there are
-/// no negative pressures, and the swim is one for this depth and gravity alone. The surface is where 95 % of the water lie
-/// below, as in a tank. `densities`: by particle, in units of rest density. None without a body or gravity.
+/// Volume of the water, in volumes of the body, that is held together no longer although it lies deep: with less than
+/// 0.9 of rest density, below which the scheme gives water no pressure, and deeper below the surface than the kernel's
+/// support. Water follows a body that moves at u only where its pressure exceeds some rho u^2 / 2; elsewhere it tears
+/// off, as there are no negative pressures, and the swim is one for this depth and gravity alone. The surface is where
+/// 95 % of the water lie below, as in a tank. `densities`: by particle, in units of rest density. None without a body
+/// or gravity.
 template <class Real>
 std::optional<double> cavities(const Model& model, const State<Real>& state, const std::vector<Real>& densities);
 
 /// Dimensionless numbers of a run that got `distance` (length) in `simulated` (s), with its tail at `tail` (tail_z for
-/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving` or `lattice`, or if
-/// the tail did not beat once; see peak_to_peak.
+/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving` or
+/// `lattice`, or if the tail did not beat once; see peak_to_peak.
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
                                                 const std::vector<double>& tail);
+
+/// The water's particles on a grid with cells as wide as they are apart at rest, over the box that holds them. The
+/// velocity is Shepard's mean of those within two cells (Shepard 1968), weighted by Wendland's kernel C2; the density
+/// the sum of their volumes times that kernel. Throws InputError for particles so far apart that there would be more
+/// than 100 million cells. Without particles of water, as in scheme `lattice`, it has no cells: Simulation::water has
+/// those of the lattice.
+template <class Real>
+WaterField water_field(const Model& model, const State<Real>& state);
 
 /// Where a body feels the water: the particles of a slice that lie outermost on one of its sides at rest.
 struct SkinPlace {
@@ -169,16 +181,17 @@ struct Senses {
     /// Velocity of the centre of mass, along own axes, length/s; in a moving tank less its current.
     Eigen::Vector3d velocity{0, 0, 0};
     Eigen::Vector3d turn_rate{0, 0, 0};  ///< angular velocity about own axes, rad/s: angular momentum over inertia
-    /// How each actuator's muscles are contracted, in units of its drive: what drive would ask for the lengths that they
-    /// have, in the mean over them.
+    /// How each actuator's muscles are contracted, in units of its drive: what drive would ask for the lengths that
+    /// they have, in the mean over them.
     std::vector<double> bend;
     std::vector<SkinFlow> flow;  ///< one for each place of Sensing::flow
-    std::optional<Eigen::Vector3d> target;  ///< direction from the centre, along own axes, of length 1; 0 where it is there
-    double target_distance = 0;             ///< from the centre, length
+    /// direction from the centre, along own axes, of length 1; 0 where it is there
+    std::optional<Eigen::Vector3d> target;
+    double target_distance = 0;  ///< from the centre, length
 };
 
-/// Reads them off a state. `sensing` must fit the model (check_sensing). Throws InputError if the state has not as many particles
-/// as the model. Real is float or double.
+/// Reads them off a state. `sensing` must fit the model (check_sensing). Throws InputError if the state has not as many
+/// particles as the model. Real is float or double.
 template <class Real>
 Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing);
 

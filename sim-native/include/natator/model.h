@@ -27,6 +27,17 @@ struct WaterBox {
     double cell_mass() const { return density * cell * cell * cell; }
 };
 
+/// The water on a grid of cubic cells, in the coordinates of its tank; values are by cell, x first, then y, then z.
+struct WaterField {
+    Eigen::Vector3i cells{0, 0, 0};
+    double cell = 0;                  ///< edge of a cell, length
+    Eigen::Vector3d corner{0, 0, 0};  ///< the grid's lowest, length
+    /// length/s; 0 where there is no water, about the body's where that is, in scheme `lattice`
+    std::vector<Eigen::Vector3f> velocity;
+    /// in rest densities: about 1 in water, less at a surface or a body, 0 without
+    std::vector<float> density;
+};
+
 /// Bits of a particle's phase: a group number and flags, as NVIDIA Flex packs them.
 namespace phase {
 inline constexpr std::uint32_t group_mask = 0x000fffff;
@@ -55,15 +66,16 @@ struct Cluster {
 /// A spring that an actuator drives: rest length l = l_rest (1 + 1/2 z_m a u), thesis (2.7) and (2.8).
 struct Muscle {
     int spring = 0;
-    int actuator = 0;       ///< in the order of Creature::actuator_list; those of companions follow
-    double lateral = 0;     ///< z_m in [-1, 1], -1 = left edge, +1 = right edge; of one that bends up and down, lower and upper
+    int actuator = 0;  ///< in the order of Creature::actuator_list; those of companions follow
+    /// z_m in [-1, 1], -1 = left edge, +1 = right edge; of one that bends up and down, lower and upper
+    double lateral = 0;
 };
 
 /// Which particles make up the swimmer. Slice 0 is the head.
 struct Body {
     std::vector<int> particles;
     std::vector<std::vector<int>> slices;
-    double length = 0;  ///< head to tail at rest, length
+    double length = 0;   ///< head to tail at rest, length
     double spacing = 0;  ///< of its particles at rest, length
 };
 
@@ -74,8 +86,8 @@ struct CompanionBody {
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
 };
 
-/// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none changes it.
-/// Per-particle vectors have the length of `position`.
+/// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none
+/// changes it. Per-particle vectors have the length of `position`.
 struct Model {
     Scheme scheme = Scheme::conserving;
     SolverParameters parameters;
@@ -88,7 +100,7 @@ struct Model {
     std::vector<Eigen::Vector3d> rest_position;  ///< for self_collide_filter; empty if no particle has it
 
     std::vector<Plane> planes;
-    std::optional<WaterBox> water_box;    ///< the water of scheme `lattice`, if any; in the others it is particles
+    std::optional<WaterBox> water_box;   ///< the water of scheme `lattice`, if any; in the others it is particles
     std::vector<PeriodicAxis> periodic;  ///< at most one an axis; all planes are along them
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;
@@ -103,14 +115,14 @@ struct Model {
 
 /// Lays out the particles, clusters and muscles of a scene: first the body (by slice from the head, then y, then z),
 /// then the fluid (by x, then y, then z). Springs are sorted by actuator, front particle, rear particle; springs that
-/// join the same two particles are separate, neighbouring entries. A creature's `refinement` n makes each particle of its
-/// body n x n x n of them, one after the other by x, then y, then z, as model/refine_body.h says.
-/// Throws InputError when the scene has no particles, or more particles or springs than limits.h allows, when a particle starts
-/// beyond a plane, and when an actuator has no muscle. Of a Scene that a program made it is checked, too, that lists have sizes that
-/// belong together, that slices which are named are there, that counts, lengths and masses are above 0, the duration is a
-/// number and normals of planes have length 1; that the solver's parameters have the ranges of sim-native/protocol/scenes.md, and that
-/// scheme `conserving` can compute the water by them and beside these planes. All else has the ranges of that page, which load_scene and
-/// parse_scene have checked.
+/// join the same two particles are separate, neighbouring entries. A creature's `refinement` n makes each particle of
+/// its body n x n x n of them, one after the other by x, then y, then z, as model/refine_body.h says. Throws InputError
+/// when the scene has no particles, or more particles or springs than limits.h allows, when a particle starts beyond a
+/// plane, and when an actuator has no muscle. Of a Scene that a program made it is checked, too, that lists have sizes
+/// that belong together, that slices which are named are there, that counts, lengths and masses are above 0, the
+/// duration is a number and normals of planes have length 1; that the solver's parameters have the ranges of
+/// sim-native/protocol/scenes.md, and that scheme `conserving` can compute the water by them and beside these planes.
+/// All else has the ranges of that page, which load_scene and parse_scene have checked.
 Model build_model(const Scene& scene);
 
 template <class Real>
@@ -127,7 +139,7 @@ struct State {
     std::vector<Real> spring_rest_length;                   ///< length, as the muscles are driven
     /// Where the coordinates of a moving tank begin over ground, length: what is at x is at x + origin there.
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-    double time = 0;                                        ///< s since the end of settling
+    double time = 0;  ///< s since the end of settling
 };
 
 /// The State that a Model starts from. Throws InputError as a Solver of the Model does.
@@ -135,17 +147,18 @@ template <class Real>
 State<Real> initial_state(const Model& model);
 
 /// Throws InputError unless the gait has one amplitude and one phase per actuator and its values are within
-/// frequency (0, 60] 1/s, amplitude [0, 2], phase [0, 1] turns, power [0.5, 4], and if there are offsets, one per actuator
-/// with |offset| + amplitude at most 2.
+/// frequency (0, 60] 1/s, amplitude [0, 2], phase [0, 1] turns, power [0.5, 4], and if there are offsets, one per
+/// actuator with |offset| + amplitude at most 2.
 void check_gait(const Gait& gait, int actuators);
 
-/// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, but in scheme `flex` times the
-/// start ramp. The gait must fit the model (check_gait). Throws InputError if it has not one value for each actuator.
+/// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, but in scheme
+/// `flex` times the start ramp. The gait must fit the model (check_gait). Throws InputError if it has not one value for
+/// each actuator.
 std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
-/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if there is not one
-/// value for each actuator, or the state has not the model's number of springs.
+/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if
+/// there is not one value for each actuator, or the state has not the model's number of springs.
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 

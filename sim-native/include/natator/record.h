@@ -12,8 +12,9 @@
 
 namespace natator {
 
-/// All particles at the end of a frame, in the order of the Model. Places are in the coordinates of the tank, also where it
-/// moves along with the swimmer (Scene::moving_tank); a trajectory's are over ground. Densities as Solver::densities gives them.
+/// All particles at the end of a frame, in the order of the Model. Places are in the coordinates of the tank, also
+/// where it moves along with the swimmer (Scene::moving_tank); a trajectory's are over ground. Densities as
+/// Solver::densities gives them.
 struct Snapshot {
     double time = 0;                        ///< s since the end of settling
     std::vector<Eigen::Vector3d> position;  ///< length
@@ -23,10 +24,11 @@ struct Snapshot {
 
 /// Request for one snapshot at a given time. Taking it changes nothing in the run.
 struct SnapshotRequest {
-    /// s; taken after the first frame that ends at this time or later, of time 0 after the first frame. Without it taken after the
-    /// last frame: that of the duration, or the one that ends the run before.
+    /// s; taken after the first frame that ends at this time or later, of time 0 after the first frame. Without it
+    /// taken after the last frame: that of the duration, or the one that ends the run before.
     std::optional<double> at;
-    std::function<void(const Model&, const Snapshot&)> take;  ///< empty = no snapshot; not called if the run ends before
+    /// empty = no snapshot; not called if the run ends before
+    std::function<void(const Model&, const Snapshot&)> take;
 };
 
 /// Writes a snapshot as CSV. Columns: time (s), kind (body or fluid), mass, x, y, z (length), vx, vy, vz (length/s),
@@ -39,7 +41,8 @@ class WholeFile;
 
 /// Writes the body's path as CSV while it is computed: one line per slice (or particle) and frame, frame 0 being the
 /// settled start. Columns: frame, time (s), slice (0 = head) or particle (by slice from the head, y, z), x, y, z
-/// (length). The file takes its place when it is finished; what stood there before stays until then. For one thread at a time.
+/// (length). The file takes its place when it is finished; what stood there before stays until then. For one thread at
+/// a time.
 class TrajectoryCsv {
 public:
     enum class Rows { slices, particles };
@@ -48,7 +51,8 @@ public:
     TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows);
     ~TrajectoryCsv();  ///< without finish() there is no file
 
-    /// Throws InputError if there are not as many places as the slices have particles, or a whole number of times so many.
+    /// Throws InputError if there are not as many places as the slices have particles, or a whole number of times so
+    /// many.
     void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
     void finish();
 

@@ -15,9 +15,10 @@ namespace natator {
 
 /// Which update rule advances the particles.
 enum class Scheme {
-    flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
-    conserving,  ///< incompressible water (divergence-free SPH) and solids by mass splitting; pair forces equal and opposite
-    lattice,     ///< submerged: water on a lattice (cumulant lattice Boltzmann), solids as in conserving
+    flex,  ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
+    /// incompressible water (divergence-free SPH) and solids by mass splitting; pair forces equal and opposite
+    conserving,
+    lattice,  ///< submerged: water on a lattice (cumulant lattice Boltzmann), solids as in conserving
 };
 
 /// How the summed corrections of one iteration are scaled before they are applied.
@@ -36,25 +37,26 @@ struct FlexParameters {
 
 /// What scheme `conserving` alone has, and `lattice` of it but for the kernel and the pressure.
 struct ConservingParameters {
-    /// Times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's stiffness and the strength of
-    /// its muscles need many more iterations than the pressure of the water, and cheaper ones.
+    /// Times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's stiffness and the
+    /// strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.
     int solid_iterations = 16;
     int max_iterations = 100;  ///< in a substep, with a density_tolerance, >= 1
-    /// Iterations go on beyond `iterations`, as far as to max_iterations, until the mean of what the fluid's density would exceed its
-    /// target by is at most this, in rest densities; 0: there are `iterations` (Residuals::density).
+    /// Iterations go on beyond `iterations`, as far as to max_iterations, until the mean of what the fluid's density
+    /// would exceed its target by is at most this, in rest densities; 0: there are `iterations` (Residuals::density).
     double density_tolerance = 0;
     double kinematic_viscosity = 0.0;  ///< of the water, length^2/s, >= 0
     double kernel_support = 2.5;       ///< kernel radius, rest distances of the fluid, [2, 4]
-    /// The weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so that it needs no more
-    /// substeps. For a tank that stays full: its surface must stay above that level.
+    /// The weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so that it
+    /// needs no more substeps. For a tank that stays full: its surface must stay above that level.
     bool modified_pressure = false;
 };
 
-/// Parameters of the solver: those that the schemes share, and those of one. What is made without an argument is water without friction
-/// and drag; thesis_tank().solver has the values of Appendix A of the thesis. Scene JSON has them all in one object, under the names of
-/// NVIDIA Flex: `max_speed` is `maxSpeed` there, `iterations` `numIterations`.
-/// Units are those of the scene (length, second, mass); the ranges (sim-native/protocol/scenes.md) are checked when a scene is read and
-/// in build_model, in a Model that a program makes those of `kernel_support` and of radius / fluid_rest_distance alone.
+/// Parameters of the solver: those that the schemes share, and those of one. What is made without an argument is water
+/// without friction and drag; thesis_tank().solver has the values of Appendix A of the thesis. Scene JSON has them all
+/// in one object, under the names of NVIDIA Flex: `max_speed` is `maxSpeed` there, `iterations` `numIterations`. Units
+/// are those of the scene (length, second, mass); the ranges (sim-native/protocol/scenes.md) are checked when a scene
+/// is read and in build_model, in a Model that a program makes those of `kernel_support` and of radius /
+/// fluid_rest_distance alone.
 struct SolverParameters {
     int substeps = 4;    ///< substeps per frame, >= 1
     int iterations = 4;  ///< constraint iterations per substep, >= 1
@@ -85,9 +87,9 @@ struct SolverParameters {
     double dissipation = 0.0;
     double damping = 0.0;  ///< drag on the velocity, 1/s
 
-    /// Pull between fluid particles beyond fluid_rest_distance, push within it; dimensionless, >= 0. At contact the push
-    /// moves a particle by cohesion * radius: in scheme `flex` per iteration before relaxation, as measured; in scheme
-    /// `conserving` as a force, per (1/240 s)^2.
+    /// Pull between fluid particles beyond fluid_rest_distance, push within it; dimensionless, >= 0. At contact the
+    /// push moves a particle by cohesion * radius: in scheme `flex` per iteration before relaxation, as measured; in
+    /// scheme `conserving` as a force, per (1/240 s)^2.
     double cohesion = 0.0;
     double surface_tension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double vorticity_confinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
@@ -98,8 +100,9 @@ struct SolverParameters {
     double particle_collision_margin = 0.0;  ///< added to radius when pairs are found, length
     double shape_collision_margin = 0.0;     ///< added to collision_distance when plane contacts are found, length
 
-    /// omega, >= 0. Scheme `flex`: see RelaxationMode; 0 is the plain mean of a particle's corrections in local mode, and
-    /// none of them in global mode. Scheme `conserving`: a factor on every correction, 0 switches the constraints off.
+    /// omega, >= 0. Scheme `flex`: see RelaxationMode; 0 is the plain mean of a particle's corrections in local mode,
+    /// and none of them in global mode. Scheme `conserving`: a factor on every correction, 0 switches the constraints
+    /// off.
     double relaxation_factor = 1.0;
 };
 
@@ -112,11 +115,11 @@ struct Plane {
     double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
 };
 
-/// An axis along which the tank closes up with itself: water that leaves at one end comes in at the other, and what is near
-/// one end is next to what is near the other. Water is wrapped; bodies are where they have come to, beyond the ends too, and
-/// the water meets them as many lengths of the tank back. Not in scheme `flex`.
+/// An axis along which the tank closes up with itself: water that leaves at one end comes in at the other, and what is
+/// near one end is next to what is near the other. Water is wrapped; bodies are where they have come to, beyond the
+/// ends too, and the water meets them as many lengths of the tank back. Not in scheme `flex`.
 struct PeriodicAxis {
-    int axis = 0;  ///< 0 = x, 2 = z
+    int axis = 0;              ///< 0 = x, 2 = z
     double low = 0, high = 0;  ///< where the ends are, length
 
     double length() const { return high - low; }
@@ -167,26 +170,27 @@ enum class MassGradient {
 
 /// A block of fluid particles on a cubic lattice (thesis 2.3).
 struct FluidBlock {
-    Eigen::Vector3i count{10, 10, 10};           ///< lattice points along x, y, z
-    double spacing = 0.1;                        ///< lattice constant, length
-    Eigen::Vector3d origin{0.05, 0.05, 0.05};    ///< first lattice point
+    Eigen::Vector3i count{10, 10, 10};         ///< lattice points along x, y, z
+    double spacing = 0.1;                      ///< lattice constant, length
+    Eigen::Vector3d origin{0.05, 0.05, 0.05};  ///< first lattice point
     MassGradient gradient = MassGradient::uniform;
-    double bottom_mass = 1;                      ///< mass of the lowest layer
-    double top_mass = 1;                         ///< mass of the highest layer
-    double clearance = 0.085;                    ///< lattice points closer than this to a body particle are left out
-    /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body begins in its
-    /// cells, up to half a cell from its place along each axis; 0: there.
+    double bottom_mass = 1;    ///< mass of the lowest layer
+    double top_mass = 1;       ///< mass of the highest layer
+    double clearance = 0.085;  ///< lattice points closer than this to a body particle are left out
+    /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body
+    /// begins in its cells, up to half a cell from its place along each axis; 0: there.
     int disorder = 20;
 };
 
-/// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole numbers.
+/// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole
+/// numbers.
 struct Slice {
     int height = 1;              ///< rows, along y
     int width = 1;               ///< particles along z of the widest row; of `columns` as many as reach as far
     std::vector<int> rows = {};  ///< particles of each row from the lowest up, all odd or all even; empty: `width` each
     int lift = 0;                ///< height of the middle row above the body's axis, half spacings
-    /// z of the particles of each row, ascending, half spacings: where they do not fill the row from one side to the other.
-    /// Empty: they do, as many to the left as to the right.
+    /// z of the particles of each row, ascending, half spacings: where they do not fill the row from one side to the
+    /// other. Empty: they do, as many to the left as to the right.
     std::vector<std::vector<int>> columns = {};
 
     int row(int iy) const {
@@ -196,7 +200,8 @@ struct Slice {
     int y(int iy) const { return 2 * iy - (height - 1) + lift; }  ///< height of a row above the axis, half spacings
     /// Place of a particle of a row along z, from the middle of left and right, half spacings.
     int z(int iy, int iz) const {
-        return columns.empty() ? 2 * iz - (row(iy) - 1) : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
+        return columns.empty() ? 2 * iz - (row(iy) - 1)
+                               : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
     }
     int particles() const {
         int sum = 0;
@@ -222,9 +227,9 @@ enum class Joint {
 
 /// A closed surface that moves with a body.
 struct Skin {
-    std::string file;    ///< name of the file, as the creature gives it
-    std::string digest;  ///< digest of the file, 16 hexadecimal digits
-    double unit = 1;     ///< scene lengths of one unit of the file
+    std::string file;                                    ///< name of the file, as the creature gives it
+    std::string digest;                                  ///< digest of the file, 16 hexadecimal digits
+    double unit = 1;                                     ///< scene lengths of one unit of the file
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: which way of the file is forward, up, right
     Eigen::Vector3d origin{0, 0, 0};                     ///< place in the file that is the centre of the last slice
     std::vector<Eigen::Vector3d> vertices;               ///< at rest, from the centre of the last slice, length
@@ -245,12 +250,12 @@ struct Creature {
     Joint joint = Joint::slice;
     /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
     std::vector<std::vector<Bend>> bends;
-    double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
+    double cluster_stiffness = 0.2;           ///< shape-matching stiffness of every cluster, [0, 1]
     std::vector<double> cluster_stiffnesses;  ///< by cluster from the head on; empty = `cluster_stiffness` for all
-    double particle_mass = 1.0;        ///< m_s
-    double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
+    double particle_mass = 1.0;               ///< m_s
+    double spring_stiffness = 1.0;            ///< stiffness of every muscle spring, [0, 1]
     std::vector<double> spring_stiffnesses;   ///< one for the springs of each gap; empty = `spring_stiffness` for all
-    int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
+    int springs_per_particle = 4;             ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (build_model).
     int refinement = 1;
@@ -331,14 +336,14 @@ struct MovingTank {
     Eigen::Vector3d current{0, 0, 0};
 };
 
-/// Everything that defines an experiment. What is made without an argument is water of one density, without friction and drag; it
-/// needs some, in `fluid` and between `planes`. Scene JSON has thesis_tank() where it says nothing.
+/// Everything that defines an experiment. What is made without an argument is water of one density, without friction
+/// and drag; it needs some, in `fluid` and between `planes`. Scene JSON has thesis_tank() where it says nothing.
 struct Scene {
     std::string name;
     std::string description;
     Scheme scheme = Scheme::conserving;
-    double duration = 4.0;         ///< s
-    double time_step = 1.0 / 60;   ///< one frame, s
+    double duration = 4.0;        ///< s
+    double time_step = 1.0 / 60;  ///< one frame, s
     SolverParameters solver;
     std::vector<Plane> planes;
     std::vector<PeriodicAxis> periodic;  ///< axes that have no ends; no planes stand across them
@@ -358,8 +363,8 @@ struct Scene {
     }
 };
 
-/// The tank of the thesis (2.3) with its water, whose mass falls from 2 at the bottom to 1/14 at the top, without a swimmer: scheme
-/// `flex` with the parameters of Appendix A. The named scene thesis/tank is the same.
+/// The tank of the thesis (2.3) with its water, whose mass falls from 2 at the bottom to 1/14 at the top, without a
+/// swimmer: scheme `flex` with the parameters of Appendix A. The named scene thesis/tank is the same.
 Scene thesis_tank();
 
 }  // namespace natator

@@ -11,9 +11,10 @@ namespace natator {
 
 /// Settled starts of scenes in a folder, one file each, so that a scene settles once and not in every evaluation.
 /// A start is found by its whole content: all that settling depends on, with the precision, the instruction set and the
-/// build of the program (or the shared library), stands in the file and is compared byte by byte. A build is known by its build id, which
-/// most linkers give, or are told to by -Wl,--build-id; without one nothing is kept. Members may be called from several
-/// threads, and several processes may share a folder. Never throws: unreadable entries are misses, failed writes are ignored.
+/// build of the program (or the shared library), stands in the file and is compared byte by byte. A build is known by
+/// its build id, which most linkers give, or are told to by -Wl,--build-id; without one nothing is kept. Members may be
+/// called from several threads, and several processes may share a folder. Never throws: unreadable entries are misses,
+/// failed writes are ignored.
 class SettledStateCache {
 public:
     explicit SettledStateCache(std::filesystem::path folder);
@@ -25,7 +26,8 @@ public:
     template <class Real>
     std::optional<State<Real>> find(const Model& model, const Settling& settling, const std::string& by = {}) const;
     template <class Real>
-    void keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by = {}) const;
+    void keep(const Model& model, const Settling& settling, const State<Real>& settled,
+              const std::string& by = {}) const;
 
     const std::filesystem::path& folder() const { return folder_; }
 

@@ -28,9 +28,10 @@ struct SimulationSetup {
 };
 
 /// A scene that runs frame by frame, on the CPU or on a GPU (Execution::gpu), and can be changed in between:
-/// `Simulation tank(load_scene("pool/eel")); while (tank.time() < 1) tank.step(gait);`. Until a change each frame is, bit by bit, that
-/// of `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early, but for instability.
-/// Where a member throws InputError or std::bad_alloc nothing has changed. Real is float, or double for reference runs.
+/// `Simulation tank(load_scene("pool/eel")); while (tank.time() < 1) tank.step(gait);`. Until a change each frame is,
+/// bit by bit, that of `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early,
+/// but for instability. Where a member throws InputError or std::bad_alloc nothing has changed. Real is float, or
+/// double for reference runs.
 ///
 /// Several threads may call const members of one Simulation as long as none calls another member; several Simulations
 /// may run in as many threads.
@@ -54,8 +55,8 @@ public:
 
     /// Starts another scene. Throws InputError.
     void load(const SimulationSetup& setup);
-    /// Drives the muscles by another gait from the next frame on; before the first frame as if the start had had it. Throws
-    /// InputError when it does not fit, the steering in force included.
+    /// Drives the muscles by another gait from the next frame on; before the first frame as if the start had had it.
+    /// Throws InputError when it does not fit, the steering in force included.
     void set_gait(const Gait& gait);
     /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
     /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a
@@ -94,6 +95,9 @@ public:
     /// Density of each particle in units of rest density, 0 for solids: of the present state at the start and in scheme
     /// flex; after a step in conserving at the positions of the start of its last substep.
     std::vector<Real> densities();
+    /// The water on a grid: the cells of scheme `lattice`, the particles of the others as water_field has them. Throws
+    /// InputError as that.
+    WaterField water() const;
     const std::optional<Instability>& instability() const { return instability_; }
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <memory>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ public:
     };
 
     void add(const char* stage, double seconds);
-    /// In the order in which stages first ran.
+    /// Times by stage, in the order in which stages first ran.
     const std::vector<Entry>& entries() const { return entries_; }
     double seconds() const;
 
@@ -32,22 +32,22 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// What is left of constraints of one kind: 0 if there are none, or if they are met.
+/// Residual of constraints of one kind: 0 if there are none, or if they are met.
 struct Residual {
     double max = 0;
     double mean = 0;  ///< over all of the kind
 };
 
-/// What a substep leaves of its constraints (Execution::residuals).
+/// Residuals of a substep's constraints (Execution::residuals).
 struct Residuals {
     double time = 0;     ///< s, at the substep's start
     int iterations = 0;  ///< that it took
-    /// Of the fluid's particles, in rest densities. Scheme `conserving`: what the velocities would still have to take
-    /// off in the substep, of at most `max_excess` (docs/theory.md, section 4.4). Scheme `flex`: excess over rest
-    /// density, as the last iteration found it.
+    /// Density error of the fluid's particles, in rest densities. Scheme `conserving`: what the velocities would still
+    /// have to take off in the substep, of at most `max_excess` (docs/theory.md, section 4.4). Scheme `flex`: excess
+    /// over rest density, as the last iteration found it.
     Residual density{};
-    /// Likewise what the velocities compress it by in a substep, after the pass on their divergence; scheme
-    /// `conserving` alone.
+    /// Density that the velocities would add to the fluid in a substep, after the pass on their divergence, in rest
+    /// densities; scheme `conserving` alone.
     Residual divergence{};
     /// |C + alpha lambda| over rest length, C = length - rest length: of a stiff spring its stretch. In scheme `flex`
     /// |C| of all.
@@ -56,28 +56,31 @@ struct Residuals {
     Residual clusters{};
 };
 
-/// Where and how something is computed. None of these but `gpu` changes the result. What they point to must live as long as what they
-/// are given to, and a profile is that of one thread.
+/// Where and how something is computed. None of these but `gpu` changes the result. What they point to must live as
+/// long as what they are given to, and a profile is that of one thread.
 struct Execution {
-    StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
+    StageProfile* profile = nullptr;            ///< where the time goes; null costs nothing
     const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
-    int threads = 1;                     ///< for scenes of many thousand particles, at most limits::threads; small ones use one all the same
-    std::function<void(const Residuals&)> residuals{};  ///< called behind each substep with what it leaves; empty costs nothing
-    bool forces = false;                 ///< keeps what Solver::forces gives; scheme conserving only, a per cent of its time
-    /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU. Results agree
-    /// with the CPU's to rounding. All else here, but `forces`, is the CPU's.
+    /// for scenes of many thousand particles, at most limits::threads; small ones use one all the same
+    int threads = 1;
+    /// called behind each substep with what it leaves; empty costs nothing
+    std::function<void(const Residuals&)> residuals{};
+    /// keeps what Solver::forces gives; scheme conserving only, a per cent of its time
+    bool forces = false;
+    /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU.
+    /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
     std::optional<int> gpu{};
-    bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
+    bool skip = true;  ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };
 
-/// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
+/// The stages that a Model needs, decided once: a stage that is false here does not run and owns no memory.
 struct Plan {
-    bool fluid = false;           ///< density constraint of scheme `flex`, fluid neighbour lists
-    bool water = false;           ///< pressure solves of scheme `conserving`
-    bool contacts = false;        ///< pairs that are not both fluid; in scheme `conserving` of solids alone
-    bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
-    bool solid_pressure = false;  ///< solids add to the fluid's density
-    bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
+    bool fluid = false;            ///< density constraint of scheme `flex`, fluid neighbour lists
+    bool water = false;            ///< pressure solves of scheme `conserving`
+    bool contacts = false;         ///< pairs that are not both fluid; in scheme `conserving` of solids alone
+    bool mutual_contacts = false;  ///< a pair that one side feels is felt by both, so that momentum is kept
+    bool solid_pressure = false;   ///< solids add to the fluid's density
+    bool uniform_fluid = false;    ///< every fluid particle collides with every other: no test per pair
     bool springs = false;
     bool clusters = false;
     bool planes = false;
@@ -98,9 +101,11 @@ struct Plan {
     bool surface_tension = false;
     bool vorticity = false;
     bool free_surface_drag = false;
-    bool fluid_forces = false;  ///< any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity in `flex`
+    /// any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity
+    /// in `flex`
+    bool fluid_forces = false;
 
-    /// Does anything act behind the velocities?
+    /// Whether any effect acts after the velocities are computed.
     constexpr bool effects() const {
         return dissipation || (fluid && (free_surface_drag || fluid_forces)) || adhesion || restitution || sleep;
     }
@@ -117,12 +122,14 @@ Plan make_unskipped_plan(const Model& model);
 /// One line per stage in the order of a substep, as `natator-sim info` prints it.
 std::vector<std::string> describe_plan(const Model& model);
 
-/// Where a run stopped being possible.
+/// Where a State stopped being finite.
 struct Instability {
-    int particle = 0;   ///< lowest index with a value that is not finite, or the particle that broke a law most
-    std::string stage;  ///< first stage whose output was not finite; of the other laws, which look at ends: "settling" or "frame"
-    double time = 0;    ///< s: start of the substep; of the other laws the end of the frame
-    std::string law = "finite";  ///< or the law of LawWatch that is broken: "tank", "particle-energy", "energy", "shape", "compression", "mach"
+    int particle = 0;  ///< lowest index with a value that is not finite, or the particle that broke a law most
+    /// first stage whose output was not finite; of the other laws, which look at ends: "settling" or "frame"
+    std::string stage;
+    double time = 0;  ///< s: start of the substep; of the other laws the end of the frame
+    /// or the law of LawWatch that is broken: "tank", "particle-energy", "energy", "shape", "compression", "mach"
+    std::string law = "finite";
 };
 
 /// What is wrong, as a sentence goes on that begins with "unstable: ".
@@ -141,19 +148,19 @@ public:
 template <class Real>
 class GpuSolver;
 
-/// Advances States of one Model, on the CPU or with Execution::gpu on a GPU. There the State travels to the device and back with every
-/// update, so many whole evaluations are faster by evaluate_on_gpu, whose bits are the same. Members that take a State throw InputError
-/// if it is not of so many particles, clusters and springs as the Model; on a GPU they throw std::bad_alloc when its memory is
-/// insufficient and std::runtime_error, naming the call, when it fails.
+/// Advances States of one Model, on the CPU or with Execution::gpu on a GPU. There the State travels to the device and
+/// back with every update, so many whole evaluations are faster by evaluate_on_gpu, whose bits are the same. Members
+/// that take a State throw InputError if it is not of so many particles, clusters and springs as the Model; on a GPU
+/// they throw std::bad_alloc when its memory is insufficient and std::runtime_error, naming the call, when it fails.
 ///
 /// One thread at a time may use a Solver; several Solvers, also of one Model, may run in as many threads.
 template <class Real>
 class Solver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as the Solver; so must `execution.profile`, if
-    /// there is one. A temporary Model is refused by the compiler. Throws InputError unless the Model's lists belong together: of
-    /// as many particles, and of particles, springs and actuators that are there; or if it needs what the GPU's stages do not do. Throws
-    /// NoDevice without that GPU, or in a library built without CUDA.
+    /// there is one. A temporary Model is refused by the compiler. Throws InputError unless the Model's lists belong
+    /// together: of as many particles, and of particles, springs and actuators that are there; or if it needs what the
+    /// GPU's stages do not do. Throws NoDevice without that GPU, or in a library built without CUDA.
     explicit Solver(const Model& model, const Execution& execution = {});
     explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();
@@ -161,39 +168,42 @@ public:
     Solver& operator=(Solver&&) noexcept;
 
     /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds.
-    /// Returns where the state stopped being finite; `state` then keeps its values from before that substep. Throws InputError
-    /// unless the time step is above 0 and there is a substep.
+    /// Returns where the state stopped being finite; `state` then keeps its values from before that substep. Throws
+    /// InputError unless the time step is above 0 and there is a substep.
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
                                       StepObserver<Real>* observer = nullptr);
 
-    /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step. The gait must fit the
-    /// model (check_gait): throws InputError if it has not one value for each actuator.
+    /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step. The gait
+    /// must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
-    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and on a GPU, but
-    /// for scheme `lattice`.
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and
+    /// on a GPU, but for scheme `lattice`.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
-    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring
-    /// and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what the time
-    /// step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
+    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each
+    /// spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what
+    /// the time step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
-    /// Counts it anew from here.
+    /// Sets muscle_work() to 0.
     void clear_muscle_work();
 
-    /// Scheme lattice, when a State's particles have been moved along by -by, length, a whole number of cells: so is its water. Nothing in the
-    /// other schemes, whose water is of particles.
+    /// Scheme lattice: moves the water by -by, length, a whole number of cells, as the State's particles have been
+    /// moved. Does nothing in the other schemes, whose water is particles.
     void shift_water(const Eigen::Vector3d& by);
 
-    /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final positions,
-    /// in conserving at those of the start of its last substep.
+    /// The lattice's cells, of scheme `lattice`; at rest before the first update. In the other schemes it has no cells:
+    /// water_field.
+    WaterField lattice_water() const;
+    /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final
+    /// positions, in conserving at those of the start of its last substep.
     std::vector<Real> densities();
-    /// Pressure of each fluid particle in the last substep, mass/(length s^2): in scheme conserving the sum of the substep's
-    /// pressure impulses over h plus the carried pressure (modified_pressure). Right inside the fluid, too low where a wall
-    /// takes part of the load. Empty in scheme flex.
+    /// Pressure of each fluid particle in the last substep, mass/(length s^2): in scheme conserving the sum of the
+    /// substep's pressure impulses over h plus the carried pressure (modified_pressure). Right inside the fluid, too
+    /// low where a wall takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
-    /// viscosity, of the water before walls and of its mirror images behind them. Summed over a body's particles, or over
+    /// viscosity, of the water before walls and of its ghosts behind them. Summed over a body's particles, or over
     /// any part of them, it is the force on that; particles of infinite mass feel it too, though they do not move. What
     /// solids do to each other is not in it; 0 for fluid. Empty without Execution::forces, and in the other schemes.
     std::vector<Vector3<Real>> forces() const;
@@ -210,7 +220,9 @@ private:
 };
 
 /// Whether Solver::muscle_work means something: the model has muscles, and a scheme with forces.
-inline bool has_muscle_work(const Model& model) { return model.scheme != Scheme::flex && !model.muscles.empty(); }
+inline bool has_muscle_work(const Model& model) {
+    return model.scheme != Scheme::flex && !model.muscles.empty();
+}
 
 extern template class Solver<float>;
 extern template class Solver<double>;

@@ -45,6 +45,8 @@ def parser():
                                  "rest")
             command.add_argument("--from", dest="view", default="side", choices=picture.VIEWS, help="default: %(default)s")
             command.add_argument("--size", metavar="WxH", help="pixels; default: 1600 wide, as high as what is shown")
+            command.add_argument("--vortices", action="store_true", help="draw them in place of the water's surface: surfaces of the "
+                                 "Q-criterion, red where they turn to the left, seen from above")
             command.add_argument("-o", "--output", metavar="FILE", help="default: the scene's name and .png")
     about = "Runs a run's best gait once more, draws how it swims and says what fish it is like: a page report.html and its pictures."
     command = commands.add_parser("report", help=about, description=about)
@@ -87,7 +89,7 @@ def drawn(given):
     if not file.lower().endswith(".png"):
         raise InputError(f"--output is {file}; expected a name that ends in .png")
     size, time = picture.picture(swim.scene, file, swim.gait, given.at, given.view, size, not given.no_water, swim.duration,
-                                 overrides=swim.overrides, scheme=swim.scheme)
+                                 given.vortices, overrides=swim.overrides, scheme=swim.scheme)
     print(f"{file}: {size[0]} x {size[1]} pixels, at {time:.2f} s")
 
 

@@ -1,8 +1,8 @@
-"""What can go wrong."""
+"""Exceptions of the client."""
 
 
 class NatatorError(Exception):
-    """Any of the errors below."""
+    """Base class of the client's exceptions."""
 
 
 class InputError(NatatorError, ValueError):

@@ -36,8 +36,8 @@ class SwimmerEnv(gymnasium.Env):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError(f'render_mode = {render_mode!r}: must be None or "rgb_array"')
         self.render_mode, self._clipped = render_mode, False
-        self.frames = _at_most(MOST_FRAMES, "frames", whole("frames", frames, 1))
-        self.starts = _at_most(MOST_STARTS, "starts", whole("starts", starts, 1))
+        self.frames = _at_most(MAX_FRAMES, "frames", whole("frames", frames, 1))
+        self.starts = _at_most(MAX_STARTS, "starts", whole("starts", starts, 1))
         self.duration = _at_least(0, "duration", duration)
         if self.duration == 0:
             raise InputError("duration = 0: must be more than 0 s")
@@ -76,7 +76,7 @@ class SwimmerEnv(gymnasium.Env):
         return self.end_reset()
 
     def begin_reset(self, seed=None, options=None):
-        """The first half of `reset`: does not wait."""
+        """Begins a `reset`, without waiting for the simulator."""
         unknown = set(options or {}) - {"start"}
         if unknown:
             raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start'")
@@ -89,7 +89,7 @@ class SwimmerEnv(gymnasium.Env):
             self._point = self.np_random.uniform(*self.target)
 
     def end_reset(self):
-        """The second half."""
+        """Waits for a reset that was begun; returns observation and info."""
         self._stream.end_reset()
         self._action, self._work = self._rest(), 0.0
         self._senses = self._stream.sense(target=self._point)
@@ -100,11 +100,11 @@ class SwimmerEnv(gymnasium.Env):
         return self.end_step()
 
     def begin_step(self, action):
-        """The first half of `step`: does not wait."""
+        """Begins a `step`, without waiting for the simulator."""
         self.begin_checked_step(self.checked(action))
 
     def begin_checked_step(self, action):
-        """The same of what `checked` gave."""
+        """Begins a step with an action that `checked` returned."""
         self._stream.require_idle()
         parts = np.arange(1, self.frames + 1)[:, None] / self.frames
         rows = self._action + parts * (action - self._action)
@@ -131,7 +131,7 @@ class SwimmerEnv(gymnasium.Env):
         return within
 
     def end_step(self):
-        """The second half."""
+        """Waits for a step that was begun; returns what `step` does."""
         before, unstable = self._senses, False
         for left in range(self._sent, 0, -1):
             try:
@@ -176,7 +176,7 @@ class SwimmerEnv(gymnasium.Env):
         return way / self.length
 
     def _work_since(self):
-        """Work of the muscles since the last call."""
+        """Work of the muscles since the last call, mass length²/s²."""
         work = np.nan_to_num(self._senses.work)
         since, self._work = work - self._work, work
         return since
@@ -364,8 +364,8 @@ def _check_in_tank(box, scene):
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
 LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it
-MOST_FRAMES = 1000    # of a step, as the simulator has it
-MOST_STARTS = 2**31   # which the simulator counts from 0
+MAX_FRAMES = 1000    # of a step, as the simulator has it
+MAX_STARTS = 2**31   # which the simulator counts from 0
 
 gymnasium.register("natator/Swimmer-v0", entry_point="natator.gym:SwimmerEnv",
                    vector_entry_point="natator.gym:SwimmerVectorEnv")

@@ -20,16 +20,19 @@ WATER, GROUND, GRID, EDGE, INK = "#6ab8ee", "#eef0f2", "#d9dfe4", "#9faebb", "#2
 OPACITY = 0.3  # of the water's surface
 ROOM, ROOM_IN_VACUUM = 0.6, 0.2  # in body lengths: how much is shown before and behind a body
 NEARLY_ALL = 0.7  # a tank of which this share would be shown is shown whole
+VORTICES = 0.01  # share of the water whose Q is highest
 SIDES, ABOVE, BELOW = 0.03, 0.04, 0.07  # margins, in widths of the picture
 FLATTEST, HIGHEST = 0.3, 0.75
 
 
-def picture(scene, file, gait=None, at=None, view="side", size=None, water=True, duration=None, **options):
+def picture(scene, file, gait=None, at=None, view="side", size=None, water=True, duration=None, vortices=False, **options):
     """Simulates a swim up to a time and draws it to a PNG file. Lengths are the same near and far, so the scale holds everywhere.
 
     scene, gait, options: as of Stream. at: s, to the nearest frame; None is 1, or the end of a shorter swim, or 0 of a body at rest.
     view: one of VIEWS. size: pixels, or None for 1600 wide and as high as what is shown. duration: of the swim in s, None is the
-    scene's. Returns the size and the time. Raises InputError, ProgramError, Unstable and OSError.
+    scene's. vortices: draws those in place of the water's surface: where Q (Water.q_criterion) is beyond the least of its highest
+    VORTICES, coloured by the vorticity about the vertical. Returns the size and the time. Raises InputError, ProgramError, Unstable
+    and OSError.
     """
     pyvista = package("pyvista", "pyvista", "a picture")
     from vtkmodules.vtkCommonCore import vtkLogger
@@ -37,7 +40,7 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news
     if not Path(file).parent.is_dir():
         raise InputError(f"{file} cannot be written: there is no folder {Path(file).parent}")
-    if water:
+    if water and not vortices:
         package("pysplashsurf", "pysplashsurf", "a picture of water")
     with Stream(scene, gait=gait, fields=("position",), **options) as stream:
         swim = Swim.of(stream, water)
@@ -47,6 +50,7 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
             raise InputError(f"--at is {time}; expected a time of the swim, 0 to {duration} s")
         step = stream.scene["timeStep"]
         frame = list(frames(stream, time, max(1, round(time / step))))[-1] if time else stream.frame
+        field = stream.water() if vortices else None
     tank, shown = _framing(swim, frame.position)
     axes = _axes(*VIEWS[view])
     extent = np.ptp(np.array(list(itertools.product(*shown.T))) @ axes.T, axis=0)[:2].clip(1e-6)
@@ -57,7 +61,9 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     plotter = pyvista.Plotter(off_screen=True, window_size=(width, height))
     try:
         plotter.set_background("white")
-        _draw(pyvista, plotter, swim, frame, tank, axes)
+        _draw(pyvista, plotter, swim, frame, tank, axes, water=not vortices)
+        if vortices:
+            _vortices(plotter, field)
         focus = shown.mean(0) + axes[1] * (above - below) / 2 / scale
         plotter.camera.parallel_projection = True
         plotter.camera.focal_point = focus
@@ -104,7 +110,21 @@ def _framing(swim, position):
     return tank, shown if np.ptp(shown[:, 0]) < NEARLY_ALL * np.ptp(tank[:, 0]) else tank
 
 
-def _draw(pyvista, plotter, swim, frame, tank, axes):
+def _vortices(plotter, water):
+    """Surfaces of equal Q. Raises InputError where nothing turns."""
+    grid = water.grid().cell_data_to_point_data() if water.density.size else None
+    q = grid["Q"] if grid else np.zeros(1)
+    least = np.quantile(q, 1 - VORTICES)
+    if not least > 0:
+        raise InputError("vortices: the water does not turn anywhere; expected a swim that has gone on for a while")
+    about = grid["vorticity"][:, 1]
+    grid["about the vertical"] = about
+    strength = np.quantile(np.abs(about[q > least]), 0.9)
+    plotter.add_mesh(grid.contour([least], scalars="Q"), scalars="about the vertical", cmap="coolwarm", clim=[-strength, strength],
+                     opacity=0.6, show_scalar_bar=False, smooth_shading=True)
+
+
+def _draw(pyvista, plotter, swim, frame, tank, axes, water):
     if len(tank):
         if axes[2][1] > 0:
             _ground(pyvista, plotter, tank)
@@ -124,7 +144,7 @@ def _draw(pyvista, plotter, swim, frame, tank, axes):
             points["colour"] = colours[particles].astype("u1")
             plotter.add_mesh(points.glyph(geom=pyvista.Sphere(radius=RADIUS * radius), scale=False, orient=False), scalars="colour",
                              rgb=True, smooth_shading=True, specular=0.25, specular_power=28, ambient=0.15)
-    if len(swim.water):
+    if water and len(swim.water):
         vertices, triangles = WaterSurface(swim)(frame)
         plotter.add_mesh(pyvista.PolyData.from_regular_faces(vertices, triangles), color=WATER, opacity=OPACITY, ambient=0.6,
                          diffuse=0.45, specular=0.2)

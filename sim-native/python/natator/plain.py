@@ -1,4 +1,4 @@
-"""Values as JSON can hold them."""
+"""Conversion of values to what JSON can hold."""
 
 import json
 import math
@@ -40,7 +40,7 @@ def plain(name, value, depth=0):
 
 
 def line(value, name=""):
-    """A dict as a line of JSON, in bytes."""
+    """A dict as one line of JSON, as bytes."""
     return json.dumps(plain(name, value)).encode() + b"\n"
 
 
@@ -50,5 +50,5 @@ def is_number(value):
 
 
 def is_whole(value, least=0):
-    """Whether it is a whole number from `least` on."""
+    """Whether a value is a whole number, at least `least`."""
     return type(value) is int and value >= least

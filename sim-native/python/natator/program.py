@@ -16,6 +16,20 @@ from pathlib import Path
 import natator
 from natator.errors import InputError, ProgramError
 
+NAME = "natator-sim: "
+BUILD_IT = "build it here: pip install . in a checkout"
+WAYS_OUT = {errno.ENOEXEC: f", as a program for another kind of processor; {BUILD_IT}",
+            errno.ENOENT: f", as where there is no glibc (musl); {BUILD_IT}",
+            errno.EACCES: ": must be executable, on a disk that programs may run from; install the package again"}
+PATIENCE = 0.5            # s for a program that has nothing to do, to end with its input
+GRACE = 1.0               # s for one that was told to end, or seems to
+CHUNK = 1 << 18           # bytes written or read at once
+MAX_LINE = 1 << 24  # bytes of a line that has no end
+MAX_OUTPUT = 1 << 30  # bytes of standard output that are read before a command is sent
+MAX_ERRORS = 1 << 16  # bytes of standard error that are kept
+MAX_ERRORS_WITHOUT_OUTPUT = 1 << 24  # bytes of it without any of standard output
+MAX_QUOTED = 1000  # letters of it in a message
+
 
 def simulator_path(program=None):
     """Path of natator-sim: `program`, else $NATATOR_SIM, else the one that came with this package, else that on the PATH, else that
@@ -79,9 +93,9 @@ class Program:
 
     def __init__(self, program, arguments):
         self.path = simulator_path(program)
-        self._unsent, self._heard, self._searched = memoryview(b""), bytearray(), 0
-        self._said, self._noise = b"", 0
-        self._deaf = self._closed = self._foreign = False
+        self._unsent, self._output, self._searched = memoryview(b""), bytearray(), 0
+        self._errors, self._errors_since_output = b"", 0
+        self._stdin_closed = self._closed = self._forked = False
         try:
             self._process = subprocess.Popen([self.path, *map(str, arguments)], bufsize=0, stdin=subprocess.PIPE,
                                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -96,24 +110,24 @@ class Program:
         _running.add(self)
 
     def send_later(self, data):
-        """What is sent while others are waited for; see `hear`."""
+        """What is sent while others are waited for; see `exchange`."""
         self._unsent = memoryview(bytes(self._unsent) + data)
 
     def send(self, data):
         """Sends all of it. What the program says meanwhile is kept: neither waits for the other with a full pipe."""
         self.send_later(data)
         while self._unsent:
-            if self._deaf:
+            if self._stdin_closed:
                 raise self.ended()
-            if len(self._heard) > MOST_HEARD:
+            if len(self._output) > MAX_OUTPUT:
                 raise self.no_simulator()
             _wait([self])
 
     def peek(self, size):
         """The next so many bytes, which stay to be read."""
-        while len(self._heard) < size:
-            hear([self])
-        return bytes(self._heard[:size])
+        while len(self._output) < size:
+            exchange([self])
+        return bytes(self._output[:size])
 
     def read(self, size):
         """So many bytes; where a wait is interrupted, none of them."""
@@ -123,23 +137,23 @@ class Program:
 
     def line(self):
         """The next line, or None if there is no whole one yet."""
-        end = self._heard.find(b"\n", self._searched)
+        end = self._output.find(b"\n", self._searched)
         if end < 0:
-            self._searched = len(self._heard)
-            if self._searched > MOST_LINE:
+            self._searched = len(self._output)
+            if self._searched > MAX_LINE:
                 raise self.no_simulator()
             return None
-        data = bytes(self._heard[:end])
+        data = bytes(self._output[:end])
         self._forget(end + 1)
         return data
 
     def _forget(self, size):
-        del self._heard[:size]
+        del self._output[:size]
         self._searched = 0
 
     def require_open(self):
         """Raises ProgramError where nobody may speak to it any more, or this process never might."""
-        if self._foreign:
+        if self._forked:
             raise ProgramError("natator-sim was started by the process that this one is forked from: each must start its own")
         if self._closed:
             raise ProgramError("natator-sim is closed")
@@ -157,7 +171,7 @@ class Program:
         except subprocess.TimeoutExpired:
             self._kill()
             return _other_program(self.path, " reads or says no more, and goes on")
-        lines = self._said.decode(errors="replace").split("\n")
+        lines = self._errors.decode(errors="replace").split("\n")
         last = next((_printable(text.strip()) for text in reversed(lines) if text.strip()), "")
         if code == 2 and last.startswith(NAME):
             return InputError(last.removeprefix(NAME))
@@ -186,7 +200,7 @@ class Program:
 
     def _watched(self):
         """Pipes to wait for, and for what."""
-        if not self._deaf:
+        if not self._stdin_closed:
             yield self._process.stdin, select.POLLOUT if self._unsent else 0
         for pipe in self._open:
             yield pipe, select.POLLIN
@@ -199,17 +213,17 @@ class Program:
             except BlockingIOError:
                 pass
             except BrokenPipeError:
-                self._deaf = True
+                self._stdin_closed = True
             return
         data = os.read(pipe.fileno(), CHUNK)
         if not data:
             self._open.discard(pipe)
         elif pipe is self._process.stdout:
-            self._heard += data
-            self._noise = 0
+            self._output += data
+            self._errors_since_output = 0
         else:
-            self._said = (self._said + data)[-MOST_SAID:]
-            self._noise += len(data)
+            self._errors = (self._errors + data)[-MAX_ERRORS:]
+            self._errors_since_output += len(data)
 
     def _let_go(self):
         """The process, whose pipes are closed by this."""
@@ -219,26 +233,26 @@ class Program:
 
     def _leave_to_parent(self):
         """Has no part in it, in a forked child."""
-        self._foreign = True
+        self._forked = True
         self._finalizer.detach()
         self._let_go().returncode = 0  # which the parent will know
 
 
-def hear(programs):
+def exchange(programs):
     """Sends what is unsent, and waits until a program has said more. Raises ProgramError or InputError if one will not."""
     for program in programs:
         if program._process.stdout not in program._open:
             raise program.ended()
-        if program._noise > MOST_NOISE:
+        if program._errors_since_output > MAX_ERRORS_WITHOUT_OUTPUT:
             raise program.no_simulator()
-    deaf = [program for program in programs if program._deaf]
-    if not _wait(programs, GRACE if deaf else None) and deaf:
-        raise deaf[0].ended()
+    closed = [program for program in programs if program._stdin_closed]
+    if not _wait(programs, GRACE if closed else None) and closed:
+        raise closed[0].ended()
 
 
 def stop(programs, patience):
     """Ends programs, whose pipes are closed by this; those that go on for so many seconds are told to end, then killed."""
-    programs = [program for program in programs if not program._foreign]
+    programs = [program for program in programs if not program._forked]
     _end([program._let_go() for program in programs], patience)
     for program in programs:
         program._finalizer.detach()
@@ -259,7 +273,7 @@ def _wait(programs, seconds=None, only=None):
         program, pipe = watched[number]
         program.require_open()  # may have been closed meanwhile
         if pipe is program._process.stdin and not events & select.POLLOUT:
-            program._deaf = True
+            program._stdin_closed = True
         else:
             program._move(pipe)
     return bool(ready)
@@ -309,23 +323,9 @@ def _refuse(constant):
 
 
 def _printable(text):
-    text = text if len(text) <= MOST_QUOTED else text[:MOST_QUOTED] + "…"
+    text = text if len(text) <= MAX_QUOTED else text[:MAX_QUOTED] + "…"
     return "".join(letter if letter.isprintable() else "\ufffd" for letter in text)
 
-
-NAME = "natator-sim: "
-BUILD_IT = "build it here: pip install . in a checkout"
-WAYS_OUT = {errno.ENOEXEC: f", as a program for another kind of processor; {BUILD_IT}",
-            errno.ENOENT: f", as where there is no glibc (musl); {BUILD_IT}",
-            errno.EACCES: ": must be executable, on a disk that programs may run from; install the package again"}
-PATIENCE = 0.5            # s for a program that has nothing to do, to end with its input
-GRACE = 1.0               # s for one that was told to end, or seems to
-CHUNK = 1 << 18           # bytes written or read at once
-MOST_LINE = 1 << 24       # bytes of a line that has no end
-MOST_HEARD = 1 << 30      # bytes that are said before a command is read
-MOST_SAID = 1 << 16       # bytes of standard error that are kept
-MOST_NOISE = 1 << 24      # bytes on it without any on standard output
-MOST_QUOTED = 1000        # letters of it in a message
 
 _running = weakref.WeakSet()
 os.register_at_fork(after_in_child=_leave_all_to_parent)

@@ -20,7 +20,7 @@ from natator.program import simulator_path
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # told apart also by the colour blind
 FISH = ("anguilliform", "carangiform", "thunniform")
 ALONG, SIDEWAYS = "from the head (body lengths)", "sideways (body lengths)"
-LIKE, LEAST_ALPHA = 0.8, 0.1  # like a fish is what has at most this share of no motion's e, and is not scaled to less than that
+LIKE, MIN_ALPHA = 0.8, 0.1  # like a fish is what has at most this share of no motion's e, and is not scaled to less than that
 SIGNS = {"holds": ("holds", "✔"), "does not": ("fails", "✘"), "not measured": ("unknown", "–")}
 ROUNDING = 1e-5  # of a recorded distance, scene units
 UNSTABLE = 3  # exit code of a run that has an answer nevertheless
@@ -127,7 +127,7 @@ class Recorded:
 
 
 def portrait(request, file):
-    """Draws the swimmer in its tank; whether what that needs is installed."""
+    """Draws the swimmer in its tank; returns whether the packages for that are installed."""
     try:
         picture.picture(request["scene"], str(file), request["gait"], view="three-quarter", size=(900, 400), duration=request.get("duration"),
                         overrides=request.get("overrides"), scheme=request.get("scheme"))
@@ -137,7 +137,7 @@ def portrait(request, file):
 
 
 def difference(run, swim):
-    """What today's program does otherwise than the run has stored, a sentence, or nothing."""
+    """How the present program's result differs from the stored one: a list of one sentence, or an empty list."""
     stored = json.loads((run / "best.json").read_text(encoding="utf-8"))["result"]
     frame = stored.get("frames", 0)
     if stored["status"] != "ok" or stored.get("distance") is None or not 0 < frame < len(swim.particles):
@@ -147,8 +147,8 @@ def difference(run, swim):
 
 
 def nearest(fits):
-    """Number of the fish that a motion is like, or None."""
-    like = [(fit["error"], fish) for fish, fit in enumerate(fits) if fit["error"] <= LIKE * fit["none"] and fit["alpha"] >= LEAST_ALPHA]
+    """Index of the fish whose motion is most alike, or None."""
+    like = [(fit["error"], fish) for fish, fit in enumerate(fits) if fit["error"] <= LIKE * fit["none"] and fit["alpha"] >= MIN_ALPHA]
     return min(like)[1] if like else None
 
 
@@ -238,13 +238,13 @@ def draw_flow(axis, field):
 
 
 class Page:
-    """A page that holds its pictures, and the files of these."""
+    """A page with its pictures, and the pictures as files."""
 
     def __init__(self, title, folder):
         self.title, self.folder, self.figure, self.parts = title, folder, None, [f"<h1>{html.escape(title)}</h1>"]
 
     def axes(self, x, y, title=""):
-        """Of a new picture, for what comes next."""
+        """Axes of a new picture."""
         axis, = self.panels(1)
         axis.set(xlabel=x, ylabel=y, title=title)
         axis.grid(linewidth=0.5, alpha=0.5)
@@ -256,7 +256,7 @@ class Page:
         return self.figure.subplots(rows, squeeze=False).ravel()
 
     def save(self, name):
-        """The picture that was drawn, as a file."""
+        """Saves the present picture to a file."""
         for axis in self.figure.axes:
             if axis.get_legend_handles_labels()[0]:
                 axis.legend(fontsize="small")

@@ -63,7 +63,7 @@ class Simulator:
         self._programs[0].require_open()
 
     def _answers(self, lines):
-        """To the lines of so many ids, in their order."""
+        """The answers to these lines, in their order, matched by id."""
         ids, shares, answers = list(lines), {}, {}
         for k, program in enumerate(self._programs):
             if mine := ids[k::len(self._programs)]:
@@ -72,7 +72,7 @@ class Simulator:
             for program, share in shares.items():
                 program.send_later(b"".join(lines[own] for own in share.left))
             while shares:
-                programs.hear(list(shares))
+                programs.exchange(list(shares))
                 for program, share in list(shares.items()):
                     if share.take():
                         answers |= shares.pop(program).answers
@@ -82,7 +82,7 @@ class Simulator:
         return [answers[own] for own in ids]
 
     def close(self):
-        """Also while another thread waits for answers, which gets a ProgramError."""
+        """Ends the programs. A thread that waits for answers meanwhile gets a ProgramError."""
         idle = self._turn.acquire(blocking=False)
         try:
             self._end(programs.PATIENCE if idle else 0)
@@ -102,19 +102,19 @@ class Simulator:
 
 
 def make_request(scene, gait=None, **request):
-    """A request of `natator-sim serve`: what is None is left out."""
+    """A request of `natator-sim serve`, as a dict. Arguments that are None are left out."""
     given = dict(request, scene=scene, gait=None if gait is None else as_json(gait))
     return {key: value for key, value in given.items() if value is not None}
 
 
 def evaluate(scene, gait=None, program=None, **request):
-    """Simulator.evaluate by a program of its own."""
+    """Evaluates one gait, as `Simulator.evaluate` does, in a program started for it."""
     with Simulator(workers=1, program=program) as simulator:
         return simulator.evaluate(scene, gait, **request)
 
 
 def _mappings(requests):
-    """A list of requests. Raises InputError for what is none."""
+    """Requests as a list. Raises InputError for anything that is not a request."""
     if isinstance(requests, (Mapping, str)) or not isinstance(requests, Iterable):
         raise InputError(f"requests = {requests!r}: must be a list of dicts")
     requests = list(requests)
@@ -129,14 +129,14 @@ def _processors():
 
 
 class _Share:
-    """What one program is asked and answers."""
+    """The requests to one program, and its answers."""
 
     def __init__(self, program, ids):
         self.answers = {}
         self.left, self._program, self._unnamed = dict.fromkeys(ids), program, []
 
     def take(self):
-        """Takes the answers that are there; whether they are all."""
+        """Takes the answers that have arrived; returns whether all have."""
         while len(self._unnamed) < len(self.left):
             text = self._program.line()
             if text is None:
@@ -154,7 +154,7 @@ class _Share:
 
 
 def _is_answer(answer):
-    """Whether it has what result.schema.json requires."""
+    """Whether a dict has the keys that result.schema.json requires."""
     own, status = answer.get("id", ""), answer.get("status")
     if status == "error":
         return isinstance(answer.get("error"), str) and (own is None or is_whole(own))

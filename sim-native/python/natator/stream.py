@@ -14,12 +14,13 @@ from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
 from natator.gait import Gait, numbers, rows, whole
 from natator.plain import is_number, is_whole, line, plain
+from natator.water import Water
 
 SIDES = ("left", "right", "above", "below")
 
 
 def pairs(name, values):
-    """Two values each, of any sequence of such."""
+    """A list of pairs, from any sequence of pairs."""
     try:
         return [(first, second) for first, second in values]
     except (TypeError, ValueError):
@@ -72,7 +73,7 @@ def _number(value):
 
 
 def _vector(values, size):
-    """So many."""
+    """A list of `size` numbers as an array. Raises ValueError for anything else."""
     if not isinstance(values, list) or len(values) != size:
         raise ValueError
     return np.array([_number(value) for value in values], float)
@@ -100,7 +101,7 @@ class Stream:
     is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
-    Frame, None without fields.
+    Frame, None without fields; `last_water`, the Water that was asked for last.
     """
 
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
@@ -124,7 +125,7 @@ class Stream:
             options.append(f"--scheme={scheme}")
         if start is not None:
             options.append(f"--start={whole('start', start, 0)}")
-        self.scene, self.frame = {}, None
+        self.scene, self.frame, self.last_water = {}, None, None
         self._framed = bool(fields)
         self._unstable, self._torn = None, False
         self._ids, self._unanswered = itertools.count(1), collections.deque()
@@ -159,7 +160,7 @@ class Stream:
         return self.end_step()
 
     def begin_step(self, frames=None, drive=None, scale=None, offset=None):
-        """The first half of `step`: does not wait. Several may be begun before the first is ended."""
+        """Sends a `step` without waiting for its answer. Several may be begun before the first is ended."""
         command = {"do": "step", "sense": True}
         if frames is not None:
             command["frames"] = whole("frames", frames, 1)
@@ -173,13 +174,18 @@ class Stream:
         self.send(command)
 
     def end_step(self):
-        """The second half."""
+        """Waits for a step that `begin_step` sent; returns the senses at its end. Raises Unstable."""
         if self._framed:
             self.receive()
         return self._senses(self.receive())
 
+    def water(self):
+        """The Water as it is now. Raises InputError, also when the simulation has become unstable."""
+        self.ask({"do": "water"})
+        return self.last_water
+
     def steer(self, scale=None, offset=None):
-        """From the next frame on; without arguments the gait alone drives again."""
+        """Scales and offsets the gait from the next frame on; without arguments the gait alone drives again."""
         self.ask({"do": "steer", **{name: numbers(name, values) for name, values in (("scale", scale), ("offset", offset))
                                     if values is not None}})
 
@@ -194,16 +200,16 @@ class Stream:
         self.end_reset()
 
     def begin_reset(self, start=None):
-        """The first half of `reset`: does not wait."""
+        """Sends a `reset` without waiting for it."""
         self.send({"do": "reset"} if start is None else {"do": "reset", "start": whole("start", start, 0)})
 
     def end_reset(self):
-        """The second half."""
+        """Waits for a reset that `begin_reset` sent."""
         self.receive()
         self._first_frame()
 
     def ask(self, command):
-        """Sends any command of the protocol; its answer. Raises InputError."""
+        """Sends any command of the protocol; returns its answer. Raises InputError."""
         self.require_idle()
         self.send(command)
         return self.receive()
@@ -288,6 +294,11 @@ class Stream:
     def _take(self, letters, body):
         if letters == b"FRAM":
             self.frame = self._frame_of(body)
+        elif letters == b"WATR":
+            try:
+                self.last_water = Water.from_message(body)
+            except ValueError:
+                raise self._program.no_simulator() from None
         elif letters == b"SCEN":
             self._take_scene(self._program.json(body))
         elif letters == b"STOP":
@@ -360,4 +371,4 @@ def _is_scene(scene):
 PROTOCOL = 2
 WIDTHS = {"position": 3, "velocity": 3, "density": 1}
 #: bytes of a message's body
-LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

@@ -1,4 +1,4 @@
-"""One swim, with what is told of it, and shown in a notebook or a file."""
+"""One swim: its figures, and its display in a notebook or a file."""
 
 import html
 import os
@@ -54,7 +54,7 @@ def scene_of(creature_or_scene):
 
 
 def _own_gait(scene, program):
-    """Of the file that has the creature's name, beside the program's scenes; or a wave."""
+    """The gait in the file of the creature's name, among the program's data, or else a wave."""
     name = (scene["definition"].get("creature") or {}).get("name")
     file = Path(os.path.realpath(simulator_path(program))).parents[1] / f"share/natator/gaits/{GAITS.get(name, name)}.json"
     if not name or not file.is_file():
@@ -74,7 +74,7 @@ class Swim:
 
     @property
     def duration(self):
-        """s."""
+        """Simulated time, s."""
         return float(self.trajectory.time[-1])
 
     @property
@@ -84,7 +84,7 @@ class Swim:
 
     @property
     def speed(self):
-        """Mean along x, body lengths/s."""
+        """Mean speed along x, body lengths/s."""
         return self.distance / self.duration / self.trajectory.scene["bodyLength"]
 
     def __repr__(self):
@@ -208,7 +208,7 @@ class _Drawing:
                 f'<text x="{MARGIN}" y="{base}">{legend}</text></svg>')
 
     def image(self, k):
-        """A frame as Pillow's image."""
+        """One frame as an image of Pillow."""
         pillow, pen = package("PIL.Image", "pillow", "a .png or .gif"), package("PIL.ImageDraw", "pillow", "a .png or .gif")
         k %= len(self.outline)
         big = pillow.new("RGB", (2 * WIDTH, 2 * self.height), WATER)

@@ -31,27 +31,34 @@ def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **opti
         return joined(list(frames(stream, duration, every)), stream.scene)
 
 
-def frames(stream, duration, every=1, least=0):
+def frames(stream, duration, every=1, least=0, water=False):
     """The frame of a fresh stream and every `every`th of those after it, until `duration` seconds, to the nearest frame, are over,
-    `least` at least; each is simulated while the one before it is used. Raises InputError and Unstable."""
+    `least` at least; each is simulated while the one before it is used. water: stream.last_water is that of the frame. Raises
+    InputError and Unstable."""
     if number("duration", duration) < 0 or least and not duration:
         raise InputError(f"duration = {duration}: must be {'above' if least else 'at least'} 0 s")
     whole("every", every, 1)
     stream.require_stable()
-    longest = MOST_STEPS * stream.scene["timeStep"]
+    longest = MAX_STEPS * stream.scene["timeStep"]
     if duration > longest:
-        raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MOST_STEPS} time steps")
+        raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MAX_STEPS} time steps")
     steps = [min(left, 1000) for left in range(every, 0, -1000)]
     frame, count = stream.frame, max(least, int(duration / stream.scene["timeStep"] + 0.5)) // every
     for _ in range(count):
+        if water:
+            stream.send({"do": "water"})
         for step in steps:
             stream.send({"do": "credit"})
             stream.send({"do": "step", "frames": step})
+        if water:
+            stream.receive()
         yield frame
         for _ in 2 * steps:
             stream.receive()
             stream.require_stable()
         frame = stream.frame
+    if water:
+        stream.water()
     yield frame
 
 
@@ -66,4 +73,4 @@ def joined(frames, scene):
                       body=np.array(scene["body"], int), fluid=slice(first, first + count), scene=scene)
 
 
-MOST_STEPS = 10**7  # of an evaluation, as the simulator has it
+MAX_STEPS = 10**7  # of an evaluation, as the simulator has it

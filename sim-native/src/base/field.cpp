@@ -10,8 +10,8 @@
 namespace natator::fields {
 namespace {
 
-/// Least number of single-character edits that turn `a` into `b`, an exchange of two neighbours being one (Levenshtein's
-/// distance with transpositions: optimal string alignment).
+/// Least number of single-character edits that turn `a` into `b`, an exchange of two neighbours being one
+/// (Levenshtein's distance with transpositions: optimal string alignment).
 std::size_t edits(std::string_view a, std::string_view b) {
     std::vector<std::size_t> last(b.size() + 1), row(b.size() + 1), before_last;
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -41,7 +41,9 @@ std::size_t max_edits(std::string_view a, std::string_view b) {
     return letters >= 5 ? 2 : letters >= 3 ? 1 : 0;
 }
 
-std::string document_of(const Place& place) { return place.document.empty() ? "" : place.document + ": "; }
+std::string document_of(const Place& place) {
+    return place.document.empty() ? "" : place.document + ": ";
+}
 
 template <class Vector>
 void read_vector(const json& value, const Place& place, const Range& range, Vector& out) {
@@ -53,8 +55,8 @@ void read_vector(const json& value, const Place& place, const Range& range, Vect
 }  // namespace
 
 std::string did_you_mean(std::string_view unknown, const std::vector<std::string_view>& allowed) {
-    constexpr std::size_t longest_compared = 64;
-    if (unknown.size() > longest_compared) return {};
+    constexpr std::size_t max_compared = 64;
+    if (unknown.size() > max_compared) return {};
     std::string_view best;
     std::size_t least = unknown.size();
     for (const std::string_view word : allowed) {

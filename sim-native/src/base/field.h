@@ -61,8 +61,12 @@ template <class Value>
 json as_json(const Value& value) {
     return value;
 }
-inline json as_json(const Eigen::Vector3d& value) { return {value.x(), value.y(), value.z()}; }
-inline json as_json(const Eigen::Vector3i& value) { return {value.x(), value.y(), value.z()}; }
+inline json as_json(const Eigen::Vector3d& value) {
+    return {value.x(), value.y(), value.z()};
+}
+inline json as_json(const Eigen::Vector3i& value) {
+    return {value.x(), value.y(), value.z()};
+}
 
 /// Refuses a value other than 0 (false, a vector of zeros).
 void require_zero(const json& value, const Place& place, const std::string& reason);

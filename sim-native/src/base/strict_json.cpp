@@ -72,7 +72,8 @@ std::string read_all(std::FILE* file, const std::string& source) {
         text.append(buffer.data(), count);
         if (text.size() > limits::document_bytes) throw InputError(source + ": larger than 16 MiB");
     }
-    if (std::ferror(file) != 0) throw InputError(source + ": cannot be read: " + std::generic_category().message(errno));
+    if (std::ferror(file) != 0)
+        throw InputError(source + ": cannot be read: " + std::generic_category().message(errno));
     return text;
 }
 

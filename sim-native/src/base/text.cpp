@@ -19,12 +19,12 @@ using nlohmann::json;
 constexpr std::size_t max_shown = 60;
 constexpr std::size_t max_quoted = 400;  // paths and names are worth more room than values
 
-/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it, nor
-/// the one that stands for bytes that were no text.
+/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it,
+/// nor the one that stands for bytes that were no text.
 bool is_seen(unsigned code) {
     constexpr std::pair<unsigned, unsigned> unseen[] = {
-        {0x80, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160}, {0x17b4, 0x17b5}, {0x180b, 0x180f},
-        {0x200b, 0x200f}, {0x2028, 0x202e}, {0x2060, 0x206f}, {0x3164, 0x3164}, {0xd800, 0xf8ff}, {0xfe00, 0xfe0f},
+        {0x80, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160},   {0x17b4, 0x17b5}, {0x180b, 0x180f},
+        {0x200b, 0x200f}, {0x2028, 0x202e}, {0x2060, 0x206f}, {0x3164, 0x3164},   {0xd800, 0xf8ff}, {0xfe00, 0xfe0f},
         {0xfeff, 0xfeff}, {0xffa0, 0xffa0}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff}};
     return std::none_of(std::begin(unseen), std::end(unseen),
                         [code](const auto& range) { return range.first <= code && code <= range.second; });
@@ -73,8 +73,8 @@ std::string with_characters(const std::string& ascii) {
     return text;
 }
 
-std::string on_one_line(const json& value, std::size_t longest) {
-    return shortened(with_characters(value.dump(-1, ' ', true, json::error_handler_t::replace)), longest);
+std::string on_one_line(const json& value, std::size_t max_length) {
+    return shortened(with_characters(value.dump(-1, ' ', true, json::error_handler_t::replace)), max_length);
 }
 
 }  // namespace
@@ -87,11 +87,11 @@ std::optional<double> decimal_number(std::string_view text) {
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::string shortened(std::string text, std::size_t longest) {
-    if (text.size() <= longest) return text;
+std::string shortened(std::string text, std::size_t max_length) {
+    if (text.size() <= max_length) return text;
     const auto continues = [&text](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
-    while (longest > 0 && continues(longest)) --longest;
-    return text.substr(0, longest) + "...";
+    while (max_length > 0 && continues(max_length)) --max_length;
+    return text.substr(0, max_length) + "...";
 }
 
 std::string number_text(double value) {

@@ -6,8 +6,8 @@
 
 namespace natator {
 
-/// The name of a file that is worth nothing until it is finished, kept for remove_unfinished_files while this lives. Of many at
-/// once the last are not kept.
+/// The name of a file that is worth nothing until it is finished, kept for remove_unfinished_files while this lives. Of
+/// many at once the last are not kept.
 class UnfinishedFile {
 public:
     explicit UnfinishedFile(const std::filesystem::path& path);

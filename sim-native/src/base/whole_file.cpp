@@ -21,7 +21,7 @@ fs::path place_of(const fs::path& path) {
 }
 
 bool is_open_as(int descriptor, const fs::path& file) {
-    struct stat open {}, there {};
+    struct stat open{}, there{};
     return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &there) == 0 && open.st_dev == there.st_dev &&
            open.st_ino == there.st_ino;
 }
@@ -35,7 +35,7 @@ bool can_be_replaced(const fs::path& file) {
            ::access(fs::absolute(file).parent_path().c_str(), W_OK) == 0;
 }
 
-fs::path beside(fs::path file) {
+fs::path sibling(fs::path file) {
     return (file += ".") += std::to_string(::getpid());
 }
 
@@ -50,8 +50,7 @@ std::runtime_error cannot_be_written(const std::string& path) {
 }
 
 WholeFile::WholeFile(const fs::path& path, std::ios::openmode mode)
-    : target_(place_of(path)),
-      written_(can_be_replaced(target_) ? beside(target_) : target_) {
+    : target_(place_of(path)), written_(can_be_replaced(target_) ? sibling(target_) : target_) {
     if (written_ != target_) unfinished_.emplace(written_);
     stream_.open(written_, mode | std::ios::out);
     std::error_code failed;

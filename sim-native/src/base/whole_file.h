@@ -15,9 +15,9 @@ std::runtime_error cannot_be_written(const std::string& path, const std::string&
 /// The same where the last call of the system, whose reason errno holds, was the write that failed.
 std::runtime_error cannot_be_written(const std::string& path);
 
-/// A file that is there whole or not at all: it is written beside its place, as `file.PID`, and takes it when it is finished.
-/// What stood there before stays until then. What is there and is no regular file, as a pipe, is written directly; so is a
-/// file in a folder that takes no new ones, and one that standard output or error goes to.
+/// A file that is there whole or not at all: it is written beside its place, as `file.PID`, and takes it when it is
+/// finished. What stood there before stays until then. What is there and is no regular file, as a pipe, is written
+/// directly; so is a file in a folder that takes no new ones, and one that standard output or error goes to.
 class WholeFile {
 public:
     explicit WholeFile(const std::filesystem::path& path, std::ios::openmode mode = {});

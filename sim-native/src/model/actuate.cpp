@@ -40,7 +40,8 @@ template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
     check_length("drive", driven.size(), model.actuators);
     if (!model.muscles.empty()) check_springs(model, state);
-    for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
+    for (const CompanionBody& companion : model.companions)
+        add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
         const double length = physics::muscle_length(rest, muscle.lateral, driven[muscle.actuator]);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "borders.h"
+#include "boundaries.h"
 #include "natator/error.h"
 #include "physics/dfsph.h"
 #include "tank_ends.h"
@@ -13,9 +13,9 @@
 namespace natator {
 namespace {
 
-constexpr double max_weight = 2;         ///< largest g H h^2 / s^2 that a pass supports, per density excess
+constexpr double max_weight = 2;          ///< largest g H h^2 / s^2 that a pass supports, per density excess
 constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes support: all of it oscillates at some depths
-constexpr double min_supports = 1.5;    ///< least depth that is left to the passes, in kernel supports
+constexpr double min_supports = 1.5;      ///< least depth that is left to the passes, in kernel supports
 
 /// The axis along which gravity is largest; the floor is normal to it.
 int upright_axis(const Eigen::Vector3d& gravity) {
@@ -30,14 +30,18 @@ const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& pe
 }
 
 /// Gravity of the fluid along the axes that have ends, length/s^2.
-Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy * gravity_on_walls(model); }
+Eigen::Vector3d weight_of(const Model& model) {
+    return model.parameters.buoyancy * gravity_on_walls(model);
+}
 
 /// Whether weight of the water can be carried. `all`: depth of the water, length; the same in the functions below.
 bool may_carry(const Model& model, double all) {
-    return model.scheme == Scheme::conserving && model.parameters.conserving.modified_pressure && !weight_of(model).isZero(0) && all > 0;
+    return model.scheme == Scheme::conserving && model.parameters.conserving.modified_pressure &&
+           !weight_of(model).isZero(0) && all > 0;
 }
 
-/// The depth of water that weighs as much as what gravity along the floor pushes against the walls, length: none of it is carried.
+/// The depth of water that weighs as much as what gravity along the floor pushes against the walls, length: none of it
+/// is carried.
 double pushed_sideways(const Model& model) {
     const Eigen::Vector3d weight = weight_of(model);
     const int up = upright_axis(weight);
@@ -58,13 +62,14 @@ double max_solved_depth(const Model& model) {
     return max_weight * passes * p.fluid_rest_distance * p.fluid_rest_distance / weight_on_walls(model);
 }
 
-/// The depth D that is left to the passes, length: a share of the one at which longest_substep is the Model's, within limits.
+/// The depth D that is left to the passes, length: a share of the one at which max_substep is the Model's, within
+/// limits.
 double solved_of(const Model& model, double all) {
     if (!(min_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
     const double h = model.time_step / p.substeps, least = min_supports * support(model);
     const double shallow = physics::shallow_layers * p.fluid_rest_distance;
-    const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, fastest_expansion(p, shallow));
+    const double held = max_solved_depth(model) / h * std::min(physics::max_excess / h, max_expansion_rate(p, shallow));
     const double most = std::min(solved_share * held, held - pushed_sideways(model));
     return std::min(all, std::max(least, std::min(most, shallow)));
 }
@@ -76,15 +81,16 @@ double extent(const Model& model, int axis) {
     return ends.high.front() - ends.low.front();
 }
 
-/// How high above the floor the surface of all water is at rest, beside the solids that are held below it; height_of(position) is
-/// that of a particle.
+/// How high above the floor the surface of all water is at rest, beside the solids that are held below it;
+/// height_of(position) is that of a particle.
 template <class HeightOf>
 double surface_at_rest(const Model& model, double area, const HeightOf& height_of) {
     const std::vector<double> volumes = particle_volumes(model);
     const auto filled_to = [&](double surface) {
         double volume = 0;
         for (int i = 0; i < model.particles(); ++i)
-            if (model.is_fluid(i) || (model.inverse_mass[i] == 0 && height_of(model.position[i]) < surface)) volume += volumes[i];
+            if (model.is_fluid(i) || (model.inverse_mass[i] == 0 && height_of(model.position[i]) < surface))
+                volume += volumes[i];
         return volume / area;
     };
     double surface = 0;
@@ -100,8 +106,8 @@ void refuse_heaped_water(const Model& model, double surface, const HeightOf& hei
         if (model.is_fluid(i)) highest = std::max(highest, height_of(model.position[i]));
     if (highest <= surface + support(model)) return;
     std::ostringstream text;
-    text << "model: parameters.modifiedPressure = true: needs a tank that is full: water begins " << highest << " above the floor, and is "
-         << surface << " deep at rest";
+    text << "model: parameters.modifiedPressure = true: needs a tank that is full: water begins " << highest
+         << " above the floor, and is " << surface << " deep at rest";
     throw InputError(text.str());
 }
 
@@ -123,15 +129,19 @@ double weight_on_walls(const Model& model) {
 }
 
 /// A pass supports g H h^2/s^2 = max_weight times the density excess that it may remove.
-double longest_substep(const Model& model, double depth) {
+double max_substep(const Model& model, double depth) {
     const SolverParameters& p = model.parameters;
     const double held = max_solved_depth(model) / depth;
-    return std::min(std::sqrt(held * physics::max_excess), held * fastest_expansion(p, depth));
+    return std::min(std::sqrt(held * physics::max_excess), held * max_expansion_rate(p, depth));
 }
 
-double min_solved_depth(const Model& model) { return min_solved_of(model, depth(model)); }
+double min_solved_depth(const Model& model) {
+    return min_solved_of(model, depth(model));
+}
 
-double solved_depth(const Model& model) { return solved_of(model, depth(model)); }
+double solved_depth(const Model& model) {
+    return solved_of(model, depth(model));
+}
 
 template <class Real>
 physics::CarriedWeight<Real> background_pressure(const Model& model) {

@@ -53,7 +53,8 @@ std::vector<int> shared_particles(const Creature& creature, const Model& model, 
     return shared;
 }
 
-/// One cluster of what it shares with the one before it, if anything, and the slices from `first` to `rear`, both included.
+/// One cluster of what it shares with the one before it, if anything, and the slices from `first` to `rear`, both
+/// included.
 Cluster cluster_of_slices(const Model& model, std::vector<int> shared, int first, int rear, double stiffness) {
     std::vector<int> particles = std::move(shared);
     for (int slice = first; slice <= rear; ++slice)

@@ -11,11 +11,14 @@
 namespace natator {
 namespace {
 
-std::string item(const std::string& list, std::size_t index) { return list + "[" + std::to_string(index) + "]"; }
+std::string item(const std::string& list, std::size_t index) {
+    return list + "[" + std::to_string(index) + "]";
+}
 
 void require_length(const std::string& name, std::size_t length, std::size_t wanted) {
     if (length != wanted)
-        throw InputError("model: " + name + " has length " + std::to_string(length) + ": must have length " + std::to_string(wanted));
+        throw InputError("model: " + name + " has length " + std::to_string(length) + ": must have length " +
+                         std::to_string(wanted));
 }
 
 /// `count`: of the things of which `index` is one. `name` gives the name of the index.
@@ -28,8 +31,8 @@ void require_one_of(int index, std::size_t count, const Name& name) {
 
 void require_of_state(std::size_t found, const char* what, std::size_t wanted, const char* of_model = "") {
     if (found != wanted)
-        throw InputError("state of " + std::to_string(found) + ' ' + what + ": must have " + std::to_string(wanted) + " as its model" +
-                         of_model);
+        throw InputError("state of " + std::to_string(found) + ' ' + what + ": must have " + std::to_string(wanted) +
+                         " as its model" + of_model);
 }
 
 /// What sums over a kernel, or over the particles within the radius, would else not come to an end.
@@ -38,8 +41,9 @@ void check_kernels(const SolverParameters& parameters) {
                 limits::max_kernel_support, false, " (rest distances of the fluid)");
     const double spacing = parameters.fluid_rest_distance;
     if (spacing > 0 && !(parameters.radius <= limits::radius_ratio * spacing))
-        throw InputError("model: parameters.fluidRestDistance = " + number_text(spacing) + ": must be at least radius / " +
-                         std::to_string(limits::radius_ratio) + ", radius = " + number_text(parameters.radius));
+        throw InputError("model: parameters.fluidRestDistance = " + number_text(spacing) +
+                         ": must be at least radius / " + std::to_string(limits::radius_ratio) +
+                         ", radius = " + number_text(parameters.radius));
 }
 
 void check_body(const Body& body, std::size_t particles, const std::string& name) {
@@ -67,14 +71,17 @@ void check_model(const Model& model) {
         const Cluster& cluster = model.clusters[c];
         require_length(item("clusters", c) + ".rest_offset", cluster.rest_offset.size(), cluster.particles.size());
         for (std::size_t i = 0; i < cluster.particles.size(); ++i)
-            require_one_of(cluster.particles[i], particles, [c, i] { return item("clusters", c) + item(".particles", i); });
+            require_one_of(cluster.particles[i], particles,
+                           [c, i] { return item("clusters", c) + item(".particles", i); });
     }
-    if (model.actuators < 0) throw InputError("model: actuators = " + std::to_string(model.actuators) + ": must be at least 0");
+    if (model.actuators < 0)
+        throw InputError("model: actuators = " + std::to_string(model.actuators) + ": must be at least 0");
     std::size_t actuators = static_cast<std::size_t>(model.actuators);
     for (std::size_t k = 0; k < model.companions.size(); ++k) {
         const Gait& gait = model.companions[k].gait;
         require_length(item("companions", k) + ".gait.phase", gait.phase.size(), gait.amplitude.size());
-        if (!gait.offset.empty()) require_length(item("companions", k) + ".gait.offset", gait.offset.size(), gait.amplitude.size());
+        if (!gait.offset.empty())
+            require_length(item("companions", k) + ".gait.offset", gait.offset.size(), gait.amplitude.size());
         actuators += gait.amplitude.size();
     }
     for (std::size_t m = 0; m < model.muscles.size(); ++m) {
@@ -96,7 +103,8 @@ void check_step(double time_step, int substeps) {
 
 void check_threads(int threads) {
     if (threads > limits::threads)
-        throw InputError("threads = " + std::to_string(threads) + ": must be at most " + std::to_string(limits::threads));
+        throw InputError("threads = " + std::to_string(threads) + ": must be at most " +
+                         std::to_string(limits::threads));
 }
 
 void check_particles(const Model& model, const std::vector<int>& particles) {
@@ -123,8 +131,8 @@ void check_places_and_velocities(const Model& model, const State<Real>& state) {
 template <class Real>
 void check_state(const Model& model, const State<Real>& state) {
     if (state.position.size() != model.position.size() || state.velocity.size() != model.position.size() ||
-        state.cluster_rotation.size() != model.clusters.size() || state.cluster_centre.size() != model.clusters.size() ||
-        state.spring_rest_length.size() != model.springs.size())
+        state.cluster_rotation.size() != model.clusters.size() ||
+        state.cluster_centre.size() != model.clusters.size() || state.spring_rest_length.size() != model.springs.size())
         throw InputError("state of " + std::to_string(state.position.size()) + " particles, " +
                          std::to_string(state.cluster_rotation.size()) + " clusters, " +
                          std::to_string(state.spring_rest_length.size()) + " springs: must have " +

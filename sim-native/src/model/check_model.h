@@ -6,9 +6,9 @@
 
 namespace natator {
 
-/// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and springs,
-/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernel_support and the ratio of radius
-/// and fluid_rest_distance are within their limits.
+/// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and
+/// springs, clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernel_support
+/// and the ratio of radius and fluid_rest_distance are within their limits.
 void check_model(const Model& model);
 
 /// Throws InputError unless time goes on, and in at least one substep.

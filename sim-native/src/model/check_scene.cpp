@@ -29,7 +29,8 @@ public:
     /// Of a list that may be empty.
     void length_if_any(const char* key, std::size_t size, std::size_t wanted) const {
         if (size > 0 && size != wanted)
-            throw InputError(place_ + key + " has length " + std::to_string(size) + ": must have length " + std::to_string(wanted));
+            throw InputError(place_ + key + " has length " + std::to_string(size) + ": must have length " +
+                             std::to_string(wanted));
     }
     void ascending(const char* key, const std::vector<int>& slices, int first, int last) const {
         for (std::size_t i = 0; i < slices.size(); first = slices[i++] + 1)
@@ -98,7 +99,8 @@ void check_scene(const Scene& scene) {
     check.zero_or_above("duration", scene.duration);
     check.above_zero("timeStep", scene.time_step);
     fields::check_solver(scene.solver, place.key("solver"));
-    for (std::size_t k = 0; k < scene.planes.size(); ++k) fields::check_plane(scene.planes[k], place.key("planes").item(k));
+    for (std::size_t k = 0; k < scene.planes.size(); ++k)
+        fields::check_plane(scene.planes[k], place.key("planes").item(k));
     check_settling(scene.settling, check.at("settling."));
     if (scene.fluid) {
         check_fluid(*scene.fluid, check.at("fluid."));

@@ -4,7 +4,7 @@
 
 #include "background_pressure.h"
 #include "base/text.h"
-#include "borders.h"
+#include "boundaries.h"
 #include "check_scene.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -12,23 +12,31 @@
 namespace natator::fields {
 namespace {
 
-json as_json(const Plane& plane) { return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset}; }
+json as_json(const Plane& plane) {
+    return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset};
+}
 
-/// What acts on the water by explicit steps, which bear so much of it; settling has its own substeps. Of cohesion and tension that
-/// goes with the square of the step, as of a spring; of confinement, which makes a vortex grow, with the step.
+/// What acts on the water by explicit steps, which bear so much of it; settling has its own substeps. Of cohesion and
+/// tension that goes with the square of the step, as of a spring; of confinement, which makes a vortex grow, with the
+/// step.
 void check_explicit_forces(const Scene& scene, const Place& place) {
     const SolverParameters& p = scene.solver;
     double h = scene.time_step / p.substeps;
     if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
-    const double spacing = p.fluid_rest_distance, reach = std::min(p.radius, p.conserving.kernel_support * spacing) / spacing;
+    const double spacing = p.fluid_rest_distance,
+                 reach = std::min(p.radius, p.conserving.kernel_support * spacing) / spacing;
     const auto check = [&](const char* key, double value, double most, const char* why) {
-        if (value > most) refuse(place.key("solver").key(key), value, "at most " + computed_text(most) + " (" + why + ", settling included)");
+        if (value > most)
+            refuse(place.key("solver").key(key), value,
+                   "at most " + computed_text(most) + " (" + why + ", settling included)");
     };
-    check("kinematicViscosity", p.conserving.kinematic_viscosity, physics::max_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
+    check("kinematicViscosity", p.conserving.kinematic_viscosity, physics::max_viscosity(spacing, h),
+          "0.1 fluidRestDistance^2 / longest substep");
     check("cohesion", p.cohesion, 0.4 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
           "0.4 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
     check("surfaceTension", p.surface_tension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");
-    check("vorticityConfinement", p.vorticity_confinement, 0.5 * spacing / h, "0.5 fluidRestDistance / longest substep");
+    check("vorticityConfinement", p.vorticity_confinement, 0.5 * spacing / h,
+          "0.5 fluidRestDistance / longest substep");
     check("relaxationFactor", p.relaxation_factor, 2, "beyond it corrections grow from one iteration to the next");
 }
 
@@ -64,7 +72,8 @@ void check_water(const Scene& scene, const Place& place) {
 
 void check_plane(const Plane& plane, const Place& place) {
     constexpr double tolerance = 1e-4;
-    if (!(std::abs(plane.normal.norm() - 1) <= tolerance)) refuse(place, as_json(plane), "[a, b, c, d] with (a, b, c) of length 1");
+    if (!(std::abs(plane.normal.norm() - 1) <= tolerance))
+        refuse(place, as_json(plane), "[a, b, c, d] with (a, b, c) of length 1");
     if (!std::isfinite(plane.offset)) refuse(place.item(3), plane.offset, "a finite number (length)");
 }
 

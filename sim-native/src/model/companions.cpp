@@ -27,7 +27,8 @@ std::vector<NamedBody> bodies_of(const Model& model) {
     return bodies;
 }
 
-[[noreturn]] void refuse(const Scene& scene, const std::string& one, const std::string& other, const Eigen::Vector3d& where) {
+[[noreturn]] void refuse(const Scene& scene, const std::string& one, const std::string& other,
+                         const Eigen::Vector3d& where) {
     std::ostringstream text;
     text << "scene " << quoted(scene.name) << ": " << one << " overlaps " << other << " at (" << where.x() << ", "
          << where.y() << ", " << where.z() << "): must be apart";
@@ -73,7 +74,8 @@ void add_companion(const Model& own, const Gait& gait, Model& model) {
 void check_apart(const Scene& scene, const Model& model) {
     const double near = scene.solver.solid_rest_distance;
     const auto cell_of = [near](const Eigen::Vector3d& x) {
-        return Cell{std::lround(std::floor(x.x() / near)), std::lround(std::floor(x.y() / near)), std::lround(std::floor(x.z() / near))};
+        return Cell{std::lround(std::floor(x.x() / near)), std::lround(std::floor(x.y() / near)),
+                    std::lround(std::floor(x.z() / near))};
     };
     std::map<Cell, std::vector<std::pair<int, std::size_t>>> cells;  // particles of earlier bodies, and which body
     const std::vector<NamedBody> bodies = bodies_of(model);
@@ -81,7 +83,8 @@ void check_apart(const Scene& scene, const Model& model) {
         for (const int i : bodies[b].body->particles) {
             const Eigen::Vector3d& x = model.position[i];
             for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
-                if (scene.obstacles[k].holds(x)) refuse(scene, bodies[b].name, "obstacles[" + std::to_string(k) + "]", x);
+                if (scene.obstacles[k].holds(x))
+                    refuse(scene, bodies[b].name, "obstacles[" + std::to_string(k) + "]", x);
             if (b == 0) continue;
             const auto [cx, cy, cz] = cell_of(x);
             for (long n = 0; n < 27; ++n) {

@@ -10,8 +10,7 @@ void disorder_fluid(double spacing, Model& model, int seed) {
     const auto number = [&random] { return 2 * static_cast<double>(random()) / 4294967295.0 - 1; };
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
-        for (int axis = 0; axis < 3; ++axis)
-            model.position[i][axis] += most * spacing * number();
+        for (int axis = 0; axis < 3; ++axis) model.position[i][axis] += most * spacing * number();
     }
 }
 

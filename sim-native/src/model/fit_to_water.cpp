@@ -12,7 +12,7 @@ namespace natator {
 namespace {
 
 constexpr double min_density = 0.02;  ///< of a solid, in units of the water's
-constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
+constexpr double max_fall = 0.1;      ///< from rest in a substep, in rest distances
 
 void raise_light_solids(Model& model) {
     const std::vector<double> volumes = particle_volumes(model);
@@ -28,8 +28,9 @@ void raise_substeps(Model& model) {
     const double gravity = p.gravity.norm() * std::max(1.0, std::abs(p.buoyancy));
     if (!(gravity > 0)) return;
     const double spacing = p.fluid_rest_distance;
-    double longest = std::sqrt(longest_fall * spacing / gravity);
-    if (weight_on_walls(model) > 0) longest = std::min(longest, longest_substep(model, std::max(min_solved_depth(model), spacing)));
+    double longest = std::sqrt(max_fall * spacing / gravity);
+    if (weight_on_walls(model) > 0)
+        longest = std::min(longest, max_substep(model, std::max(min_solved_depth(model), spacing)));
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));
 }

@@ -6,7 +6,8 @@
 
 namespace natator {
 
-/// Constraint iterations that a substep may take: more than `iterations` only in scheme `conserving` with a density_tolerance.
+/// Constraint iterations that a substep may take: more than `iterations` only in scheme `conserving` with a
+/// density_tolerance.
 inline int max_iterations(const Model& model) {
     const SolverParameters& p = model.parameters;
     const bool to_tolerance = model.scheme == Scheme::conserving && p.conserving.density_tolerance > 0;

@@ -62,7 +62,8 @@ void check_size(const Scene& scene) {
     const bool two = scene.companions.empty() && scene.obstacles.empty();
     const std::string found =
         std::to_string(particles) + " particles (fluid.count" + (two ? " and " : ", ") + parts + " together)";
-    if (particles == 0 && !(scene.fluid && scene.scheme == Scheme::lattice)) refuse(scene, "0 particles: needs a creature or fluid");
+    if (particles == 0 && !(scene.fluid && scene.scheme == Scheme::lattice))
+        refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }
 
@@ -72,10 +73,12 @@ void check_springs(const Scene& scene, const Creature& creature, const std::stri
     const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].particles()}; };
     std::int64_t springs = 0;
     for (const Actuator& one : creature.actuator_list())
-        springs += std::min(size(ends[one.gap]), size(ends[one.gap + 1])) * creature.springs_per_particle * creature.parts();
+        springs +=
+            std::min(size(ends[one.gap]), size(ends[one.gap + 1])) * creature.springs_per_particle * creature.parts();
     if (springs > limits::springs)
-        refuse(scene, std::to_string(springs) + " springs (" + place + ".slices, joints and springsPerParticle together): " +
-                          "must be at most " + std::to_string(limits::springs));
+        refuse(scene, std::to_string(springs) + " springs (" + place +
+                          ".slices, joints and springsPerParticle together): " + "must be at most " +
+                          std::to_string(limits::springs));
 }
 
 /// Lattice points that are looked at around the body's particles, see fluid_block.cpp.
@@ -85,7 +88,8 @@ void check_clearance(const Scene& scene, int body_particles) {
     double points = body_particles;
     for (const int count : fluid.count) points *= std::min<double>(count, across);
     if (points > limits::clearance_points)
-        refuse(scene, "fluid.clearance = " + nlohmann::json(fluid.clearance).dump() + ": " + nlohmann::json(points).dump() +
+        refuse(scene, "fluid.clearance = " + nlohmann::json(fluid.clearance).dump() + ": " +
+                          nlohmann::json(points).dump() +
                           " lattice points to be looked at around the body; must be at most " +
                           nlohmann::json(limits::clearance_points).dump());
 }
@@ -101,7 +105,10 @@ void check_muscles(const Scene& scene, const Creature& creature, const std::stri
         const std::string shape = shape_key(creature);
         const bool by_part = shape != "slices";  // joints are given in parts of the length
         std::ostringstream text;
-        text << place << (!creature.muscle_slices.empty() ? ".muscleSlices[" : by_part ? "." + shape + ".joints[" : ".joints[")
+        text << place
+             << (!creature.muscle_slices.empty() ? ".muscleSlices["
+                 : by_part                       ? "." + shape + ".joints["
+                                                 : ".joints[")
              << gap << "], [" << gap + 1 << "] = " << (by_part ? "slices " : "") << ends[gap] << ", " << ends[gap + 1]
              << ": no muscle " << (bend == Bend::vertical ? "that bends up and down " : "")
              << "fits between these slices (actuator " << i << "); both must be at least 2 "
@@ -127,9 +134,8 @@ void check_inside_tank(const Scene& scene, const Model& model) {
             if (distance >= 0) continue;
             const Eigen::Vector3d& p = model.position[i];
             std::ostringstream text;
-            text << place_of(model, i) << ": particle at (" << p.x() << ", "
-                 << p.y() << ", " << p.z() << ") is outside the tank, " << -distance << " beyond planes[" << k
-                 << "]; must be inside all planes";
+            text << place_of(model, i) << ": particle at (" << p.x() << ", " << p.y() << ", " << p.z()
+                 << ") is outside the tank, " << -distance << " beyond planes[" << k << "]; must be inside all planes";
             refuse(scene, text.str());
         }
     }

@@ -60,8 +60,8 @@ bool row_covers(const Slice& shape, int iy, int z, int whole) {
     return covered(-1) && covered(1);
 }
 
-/// Whether a place, in half spacings / `whole`, is inside a slice, a stack of rows one spacing high. Where two rows meet
-/// both must cover it; the outline is outside.
+/// Whether a place, in half spacings / `whole`, is inside a slice, a stack of rows one spacing high. Where two rows
+/// meet both must cover it; the outline is outside.
 bool covers(const Slice& shape, int y, int z, int whole) {
     const int above = y + (shape.height - shape.lift) * whole;  // from the lowest row's lower side
     if (above <= 0 || above >= 2 * shape.height * whole) return false;
@@ -138,11 +138,12 @@ std::vector<Pair> pairs_between(const Creature& creature, int front_joint, int r
     return pairs;
 }
 
-/// z_i: place in the slice across the bend, -1 = left or lower edge, +1 = right or upper edge. Paired particles have slices
-/// wider, or higher, than 1.
+/// z_i: place in the slice across the bend, -1 = left or lower edge, +1 = right or upper edge. Paired particles have
+/// slices wider, or higher, than 1.
 double lateral(const Creature& creature, const Place& place, Bend bend) {
     const Slice& shape = creature.slices[place.slice];
-    return static_cast<double>(across(creature, place, bend)) / ((bend == Bend::sideways ? shape.width : shape.height) - 1);
+    return static_cast<double>(across(creature, place, bend)) /
+           ((bend == Bend::sideways ? shape.width : shape.height) - 1);
 }
 
 }  // namespace

@@ -9,9 +9,11 @@ namespace natator {
 /// Places are counted from the body's axis. A particle of the front joint's slice and one of the rear joint's pair when
 /// - they lie equally far from the axis sideways, or half a spacing apart if the two widths differ by an odd number;
 ///   likewise up and down with the heights;
-/// - both lie on the same side, neither on the middle: left and right for actuators that bend sideways, above and below the
+/// - both lie on the same side, neither on the middle: left and right for actuators that bend sideways, above and below
+/// the
 ///   slice's middle for those that bend up and down;
-/// - the segment between them stays inside the cross-section of every slice in between: its rows, each a spacing high and as
+/// - the segment between them stays inside the cross-section of every slice in between: its rows, each a spacing high
+/// and as
 ///   many spacings wide as it has particles; of a mesh a cube of a spacing for each particle.
 ///
 /// The particles of the slice with fewer particles (of equal ones: the front slice) give `springs_per_particle` springs

@@ -10,8 +10,8 @@ namespace natator {
 namespace {
 
 constexpr std::uint32_t obstacle_phase = phase::group_mask;  // a group that no body has
-constexpr double rounding = 1e-12;  // particles on the very surface belong to it, on all sides
-constexpr double apart = 0.5;  // of a spacing: how near particles of two obstacles may be
+constexpr double rounding = 1e-12;                           // particles on the very surface belong to it, on all sides
+constexpr double apart = 0.5;                                // of a spacing: how near particles of two obstacles may be
 
 Eigen::Vector3d half_size(const Obstacle& obstacle) {
     return obstacle.shape == Obstacle::Shape::sphere ? Eigen::Vector3d::Constant(obstacle.radius)
@@ -40,16 +40,17 @@ void for_each_place(const Obstacle& obstacle, const Visit& visit) {
         for (double y = -aside.y(); y <= aside.y(); ++y)
             for (double z = -aside.z(); z <= aside.z(); ++z) {
                 const Eigen::Vector3d way = obstacle.spacing * Eigen::Vector3d(x, y, z);
-                const bool within = obstacle.shape == Obstacle::Shape::box || way.norm() <= obstacle.radius * (1 + rounding);
+                const bool within =
+                    obstacle.shape == Obstacle::Shape::box || way.norm() <= obstacle.radius * (1 + rounding);
                 if (within) visit((obstacle.centre + way).eval());
             }
 }
 
 /// Places of particles, in cells.
-class Taken {
+class OccupiedPlaces {
 public:
     /// `cell`: the largest distance that is asked for.
-    explicit Taken(double cell) : cell_(cell) {}
+    explicit OccupiedPlaces(double cell) : cell_(cell) {}
 
     void add(const Eigen::Vector3d& place) { places_[cell_of(place)].push_back(place); }
 
@@ -70,7 +71,8 @@ private:
 
     Cell cell_of(const Eigen::Vector3d& place) const {
         const Eigen::Array3d at = (place / cell_).array().floor();
-        return {static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()), static_cast<std::int64_t>(at.z())};
+        return {static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()),
+                static_cast<std::int64_t>(at.z())};
     }
 
     double cell_;
@@ -109,7 +111,8 @@ bool Obstacle::holds(const Eigen::Vector3d& place) const {
             break;
     }
     const double near = std::sqrt(3) / 2 * spacing;
-    return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
+    return std::any_of(points.begin(), points.end(),
+                       [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
 }
 
 double max_particles(const Obstacle& obstacle) {
@@ -121,7 +124,7 @@ void add_obstacles(const std::vector<Obstacle>& obstacles, Model& model) {
     double widest = 0;
     for (const Obstacle& obstacle : obstacles) widest = std::max(widest, obstacle.spacing);
     const std::vector<bool> alone = which_are_alone(obstacles, apart * widest);
-    Taken taken(apart * widest);
+    OccupiedPlaces taken(apart * widest);
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const std::size_t first = model.position.size();
         for_each_place(obstacles[k], [&](const Eigen::Vector3d& place) {

@@ -26,15 +26,16 @@ template <class... Parts>
 }
 
 /// Of the body at rest, whichever way it turns.
-double longest_side(const Model& model) {
+double max_side(const Model& model) {
     Eigen::AlignedBox3d box;
     for (const int i : model.body.particles) box.extend(model.position[i]);
     return model.body.particles.empty() ? 0 : box.sizes().maxCoeff();
 }
 
-/// Nothing may be near both ends of anything else: of a particle only one image counts, and a body does not meet itself.
+/// Nothing may be near both ends of anything else: only one ghost of a particle counts, and a body does not meet
+/// itself.
 void check_room(const Scene& scene, const Model& model, const PeriodicAxis& axis) {
-    const double reach = 2 * support(model), body = longest_side(model), length = axis.length();
+    const double reach = 2 * support(model), body = max_side(model), length = axis.length();
     const char* const name = name_of_axis(axis.axis);
     if (!(length >= reach))
         refuse(scene, "the tank is ", length, " long along ", name, "; must be at least ", reach,
@@ -75,7 +76,8 @@ void check_ends(const Scene& scene, const Model& model, const PeriodicAxis& axis
         const Eigen::Vector3d& at = model.position[i];
         if (model.is_fluid(i) || axis.high - at[axis.axis] >= near || !low.contains(across(at))) continue;
         refuse(scene, "obstacles have a particle at (", at.x(), ", ", at.y(), ", ", at.z(), "), at the high end along ",
-               name_of_axis(axis.axis), ", and one just there at the low end, which is the same place; one that goes all along must be a "
+               name_of_axis(axis.axis),
+               ", and one just there at the low end, which is the same place; one that goes all along must be a "
                "spacing shorter than the tank");
     }
 }

@@ -12,8 +12,7 @@ std::vector<Eigen::Vector3d> places_of_parts(const Creature& creature) {
     std::vector<Eigen::Vector3d> places;
     for (int x = 0; x < n; ++x)
         for (int y = 0; y < n; ++y)
-            for (int z = 0; z < n; ++z)
-                places.push_back(creature.spacing / n * (Eigen::Vector3d(x, y, z) - middle));
+            for (int z = 0; z < n; ++z) places.push_back(creature.spacing / n * (Eigen::Vector3d(x, y, z) - middle));
     return places;
 }
 
@@ -43,8 +42,8 @@ std::vector<double> half_extents(const Creature& creature, const Model& model, B
     return extents;
 }
 
-/// Springs stay sorted by actuator and front particle: those of one front particle are divided together. Every spring of
-/// a body is a muscle's, in the same order.
+/// Springs stay sorted by actuator and front particle: those of one front particle are divided together. Every spring
+/// of a body is a muscle's, in the same order.
 void divide_muscles(const Creature& creature, const std::vector<Eigen::Vector3d>& places, Model& model) {
     const std::vector<Actuator> actuators = creature.actuator_list();
     const std::vector<double> half_widths = half_extents(creature, model, Bend::sideways);

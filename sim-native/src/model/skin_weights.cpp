@@ -20,7 +20,8 @@ std::vector<SkinWeight> skin_weights(const Creature& creature, const Model& mode
         while (cluster + 1 < static_cast<int>(middles.size()) && vertex.x() <= middles[cluster + 1]) ++cluster;
         double share = 1;
         if (cluster + 1 < static_cast<int>(middles.size()))
-            share = std::clamp((vertex.x() - middles[cluster + 1]) / (middles[cluster] - middles[cluster + 1]), 0.0, 1.0);
+            share =
+                std::clamp((vertex.x() - middles[cluster + 1]) / (middles[cluster] - middles[cluster + 1]), 0.0, 1.0);
         weights.push_back({cluster, share});
     }
     return weights;

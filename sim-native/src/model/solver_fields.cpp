@@ -8,7 +8,7 @@
 namespace natator::fields {
 namespace {
 
-constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr double max_float = std::numeric_limits<float>::max();
 constexpr double no_limit = 3.5e38;  // values above the largest float mean it; 3.4028235e38 reads as slightly above
 
 }  // namespace
@@ -62,7 +62,9 @@ const std::vector<Field<ConservingParameters>>& conserving_fields() {
         {"solidIterations", &P::solid_iterations, {1, 1000}},
         {"densityTolerance", &P::density_tolerance, {0, 1, false, "rest densities"}},
         {"maxIterations", &P::max_iterations, {1, 1000}},
-        {"kernelSupport", &P::kernel_support, {limits::min_kernel_support, limits::max_kernel_support, false, "rest distances of the fluid"}},
+        {"kernelSupport",
+         &P::kernel_support,
+         {limits::min_kernel_support, limits::max_kernel_support, false, "rest distances of the fluid"}},
         {"modifiedPressure", &P::modified_pressure},
         {"kinematicViscosity", &P::kinematic_viscosity, {0, 1000, false, "length^2/s"}},
     };
@@ -70,8 +72,8 @@ const std::vector<Field<ConservingParameters>>& conserving_fields() {
 }
 
 void limit_to_float(SolverParameters& solver) {
-    solver.max_speed = std::min(solver.max_speed, largest_float);
-    solver.max_acceleration = std::min(solver.max_acceleration, largest_float);
+    solver.max_speed = std::min(solver.max_speed, max_float);
+    solver.max_acceleration = std::min(solver.max_acceleration, max_float);
 }
 
 void check_rest_distances(const SolverParameters& solver, const Place& place) {

@@ -19,8 +19,8 @@ void limit_to_float(SolverParameters& solver);
 /// Throws InputError unless the radius can see the rest distances.
 void check_rest_distances(const SolverParameters& solver, const Place& place);
 
-/// Throws InputError unless parameters that a program has made are some that read_solver could give; a limit on speed or
-/// acceleration may be infinite.
+/// Throws InputError unless parameters that a program has made are some that read_solver could give; a limit on speed
+/// or acceleration may be infinite.
 void check_solver(SolverParameters solver, const Place& place);
 
 }  // namespace natator::fields

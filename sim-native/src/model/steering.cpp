@@ -47,8 +47,8 @@ void check_steering(const Steering& steering, const Gait& gait, int actuators) {
         if (most <= max_drive) continue;
         std::ostringstream text;
         text << "scale[" << i << "] = " << number_text(steering.scale[i]) << " and offset[" << i
-             << "] = " << number_text(steering.offset[i]) << ": scale times the gait's own largest drive, " << computed_text(beat)
-             << ", plus |offset| must be at most " << max_drive << ", is " << computed_text(most)
+             << "] = " << number_text(steering.offset[i]) << ": scale times the gait's own largest drive, "
+             << computed_text(beat) << ", plus |offset| must be at most " << max_drive << ", is " << computed_text(most)
              << " (a muscle has no length below 0)";
         throw InputError(text.str());
     }
@@ -60,8 +60,8 @@ std::vector<double> steer(const Steering& from, const Steering& to, double part,
         check_length("offset", one->offset.size(), static_cast<int>(driven.size()));
     }
     for (std::size_t i = 0; i < driven.size(); ++i) {
-        driven[i] = std::lerp(from.scale[i], to.scale[i], part) * driven[i] +
-                    std::lerp(from.offset[i], to.offset[i], part);
+        driven[i] =
+            std::lerp(from.scale[i], to.scale[i], part) * driven[i] + std::lerp(from.offset[i], to.offset[i], part);
     }
     return driven;
 }

@@ -11,7 +11,7 @@ namespace natator {
 const char* name_of_axis(int axis);
 
 /// Does a plane stand square across an axis, facing its low or its high end?
-bool stands_across(const Plane& plane, int axis);
+bool is_across(const Plane& plane, int axis);
 
 /// Where planes stand square across an axis at either end of a tank, length.
 struct TankEnds {

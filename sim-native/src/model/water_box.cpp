@@ -27,19 +27,21 @@ void add_wall(const Scene& scene, std::size_t plane, WaterBox& box) {
     const double stands = -scene.planes[plane].offset / normal[axis];
     const double at = box.corner[axis] + end * box.cells[axis] * box.cell;
     if (std::abs(stands - at) > tolerance * box.cell)
-        refuse_lattice(scene, place + " stands at " + number_text(stands) + ": must be at the fluid's end, " + number_text(at) +
-                          " (half a spacing from its last lattice points)");
+        refuse_lattice(scene, place + " stands at " + number_text(stands) + ": must be at the fluid's end, " +
+                                  number_text(at) + " (half a spacing from its last lattice points)");
     box.faces[axis][end] = WaterFace::no_slip;
 }
 
 }  // namespace
 
 WaterBox water_box(const Scene& scene) {
-    if (!scene.companions.empty() || !scene.obstacles.empty()) refuse_lattice(scene, "has no companions and obstacles yet; must be without them");
+    if (!scene.companions.empty() || !scene.obstacles.empty())
+        refuse_lattice(scene, "has no companions and obstacles yet; must be without them");
     const FluidBlock& fluid = *scene.fluid;
     if (fluid.gradient != MassGradient::uniform) refuse_lattice(scene, "fluid.mass.gradient: must be uniform");
     if (!(scene.solver.conserving.kinematic_viscosity > 0))
-        refuse_lattice(scene, "solver.kinematicViscosity = " + number_text(scene.solver.conserving.kinematic_viscosity) + ": must be above 0");
+        refuse_lattice(scene, "solver.kinematicViscosity = " +
+                                  number_text(scene.solver.conserving.kinematic_viscosity) + ": must be above 0");
     WaterBox box;
     box.cells = fluid.count;
     box.cell = fluid.spacing;
@@ -51,7 +53,8 @@ WaterBox water_box(const Scene& scene) {
     for (const PeriodicAxis& periodic : scene.periodic) {
         const double low = box.corner[periodic.axis], length = box.cells[periodic.axis] * box.cell;
         if (std::abs(periodic.low - low) > 0.01 * box.cell || std::abs(periodic.length() - length) > 0.01 * box.cell)
-            refuse_lattice(scene, "periodic: must be from " + number_text(low) + " to " + number_text(low + length) + ", as the fluid is");
+            refuse_lattice(scene, "periodic: must be from " + number_text(low) + " to " + number_text(low + length) +
+                                      ", as the fluid is");
         box.faces[periodic.axis][0] = box.faces[periodic.axis][1] = WaterFace::periodic;
     }
     return box;

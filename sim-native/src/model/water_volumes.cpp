@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "borders.h"
+#include "boundaries.h"
 #include "physics/dfsph.h"
 
 namespace natator {
@@ -92,11 +92,12 @@ double depth(const Model& model) {
     return down.isZero(0) ? 0 : extent_of_fluid(model, down.normalized());
 }
 
-double fastest_expansion(const SolverParameters& parameters, double depth) {
+double max_expansion_rate(const SolverParameters& parameters, double depth) {
     const double layers = std::max(depth / parameters.fluid_rest_distance, physics::shallow_layers);
     const double slower = std::pow(physics::shallow_layers / layers, 2);
     const double acceleration = std::min(std::max(parameters.max_acceleration / 10, parameters.gravity.norm()), 1e30);
-    return std::max(physics::min_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluid_rest_distance);
+    return std::max(physics::min_expansion, physics::expansion * slower) *
+           std::sqrt(acceleration / parameters.fluid_rest_distance);
 }
 
 }  // namespace natator

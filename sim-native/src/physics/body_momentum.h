@@ -1,8 +1,8 @@
-// Scheme `conserving`: what springs and clusters did to a free body's momentum, to be given back: these forces are internal.
-// With x1 = x0 + h v1 the angular momentum after the substep is sum of m x0 x v1, so they must have no moment about the start
-// positions: sum of m x0 x Dx = 0. Position corrections have none about the positions they were computed at, which leaves an
-// error of first order in h. It is given back as a rigid rotation of the velocities, as momentum is in Dinev et al.: FEPR: Fast
-// Energy Projection for Real-Time Simulation of Deformable Objects (2018).
+// Scheme `conserving`: what springs and clusters did to a free body's momentum, to be given back: these forces are
+// internal. With x1 = x0 + h v1 the angular momentum after the substep is sum of m x0 x v1, so they must have no moment
+// about the start positions: sum of m x0 x Dx = 0. Position corrections have none about the positions they were
+// computed at, which leaves an error of first order in h. It is given back as a rigid rotation of the velocities, as
+// momentum is in Dinev et al.: FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects (2018).
 #pragma once
 
 #include "symmetric3.h"
@@ -42,7 +42,7 @@ NATATOR_HD void add(BodyMoments& sums, double mass, const Vec3<double>& impulse,
     const double square = dot(arm, arm);
     sums.inertia = sums.inertia + Symmetric3<double>{mass * (square - arm.x * arm.x), mass * (square - arm.y * arm.y),
                                                      mass * (square - arm.z * arm.z), -mass * arm.x * arm.y,
-                                                     -mass * arm.x * arm.z, -mass * arm.y * arm.z};
+                                                     -mass * arm.x * arm.z,           -mass * arm.y * arm.z};
 }
 
 /// A straight chain has no inertia about its own axis, and no moment either: the solution of least norm.

@@ -15,15 +15,16 @@ struct Friction {
 
 inline namespace NATATOR_SET {
 
-/// What friction takes off the displacement `moved` of a contact of this depth e: the tangential part as a whole if its
-/// length m is below static_friction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim: Unified
-/// Particle Physics for Real-Time Applications (2014), eq. 24, with the limits that NVIDIA Flex was measured to have.
+/// Friction: the part of the displacement `moved` that a contact of this depth e takes off: the tangential part as a
+/// whole if its length m is below static_friction * e, else min(sliding * e, m) of it. Macklin, Müller, Chentanez, Kim:
+/// Unified Particle Physics for Real-Time Applications (2014), eq. 24, with the limits that NVIDIA Flex was measured to
+/// have.
 template <class T, class N, class R>
 NATATOR_HD Vec3<T> friction(const Vec3<T>& moved, const Vec3<N>& normal, T depth, const Friction<R>& rule) {
     const Vec3<T> tangential = moved - dot(moved, normal) * normal;
     const T m = norm(tangential);
-    const T most = smaller(rule.sliding * depth, m);
-    const T held = m < rule.sticking * depth ? m : most;
+    const T slid = minimum(rule.sliding * depth, m);
+    const T held = m < rule.sticking * depth ? m : slid;
     return held / (m > 0 ? m : one<T>()) * tangential;
 }
 
@@ -56,8 +57,8 @@ NATATOR_HD T split_share(T own, T contacts, T other, T contacts_of_other) {
 /// instead).
 template <class T>
 NATATOR_HD T shock_factor(const Vec3<T>& up, T rate, const Vec3<T>& from_partner) {
-    const T exponent = -rate * dot(up, from_partner), most = T(largest_shock_exponent);
-    return exponential(exponent < -most ? -most : smaller(exponent, most));
+    const T exponent = -rate * dot(up, from_partner), limit = T(max_shock_exponent);
+    return exponential(exponent < -limit ? -limit : minimum(exponent, limit));
 }
 
 /// Scheme `conserving`: depth of a contact beyond what this substep may leave of it. One that was deep at the start
@@ -69,7 +70,7 @@ NATATOR_HD T limited_depth(T rest, T r, T push, const AtStart& r_at_start, const
     if (!(depth > push)) return depth;
     const T at_start = rest - r_at_start();
     if (!(at_start > push)) return depth;
-    return depth - positive_part(smaller(at_start, rest - r_predicted()) - push);
+    return depth - positive_part(minimum(at_start, rest - r_predicted()) - push);
 }
 
 }  // namespace NATATOR_SET

@@ -1,9 +1,9 @@
-// The water of scheme `conserving`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
-// for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with gradients corrected to be
-// exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999, eq. 47-49). A pair
-// takes the mean of its two corrections: its forces stay equal and opposite, and it is nearly as exact. Sums run over the neighbours j of a
-// particle i, difference = x_i - x_j, R the kernel's support. V is a particle's volume; density is the sum of V W, 1 at
-// rest, whatever the particles weigh.
+// The water of scheme `conserving`: incompressible SPH by two pressure solves a substep (Bender, Koschier:
+// Divergence-Free SPH for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with
+// gradients corrected to be exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH,
+// 1999, eq. 47-49). A pair takes the mean of its two corrections: its forces stay equal and opposite, and it is nearly
+// as exact. Sums run over the neighbours j of a particle i, difference = x_i - x_j, R the kernel's support. V is a
+// particle's volume; density is the sum of V W, 1 at rest, whatever the particles weigh.
 #pragma once
 
 #include "pair.h"
@@ -39,35 +39,40 @@ NATATOR_HD WendlandKernel<R> wendland_kernel(R radius, R scale) {
 /// A number cut to [0, 1].
 template <class T>
 NATATOR_HD T unit_part(T v) {
-    return smaller(positive_part(v), one<T>());
+    return minimum(positive_part(v), one<T>());
 }
 
 // The numbers of the method. What each changes: results/water/README.md#what-each-constant-changes.
-inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
+inline constexpr double wet_density = 0.9;  ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
-inline constexpr double max_excess = 0.05;    ///< of rest density that the velocities take off in a substep
-inline constexpr double expansion = 0.25;      ///< rate at which they may, times sqrt(s / g)
-inline constexpr double shallow_layers = 40;   ///< deeper water expands more slowly, by the square of its depth in rest distances,
-inline constexpr double min_expansion = 0.1; ///< as far as to this, times sqrt(s / g)
-inline constexpr double max_overlap = 0.5;    ///< of rest density that a substep takes off without them
-inline constexpr int separation_passes = 4;       ///< on overlaps
-inline constexpr double max_separation = 0.5; ///< of the rest distance, a substep
+inline constexpr double max_excess = 0.05;  ///< of rest density that the velocities take off in a substep
+inline constexpr double expansion = 0.25;   ///< rate at which they may, times sqrt(s / g)
+/// deeper water expands more slowly, by the square of its depth in rest distances,
+inline constexpr double shallow_layers = 40;
+inline constexpr double min_expansion = 0.1;   ///< as far as to this, times sqrt(s / g)
+inline constexpr double max_overlap = 0.5;     ///< of rest density that a substep takes off without them
+inline constexpr int separation_passes = 4;    ///< on overlaps
+inline constexpr double max_separation = 0.5;  ///< of the rest distance, a substep
 inline constexpr double max_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
-inline constexpr double surface_wall_viscosity_factor = 1.63;   ///< of the viscosity between water and solids, see wall_viscosity_factor
-inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
-inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
-inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
+/// of the viscosity between water and solids, see wall_viscosity_factor
+inline constexpr double surface_wall_viscosity_factor = 1.63;
+inline constexpr double shift_strength = 0.5;    ///< of R h |dv| times where neighbours crowd
+inline constexpr double max_shift = 0.05;        ///< of the rest distance, a substep
+inline constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
 inline constexpr double partly_corrected_density = 0.9, wholly_corrected_density = 0.95;
-inline constexpr double uncorrected_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
-inline constexpr double min_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+/// of a fluid's density times the square of its fastest neighbour's velocity
+inline constexpr double uncorrected_pressure = 30;
+/// of the rest distance: nearer, the kernel no longer parts a particle and its ghost
+inline constexpr double min_wall_distance = 0.3;
 
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
-// determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
+// determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is
+// ill-conditioned.
 inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
 inline constexpr double corrected_determinant = 0.4, uncorrected_determinant = 0.2;
 
-/// Density, first moments of the kernel's gradient, and the way out of where neighbours crowd (particle shifting: Lind, Xu,
-/// Stansby, Rogers, 2012).
+/// Density, first moments of the kernel's gradient, and the way out of where neighbours crowd (particle shifting: Lind,
+/// Xu, Stansby, Rogers, 2012).
 template <class T>
 struct MomentSums {
     T density{};
@@ -97,12 +102,13 @@ struct MomentSums {
         const Symmetric3<T>& m = moments;
         const T a = m.yy * m.zz - m.yz * m.yz, b = m.xz * m.yz - m.xy * m.zz, c = m.xy * m.yz - m.xz * m.yy;
         const T determinant = m.xx * a + m.xy * b + m.xz * c;
-        const T by_density = unit_part((whole_density - R(uncorrected_density)) *
-                                       R(1 / (corrected_density - uncorrected_density)));
+        const T by_density =
+            unit_part((whole_density - R(uncorrected_density)) * R(1 / (corrected_density - uncorrected_density)));
         const T by_determinant = unit_part((determinant - R(uncorrected_determinant)) *
                                            R(1 / (corrected_determinant - uncorrected_determinant)));
         const T blend = by_density * by_determinant;
-        const T inverse = blend / (positive_part(determinant - R(uncorrected_determinant)) + R(uncorrected_determinant));
+        const T inverse =
+            blend / (positive_part(determinant - R(uncorrected_determinant)) + R(uncorrected_determinant));
         const T rest = 1 - blend;
         return {inverse * a + rest,
                 inverse * (m.xx * m.zz - m.xz * m.xz) + rest,
@@ -113,7 +119,7 @@ struct MomentSums {
     }
 };
 
-/// How fast neighbours pass a particle.
+/// Largest speed of neighbours relative to a particle.
 template <class T>
 struct PassingSpeed {
     T square{};  ///< largest |v_j - v_i|^2
@@ -122,17 +128,18 @@ struct PassingSpeed {
     NATATOR_HD void add(const Vec3<T>& relative_velocity, T weight) {
         const T its_square = dot_unfused(relative_velocity, relative_velocity);
         const T counted = weight > 0 ? its_square : T{};
-        square = smaller(-square, -counted) * Scalar<T>(-1);
+        square = minimum(-square, -counted) * Scalar<T>(-1);
     }
 };
 
-/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i. `slope`: of the kernel.
+/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i. `slope`: of the
+/// kernel.
 template <class T>
 NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, T slope, T volumes, const Symmetric3<T>& both) {
     return (Scalar<T>(-0.5) * volumes * slope) * (both * difference);
 }
 
-/// Of all G_ij of a particle: what a unit of its pressure impulse does to its own rate of expansion.
+/// Sums over all G_ij of a particle: the change of its rate of expansion per unit of its pressure impulse.
 template <class T>
 struct ResponseSums {
     Vec3<T> gradient{};
@@ -150,8 +157,9 @@ struct ResponseSums {
     }
 };
 
-/// What a particle yields to a push by: its inverse mass. One that is held counts as water in the pressure solve: next to
-/// nothing but held ones the pressure would have no bound. `fluid_density`: mass/length^3, 0 without water that moves.
+/// Mobility of a particle under a push: its inverse mass. One that is held counts as water in the pressure solve: next
+/// to nothing but held ones the pressure would have no bound. `fluid_density`: mass/length^3, 0 without water that
+/// moves.
 template <class T>
 NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
     return inverse_mass > 0 || !(fluid_density > 0) ? inverse_mass : 1 / (fluid_density * volume);
@@ -159,29 +167,30 @@ NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
 
 /// The largest excess of density that velocities may remove in a substep of length h.
 template <class T>
-NATATOR_HD T velocity_limit(T h, T fastest_expansion) {
-    return smaller(T(max_excess), h * fastest_expansion);
+NATATOR_HD T velocity_limit(T h, T max_expansion_rate) {
+    return minimum(T(max_excess), h * max_expansion_rate);
 }
 
-/// The excess of density that the velocities remove in a substep; negative below rest density. The speed that this gives does
-/// not leave again, so it is at most `most`, a velocity_limit.
+/// The excess of density that the velocities remove in a substep; negative below rest density. The speed that this
+/// gives does not leave again, so it is no more than `limit`, a velocity_limit.
 template <class T>
-NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
-    return smaller(density - 1, T{} + most);
+NATATOR_HD T velocity_excess(T density, Scalar<T> limit) {
+    return minimum(density - 1, T{} + limit);
 }
 
 /// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
 template <class T>
-NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    return volume / h * velocity_excess(density, most);
+NATATOR_HD T density_target(T volume, T density, Scalar<T> limit, Scalar<T> h) {
+    return volume / h * velocity_excess(density, limit);
 }
 
-/// The same of the rest of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they have
-/// moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
+/// The same of the rest of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they
+/// have moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003,
+/// and others).
 template <class T>
-NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    const T above = smaller(density - 1, T{} + Scalar<T>(max_overlap));
-    return volume / h * positive_part(above - velocity_excess(density, most));
+NATATOR_HD T separation_target(T volume, T density, Scalar<T> limit, Scalar<T> h) {
+    const T above = minimum(density - 1, T{} + Scalar<T>(max_overlap));
+    return volume / h * positive_part(above - velocity_excess(density, limit));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.
@@ -192,42 +201,46 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     return density > R(wet_density) ? all : T{};
 }
 
-/// Of uncorrected_impulse, in a substep of length h. `fluid_density`: mass/length^3.
+/// The factor of uncorrected_impulse in a substep of length h, s. `fluid_density`: mass/length^3.
 template <class T>
 NATATOR_HD T uncorrected_strength(T h, T fluid_density) {
     return T(uncorrected_pressure) * h * fluid_density;
 }
 
-/// The pressure impulse that a particle may have before zeroth_order_correction sets in. `strength`: see uncorrected_strength.
+/// The pressure impulse that a particle may have before zeroth_order_correction sets in. `strength`: see
+/// uncorrected_strength.
 template <class T>
-NATATOR_HD T uncorrected_impulse(T fastest_square, Scalar<T> strength) {
-    return strength * fastest_square;
+NATATOR_HD T uncorrected_impulse(T max_speed_square, Scalar<T> strength) {
+    return strength * max_speed_square;
 }
 
-/// What is subtracted from a particle's own pressure push, in units of sum_j G_ij.
+/// Impulse subtracted from a particle's own pressure push, in units of sum_j G_ij.
 ///
-/// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common with
-/// its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles apart, and also
-/// what makes them a packing of grains: it resists slow shear by a stress in proportion to p, like sand. So only as much of p
-/// is left to it as particles need that pass one another as fast as they do here. The rest, E_i = zeroth_order_correction sum_j G_ij, is taken
-/// off after each pass and given back at the end of the substep to all neighbours by their kernels' weights, which keeps the
-/// momentum. (Without any of it, as in the form p_j - p_i of many schemes, particles crowd, and need strong shifting.)
+/// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common
+/// with its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles
+/// apart, and also what makes them a packing of grains: it resists slow shear by a stress in proportion to p, like
+/// sand. So only as much of p is left to it as particles need that pass one another as fast as they do here. The rest,
+/// E_i = zeroth_order_correction sum_j G_ij, is taken off after each pass and given back at the end of the substep to
+/// all neighbours by their kernels' weights, which keeps the momentum. (Without any of it, as in the form p_j - p_i of
+/// many schemes, particles crowd, and need strong shifting.)
 ///
-/// Where nearly all neighbours are on one side, at a crowded surface, zeroth_order_correction in full turns a push around: what it does to the
-/// particle itself, -w |sum_j G_ij|^2, outweighs what it does to the neighbours, so each pass makes the next one larger, without
-/// end. `own_response`, see own_response(), says how far that is so, and as much of the push is left as keeps half of the response.
+/// Where nearly all neighbours are on one side, at a crowded surface, zeroth_order_correction in full turns a push
+/// around: what it does to the particle itself, -w |sum_j G_ij|^2, outweighs what it does to the neighbours, so each
+/// pass makes the next one larger, without end. `own_response`, see own_response(), says how far that is so, and as
+/// much of the push is left as keeps half of the response.
 template <class T>
 NATATOR_HD T zeroth_order_correction(T density, T impulse_sum, T kept, T own_response) {
     using R = Scalar<T>;
-    const T wet = unit_part((density - R(partly_corrected_density)) * R(1 / (wholly_corrected_density - partly_corrected_density)));
+    const T wet = unit_part((density - R(partly_corrected_density)) *
+                            R(1 / (wholly_corrected_density - partly_corrected_density)));
     const T stable = 1 + R(0.5) * (1 - own_response) / (own_response + R(min_response));
-    return smaller(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
+    return minimum(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
 }
 
 /// The part that a particle's own motion has in its response to its pressure, in [0, 1]; `response`: see ResponseSums.
 template <class T>
 NATATOR_HD T own_response(T inverse_mass, const Vec3<T>& gradient_sum, T response) {
-    return smaller(inverse_mass * dot(gradient_sum, gradient_sum) * response, one<T>());
+    return minimum(inverse_mass * dot(gradient_sum, gradient_sum) * response, one<T>());
 }
 
 /// The part of E_j that a neighbour at distance r has back is this times V_i W_ij: those parts add up to E_j.
@@ -237,23 +250,24 @@ NATATOR_HD T zeroth_order_share(T density, T volume, const WendlandKernel<R>& ke
     return others > 0 ? 1 / others : T{};
 }
 
-/// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall, at
-/// most as much as the owner's. The pressure of mirror images has a kink at the wall, of which gradients see but a part:
-/// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from owner to
-/// ghost.
+/// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall,
+/// at most as much as the owner's. The pressure of ghosts has a kink at the wall, of which gradients see but a part:
+/// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from
+/// owner to ghost.
 template <class T>
-NATATOR_HD T hydrostatic_ghost_impulse(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
+NATATOR_HD T hydrostatic_ghost_impulse(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost,
+                                       T impulse) {
     if (!(own > 0)) return T{};
     const T weight = h / (own * volume) * dot_unfused(gravity, to_ghost);
-    return smaller(-smaller(-weight, impulse), impulse);
+    return minimum(-minimum(-weight, impulse), impulse);
 }
 
-/// What keeps a particle of the fluid evenly spread in its substep, length; no velocity comes with it.
+/// Displacement in a substep that keeps particles of the fluid evenly spread, length; no velocity comes with it.
 template <class T>
-NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square, T radius, T spacing, T h) {
+NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T max_speed_square, T radius, T spacing, T h) {
     if (!(density > T(shifted_density))) return {};
-    const T strength = T(shift_strength) * radius * h * square_root(fastest_square);
-    return clamped(strength * crowding, T(longest_shift) * spacing);
+    const T strength = T(shift_strength) * radius * h * square_root(max_speed_square);
+    return clamped(strength * crowding, T(max_shift) * spacing);
 }
 
 /// The largest kinematic viscosity that an explicit step of h bears between particles `spacing` apart, length^2/s.
@@ -267,7 +281,7 @@ NATATOR_HD T viscous_strength(T h, T viscosity) {
     return 10 * h * viscosity;
 }
 
-/// What keeps them finite between particles at one place, length^2.
+/// Softening that keeps viscous impulses finite between particles at one place, length^2.
 template <class T>
 NATATOR_HD T viscous_softening(T spacing) {
     return T(0.01) * spacing * spacing;
@@ -279,22 +293,22 @@ NATATOR_HD T viscous_limit(T spacing, T strength) {
     return 10 * T(max_diffusion) * spacing * spacing / strength;
 }
 
-/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
-/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that
+/// it would overshoot. `own`, `other`: a particle's volume times its inverse mass; `limit`: what that may be.
 template <class T>
-NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
-    const T larger = smaller(-own, -other) * Scalar<T>(-1);
-    return larger > most ? most / larger : one<T>();
+NATATOR_HD T viscous_share(T own, T other, Scalar<T> limit) {
+    const T larger = minimum(-own, -other) * Scalar<T>(-1);
+    return larger > limit ? limit / larger : one<T>();
 }
 
-/// How much stronger the viscosity of a pair is of which one is water, the other solid. 1 for a solid, 0 for water.
+/// Factor of the viscosity of a pair of which one is water, the other solid. 1 for a solid, 0 for water.
 ///
 /// The water's velocity falls to a body's at its surface, but all of a body's particles have the body's velocity, those
-/// deep in it too, where the water's gradient would go on: what they should pull by is lost. With plain pairs, water that
-/// flows along a body is at rest 0.32 spacings deep in it (the extrapolated end point of Milne's problem for the weights
-/// of ViscousSums over 2.5 spacings); with pairs so much stronger it is at rest at the surface. Morris, Fox, Zhu
-/// (Modeling Low Reynolds Number Incompressible Flows Using SPH, 1997) make the difference of velocities of such a pair up
-/// to 1.5 times larger, to the same end.
+/// deep in it too, where the water's gradient would go on: what they should pull by is lost. With plain pairs, water
+/// that flows along a body is at rest 0.32 spacings deep in it (the extrapolated end point of Milne's problem for the
+/// weights of ViscousSums over 2.5 spacings); with pairs so much stronger it is at rest at the surface. Morris, Fox,
+/// Zhu (Modeling Low Reynolds Number Incompressible Flows Using SPH, 1997) make the difference of velocities of such a
+/// pair up to 1.5 times larger, to the same end.
 template <class T>
 NATATOR_HD T wall_viscosity_factor(T own_solid, T other_solid) {
     const T differ = own_solid - other_solid;

@@ -61,18 +61,18 @@ NATATOR_HD T dissipated_by_pair(T contacts_of_both, T step) {
     return step / (1 + step * contacts_of_both);
 }
 
-/// Free-surface drag dv/dt = -free_surface_drag max(1 - density, 0) v by implicit Euler, step = h free_surface_drag: full
-/// drag for a particle alone, none where the fluid has its rest density.
+/// Free-surface drag dv/dt = -free_surface_drag max(1 - density, 0) v by implicit Euler, step = h free_surface_drag:
+/// full drag for a particle alone, none where the fluid has its rest density.
 template <class T>
 NATATOR_HD Vec3<T> dragged(const Vec3<T>& v, T density, T step) {
     return v / (1 + step * positive_part(1 - density));
 }
 
 /// Adhesion: of the distance `left` by which a particle that touched a plane at the substep's start has left it, up to
-/// `most` = adhesion h^2 is taken back, so a steady pull is withstood if its acceleration is at most `adhesion`.
+/// `limit` = adhesion h^2 is taken back, so a steady pull is withstood if its acceleration is at most `adhesion`.
 template <class T>
-NATATOR_HD T taken_back(T left, T most) {
-    return smaller(positive_part(left), most);
+NATATOR_HD T taken_back(T left, T limit) {
+    return minimum(positive_part(left), limit);
 }
 
 }  // namespace natator::physics::inline NATATOR_SET

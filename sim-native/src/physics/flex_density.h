@@ -43,7 +43,9 @@ template <class T>
 struct FlexSmoothing {
     Vec3<T> sum{};
 
-    NATATOR_HD void add(T left, const Vec3<T>& relative_velocity) { add_product(sum, positive_square(left), relative_velocity); }
+    NATATOR_HD void add(T left, const Vec3<T>& relative_velocity) {
+        add_product(sum, positive_square(left), relative_velocity);
+    }
 };
 
 }  // namespace natator::physics::inline NATATOR_SET

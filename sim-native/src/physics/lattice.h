@@ -4,22 +4,23 @@
 
 namespace natator::physics {
 
-// Water on a D3Q27 lattice, a cell at a time. A cell holds the raw moments up to third order of its 27 populations, less those of water
-// at rest: nothing else survives a collision that sets all cumulants above third order to 0. V is a number or a vector of them.
-// Lengths are in cells, times in steps, densities in that of the water at rest. Population i = (cx + 1) + 3 (cy + 1) + 9 (cz + 1) goes
-// by (cx, cy, cz) in a step. Moments: density - 1; x y z; xx yy zz xy xz yz; xxy xxz xyy yyz xzz yzz xyz.
+// Water on a D3Q27 lattice, a cell at a time. A cell holds the raw moments up to third order of its 27 populations,
+// less those of water at rest: nothing else survives a collision that sets all cumulants above third order to 0. V is a
+// number or a vector of them. Lengths are in cells, times in steps, densities in that of the water at rest. Population
+// i = (cx + 1) + 3 (cy + 1) + 9 (cz + 1) goes by (cx, cy, cz) in a step. Moments: density - 1; x y z; xx yy zz xy xz
+// yz; xxy xxz xyy yyz xzz yzz xyz.
 constexpr int lattice_populations = 27, lattice_moments = 17;
 
-/// What is left of each kind of cumulant after a collision.
+/// Part of each kind of cumulant that is left after a collision.
 struct LatticeRates {
     float shear, trace, third;
 };
 
 inline namespace NATATOR_SET {
 
-/// Of a kinematic viscosity, cells^2/step, above 0. Bulk viscosity: the trace is relaxed at once. Third cumulants so that
-/// (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells on their centres at any viscosity (d'Humières, Ginzburg: Viscosity
-/// independent numerical errors for lattice Boltzmann models, 2009).
+/// The relaxation for a kinematic viscosity, cells^2/step, above 0. Bulk viscosity: the trace is relaxed at once. Third
+/// cumulants so that (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells on their centres at any
+/// viscosity (d'Humières, Ginzburg: Viscosity independent numerical errors for lattice Boltzmann models, 2009).
 NATATOR_HD LatticeRates lattice_rates(double viscosity) {
     const double slack = 3 * viscosity;  // 1/w - 1/2
     return {static_cast<float>(1 - 1 / (slack + 0.5)), 0, static_cast<float>(1 - 1 / (0.25 / slack + 0.5))};
@@ -68,8 +69,8 @@ NATATOR_HD float moving_population(int i, const float (&u)[3]) {
     }
     return product - rest;
 }
-/// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in by c, and `out`,
-/// what streams out by -c, less what both have in water that moves with the body.
+/// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in
+/// by c, and `out`, what streams out by -c, less what both have in water that moves with the body.
 NATATOR_HD float link_push(float in, float out, float c, float u) {
     return in * (c - u) + out * (c + u);
 }
@@ -83,17 +84,18 @@ NATATOR_HD void populations_of_line(V k0, V k1, V k2, V u, W rest, V& minus, V& 
     minus = 0.5f * (m2 - m1);
 }
 
-/// A third cumulant after a collision: small ones keep `keep` of themselves, those well above 0.1 nothing (Geier, Pasquali,
-/// Schönherr: Parametrization of the cumulant lattice Boltzmann method for fourth order accurate diffusion, 2017, eq. 119).
+/// A third cumulant after a collision: small ones keep `keep` of themselves, those well above 0.1 nothing (Geier,
+/// Pasquali, Schönherr: Parametrization of the cumulant lattice Boltzmann method for fourth order accurate diffusion,
+/// 2017, eq. 119).
 template <class V>
 NATATOR_HD V limited(V t, float keep) {
     const V size = t < 0.0f ? -t : t;
     return keep * t * 0.1f / (0.1f + size);
 }
 
-/// Collision by cumulants (Geier, Schönherr, Pasquali, Krafczyk: The cumulant lattice Boltzmann equation in three dimensions, 2015), after
-/// which the water moves at u: populations are made about it, which is where forces act. `put(i, f)` gets each population less that
-/// of water at rest.
+/// Collision by cumulants (Geier, Schönherr, Pasquali, Krafczyk: The cumulant lattice Boltzmann equation in three
+/// dimensions, 2015), after which the water moves at u: populations are made about it, which is where forces act.
+/// `put(i, f)` gets each population less that of water at rest.
 template <class V, class Put>
 NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const LatticeRates& rates, const Put& put) {
     constexpr float third = 1.0f / 3, ninth = 1.0f / 9;
@@ -131,7 +133,9 @@ NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const L
     const V k122 = (q020 * xzz + q002 * xyy + 4.0f * yz * xyz + 2.0f * (xy * yzz + xz * yyz)) * ir;
     const V none{};
     V a[3][3][3];  // [order along z][order along y][population along x]
-    const auto along_x = [&](V k0, V k1, V k2, float rest, V(&to)[3]) { populations_of_line(k0, k1, k2, ux, rest, to[0], to[1], to[2]); };
+    const auto along_x = [&](V k0, V k1, V k2, float rest, V(&to)[3]) {
+        populations_of_line(k0, k1, k2, ux, rest, to[0], to[1], to[2]);
+    };
     along_x(r, none, k200, 1, a[0][0]);
     along_x(none, xy, xxy, 0, a[0][1]);
     along_x(none, xz, xxz, 0, a[1][0]);
@@ -148,7 +152,11 @@ NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const L
     for (int cx = 0; cx < 3; ++cx) {
         V b[3][3];  // [order along z][population along y]
         for (int z = 0; z < 3; ++z)
-            populations_of_line(a[z][0][cx], a[z][1][cx], a[z][2][cx], uy, z == 1 ? 0 : z == 0 ? w[cx] : w[cx] * third, b[z][0], b[z][1], b[z][2]);
+            populations_of_line(a[z][0][cx], a[z][1][cx], a[z][2][cx], uy,
+                                z == 1   ? 0
+                                : z == 0 ? w[cx]
+                                         : w[cx] * third,
+                                b[z][0], b[z][1], b[z][2]);
         for (int cy = 0; cy < 3; ++cy) {
             V f[3];
             populations_of_line(b[0][cy], b[1][cy], b[2][cy], uz, w[cx] * w[cy], f[0], f[1], f[2]);

@@ -1,5 +1,5 @@
-// Laws of mechanics by which a State is told from one that has exploded, on the host and on devices. They are one-sided bounds: what
-// breaks them is impossible, what keeps them need not be right.
+// Laws of mechanics by which a State is told from one that has exploded, on the host and on devices. They are one-sided
+// bounds: what breaks them is impossible, what keeps them need not be right.
 #pragma once
 
 #include "number.h"
@@ -21,7 +21,7 @@ enum class Law {
 
 inline constexpr double max_compression = 0.5;  ///< of a fluid: mean of max(density - 1, 0), in rest densities
 
-/// What a State may come to; infinite where nothing is asked.
+/// Limits of a State's measures; infinite where nothing is asked.
 struct LawLimits {
     double particle_energy;  ///< (length/s)^2: of v^2/2 - g x of any particle
     double energy;           ///< mass (length/s)^2: of the sum of m (v^2/2 - g x), beyond the muscles' work
@@ -29,7 +29,7 @@ struct LawLimits {
     double reach;            ///< length: of the body's particles from its first one
 };
 
-/// What a State has come to, with the particles that have the largest share in it. Starts as nothing; -1: no particle.
+/// Measures of a State, with the particles that have the largest share in it. Starts as nothing; -1: no particle.
 struct LawMeasures {
     double energy = 0;
     double particle_energy = -1e300, depth = -1e300, reach_square = 0;

@@ -142,9 +142,8 @@ NATATOR_HD T one() {
     return T{} + 1;
 }
 template <class T>
-NATATOR_HD T smaller(T a, T b) {
+NATATOR_HD T minimum(T a, T b) {
     return b < a ? b : a;
 }
 
 }  // namespace natator::physics::inline NATATOR_SET
-

@@ -48,7 +48,7 @@ template <>
 struct ScalarOf<Doubles> {
     using Type = double;
 };
-/// As many lanes of Real as an instruction works on.
+/// The lanes of Real that one instruction works on.
 template <class Real>
 using Pack = typename PackOf<Real>::Type;
 
@@ -111,8 +111,8 @@ inline void store(std::int32_t* to, Ints value);
 inline unsigned first_lanes(int count);
 /// Bit per lane: 0 < v < limit.
 inline unsigned positive_and_below(Floats v, Floats limit);
-/// Writes first + k for each chosen lane k, one behind the other, and anything into the rest of `width` entries. Returns
-/// their number.
+/// Writes first + k for each chosen lane k, one behind the other, and anything into the rest of `width` entries.
+/// Returns their number.
 inline int store_chosen(std::int32_t* to, int first, unsigned chosen);
 /// from[0 .. count) and the filler behind; reads nothing there.
 inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler);

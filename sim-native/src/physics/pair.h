@@ -29,11 +29,11 @@ NATATOR_HD Distance<T> distance_by(const Vec3<T>& difference, T inverse_r) {
 template <class T>
 NATATOR_HD Distance<T> distance_of(const Vec3<T>& d) {
 #if defined(__CUDA_ARCH__)
-    const T r2 = d.x * d.x + (d.y * d.y + (d.z * d.z + T(least_square)));
+    const T r2 = d.x * d.x + (d.y * d.y + (d.z * d.z + T(min_square)));
     const T inverse_r = inverse_root(r2);
     return {r2 * inverse_r, inverse_r};
 #else
-    return distance_by(d, 1 / square_root(squared_length(d) + Scalar<T>(least_square)));
+    return distance_by(d, 1 / square_root(squared_length(d) + Scalar<T>(min_square)));
 #endif
 }
 
@@ -43,7 +43,7 @@ NATATOR_HD T length_of(const Vec3<T>& d) {
 #if defined(__CUDA_ARCH__)
     return distance_of(d).r;
 #else
-    return square_root(squared_length(d) + Scalar<T>(least_square));
+    return square_root(squared_length(d) + Scalar<T>(min_square));
 #endif
 }
 

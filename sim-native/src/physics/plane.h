@@ -31,7 +31,8 @@ NATATOR_HD Vec3<T> resolve_plane_penetration(const Vec3<T>& from, T depth, const
 /// all, as in Müller, Macklin, Chentanez, Jeschke, Kim: Detailed Rigid Body Simulation with Extended Position Based
 /// Dynamics (2020), eq. 34; 0 below the `slowest` impact, so that what lies on a plane does not start to jump.
 template <class T>
-NATATOR_HD T rebound_speed(const Vec3<T>& normal, const Vec3<T>& predicted, const Vec3<T>& v, T restitution, T slowest) {
+NATATOR_HD T rebound_speed(const Vec3<T>& normal, const Vec3<T>& predicted, const Vec3<T>& v, T restitution,
+                           T slowest) {
     const T impact = -dot(normal, predicted);
     return impact > slowest ? positive_part(restitution * impact - dot(normal, v)) : T(0);
 }
@@ -44,9 +45,9 @@ NATATOR_HD Vec3<T> put_before(const PlaneSurface<T>& plane, T collision_distance
     return distance < -T(overlap_tolerance) * collision_distance ? x - distance * plane.normal : x;
 }
 
-/// Scheme `conserving`: keeps water at least `distance` in front of a plane. What would come nearer is put there, and its velocity
-/// into the plane ends, as in an impact without rebound (Moreau: Unilateral contact and dry friction, 1988): a wall can take
-/// kinetic energy, never give it.
+/// Scheme `conserving`: keeps water at least `distance` in front of a plane. What would come nearer is put there, and
+/// its velocity into the plane ends, as in an impact without rebound (Moreau: Unilateral contact and dry friction,
+/// 1988): a wall can take kinetic energy, never give it.
 template <class T>
 NATATOR_HD void hold_before(const PlaneSurface<T>& plane, T distance, Vec3<T>& x, Vec3<T>& velocity) {
     const T gap = dot(plane.normal, x) + (plane.offset - distance);

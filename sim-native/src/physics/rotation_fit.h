@@ -57,14 +57,15 @@ NATATOR_HD void turn(double q[4], const Vec3<double>& omega, double angle) {
     turn_by(a, q);
 }
 
-/// A step of Müller, Bender, Chentanez, Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
+/// A step of Müller, Bender, Chentanez, Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016),
+/// algorithm 1:
 ///   omega = slope / (|trace| + epsilon), slope = sum of r_k x a_k, trace = sum of r_k . a_k, k over the columns.
 NATATOR_HD Vec3<double> robust_step(const Vec3<double>& slope, double trace) {
     return slope / ((trace < 0 ? -trace : trace) + fit_epsilon);
 }
 
-/// Scheme `flex`: turns q towards the rotation closest to a covariance by a few robust steps. matrix_of(q, r) is rotation_matrix, or
-/// the same with products rounded its own way.
+/// Scheme `flex`: turns q towards the rotation closest to a covariance by a few robust steps. matrix_of(q, r) is
+/// rotation_matrix, or the same with products rounded its own way.
 template <class MatrixOf>
 NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], const MatrixOf& matrix_of) {
     const double* const a = covariance.entry;
@@ -89,8 +90,8 @@ NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4]) {
     fit_rotation(covariance, q, [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
 }
 
-/// Solves H omega = slope for a positive definite H by its adjugate. False where H is not, or has a determinant that tells only
-/// rounding, as about the axis of a straight line of particles.
+/// Solves H omega = slope for a positive definite H by its adjugate. False where H is not, or has a determinant that
+/// tells only rounding, as about the axis of a straight line of particles.
 NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slope, Vec3<double>& omega) {
     const Symmetric3<double> inverted = adjugate(h);
     const double size = determinant(h, inverted), trace = (h.xx + h.yy) + h.zz;
@@ -99,12 +100,12 @@ NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slo
     return true;
 }
 
-/// Scheme `conserving`: turns q to the rotation R closest to a covariance A, that of the greatest tr(R^T A), where A R^T is
-/// symmetric. Newton's method, from q on, as in the analytic polar decomposition of Kugelstadt, Koschier, Bender: Fast Corotated
-/// FEM using Operator Splitting (2018):
+/// Scheme `conserving`: turns q to the rotation R closest to a covariance A, that of the greatest tr(R^T A), where A
+/// R^T is symmetric. Newton's method, from q on, as in the analytic polar decomposition of Kugelstadt, Koschier,
+/// Bender: Fast Corotated FEM using Operator Splitting (2018):
 ///   ((tr S) 1 - S) omega = sum of r_k x a_k, S the symmetric part of A R^T,
-/// and a turn by Cayley's map of omega, by 2 atan(|omega| / 2). Far from R, or where A tells nothing of an axis, a step is a
-/// robust one. The error left, rad, is of the square of the last step.
+/// and a turn by Cayley's map of omega, by 2 atan(|omega| / 2). Far from R, or where A tells nothing of an axis, a step
+/// is a robust one. The error left, rad, is of the square of the last step.
 NATATOR_HD void closest_rotation(const Covariance& covariance, double q[4]) {
     const double* const a = covariance.entry;
     for (int step = 0; step < max_fit_steps; ++step) {
@@ -115,7 +116,7 @@ NATATOR_HD void closest_rotation(const Covariance& covariance, double q[4]) {
             m[e] = (a[i] * r[j] + a[i + 1] * r[j + 1]) + a[i + 2] * r[j + 2];
         }
         const Vec3<double> slope{m[7] - m[5], m[2] - m[6], m[3] - m[1]};
-        const Symmetric3<double> h{m[4] + m[8],          m[0] + m[8],          m[0] + m[4],
+        const Symmetric3<double> h{m[4] + m[8],        m[0] + m[8],        m[0] + m[4],
                                    -(m[1] + m[3]) / 2, -(m[2] + m[6]) / 2, -(m[5] + m[7]) / 2};
         Vec3<double> omega;
         if (!newton_step(h, slope, omega) || !(dot(omega, omega) < 1)) omega = robust_step(slope, (m[0] + m[4]) + m[8]);

@@ -1,5 +1,6 @@
 // Shape matching: Müller, Heidelberger, Teschner, Gross: Meshless Deformations Based on Shape Matching (2005). A
-// cluster pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best rotation.
+// cluster pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best
+// rotation.
 #pragma once
 
 #include "constants.h"
@@ -39,7 +40,7 @@ NATATOR_HD Vec3<T> with_dead_band(const Vec3<T>& centre, const Vec3<T>& mean) {
     return {moved(centre.x, mean.x), moved(centre.y, mean.y), moved(centre.z, mean.z)};
 }
 
-/// From a particle to its goal: c + R r_j - x_j.
+/// The vector from a particle to its goal: c + R r_j - x_j.
 template <class T>
 NATATOR_HD Vec3<T> way_to_goal(const Vec3<T>& centre, const T matrix[9], const Vec3<T>& rest, const Vec3<T>& x) {
     return centre + turned(matrix, rest) - x;

@@ -10,13 +10,14 @@ namespace natator::physics {
 
 /// Compliance of a constraint of stiffness k in [0, 1] relative to its inverse mass at substep length h0 (s),
 /// relative_compliance at others: r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves over as much
-/// of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never solved) at k = 0.
+/// of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never solved) at k =
+/// 0.
 inline double softness(double stiffness) {
     const double left_over = std::pow(1 - stiffness, 4);
     return left_over >= 1 ? HUGE_VAL : left_over / (1 - left_over);
 }
 
-/// What a Model's spring asks for, but for its rest length, which muscles change.
+/// Parameters of a Model's spring, except its rest length, which muscles change.
 template <class R>
 struct SpringRule {
     R stiffness = 1;
@@ -45,7 +46,7 @@ NATATOR_HD double relative_compliance(double softness, double h) {
     return softness * ratio * ratio;
 }
 
-/// The same spring by XPBD (Macklin, Müller, Chentanez 2016, eq. 18) with split masses, n = springs on a particle:
+/// A spring by XPBD (Macklin, Müller, Chentanez 2016, eq. 18) with split masses, n = springs on a particle:
 ///   Dlambda = (-C - alpha lambda) / (w_a n_a + w_b n_b + alpha), Dx_a = w_a Dlambda n.
 /// `weights` is w_a + w_b, `split` the sum with n. Returns Dx_a / w_a and adds to lambda.
 template <class T>
@@ -56,20 +57,21 @@ NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T spli
     lambda += change;
     return change / length * difference;
 }
-/// Its compliance alpha in a substep of length h, s.
+/// Compliance alpha of a spring in a substep of length h, s.
 template <class T>
 NATATOR_HD T spring_compliance(SpringRule<T> rule, T weights, T h) {
     return static_cast<T>(relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));
 }
 template <class T>
-NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length,
-                                    SpringRule<T> rule, T h, T& lambda) {
+NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length, SpringRule<T> rule,
+                                    T h, T& lambda) {
     return xpbd_spring_push(difference, weights, split, rest_length, spring_compliance(rule, weights, h), lambda);
 }
 
-/// Work of a change of rest length in a substep of length h, against the push lambda / h^2 with which the spring ends it:
-/// dW = lambda / h^2 dl0. With the energy 1/2 k (l - l0)^2 of the spring and implicit Euler this is what the energy of masses
-/// and springs grows by, and what the step takes off: 1/2 sum m |dv|^2 + 1/2 k (dl - dl0)^2 >= 0, of first order in h.
+/// Work of a change of rest length in a substep of length h, against the push lambda / h^2 with which the spring ends
+/// it: dW = lambda / h^2 dl0. With the energy 1/2 k (l - l0)^2 of the spring and implicit Euler this is what the energy
+/// of masses and springs grows by, and what the step takes off: 1/2 sum m |dv|^2 + 1/2 k (dl - dl0)^2 >= 0, of first
+/// order in h.
 NATATOR_HD double spring_work(double lambda, double h, double change) {
     return lambda / (h * h) * change;
 }

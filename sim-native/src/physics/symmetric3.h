@@ -31,7 +31,7 @@ NATATOR_HD Symmetric3<T> adjugate(const Symmetric3<T>& m) {
     return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
             m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy, m.xy * m.xz - m.xx * m.yz};
 }
-/// Of m, by its adjugate.
+/// The determinant of m, by its adjugate.
 template <class T>
 NATATOR_HD T determinant(const Symmetric3<T>& m, const Symmetric3<T>& adjugate) {
     return m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;

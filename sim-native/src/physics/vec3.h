@@ -19,7 +19,7 @@ template <class T>
 NATATOR_HD Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-/// By a number or, lane by lane, by a vector of them; a plane's normal is the same in all lanes.
+/// v times a number or, lane by lane, times a vector of numbers; a plane's normal is the same in all lanes.
 template <class S, class T>
 NATATOR_HD auto operator*(S s, const Vec3<T>& v) {
     return Vec3<decltype(s * v.x)>{s * v.x, s * v.y, s * v.z};
@@ -60,7 +60,8 @@ NATATOR_HD T dot(const Vec3<T>& a, const Vec3<U>& b) {
 NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-/// The same; on a GPU rounded in the same way in whatever kernel it is, where the compiler chooses which of the products to round.
+/// The dot product with fixed rounding: on a GPU the same bits in every kernel, where the compiler may else fuse either
+/// product.
 template <class T, class U>
 NATATOR_HD T dot_unfused(const Vec3<T>& a, const Vec3<U>& b) {
 #if defined(__CUDA_ARCH__)
@@ -78,11 +79,11 @@ template <class T>
 NATATOR_HD T norm(const Vec3<T>& v) {
     return square_root(dot(v, v));
 }
-/// The vector, shortened to `longest` where it is longer.
+/// The vector, shortened to `max_length` where it is longer.
 template <class T, class R>
-NATATOR_HD Vec3<T> clamped(const Vec3<T>& v, R longest) {
+NATATOR_HD Vec3<T> clamped(const Vec3<T>& v, R max_length) {
     const T length = norm(v);
-    const T scale = length > longest ? longest / length : one<T>();
+    const T scale = length > max_length ? max_length / length : one<T>();
     return scale * v;
 }
 /// a where `chosen`, else b.

@@ -6,7 +6,7 @@
 
 namespace natator::physics {
 
-/// What makes a velocity out of a displacement in scheme `flex`. The booleans say what applies.
+/// Rule that turns a displacement into a velocity in scheme `flex`. The booleans say which parts apply.
 template <class R>
 struct VelocityRule {
     bool viscosity;
@@ -24,7 +24,7 @@ inline namespace NATATOR_SET {
 /// v* = v + h g, |v*| <= max_speed: the velocity after external forces. No gravity on particles of infinite mass.
 template <class T>
 NATATOR_HD Vec3<T> predicted_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& gravity, T h, bool clamp_speed,
-                                  T max_speed) {
+                                      T max_speed) {
     if (inverse_mass > 0) v = v + h * gravity;
     return clamp_speed ? clamped(v, max_speed) : v;
 }

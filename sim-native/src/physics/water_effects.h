@@ -14,8 +14,8 @@ NATATOR_HD Vec3<T> cohesion_part(const Vec3<T>& difference, T r, T inverse_radiu
     return impulse_share(own, other) * cohesion_pull(r * inverse_radius, slope) / r * difference;
 }
 
-/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surface_tension h; normals as by
-/// colour_normal.
+/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surface_tension h; normals as
+/// by colour_normal.
 template <class T>
 NATATOR_HD Vec3<T> tension_part(const Vec3<T>& normal, const Vec3<T>& other_normal, T own, T other) {
     return impulse_share(own, other) * (normal - other_normal);

@@ -22,7 +22,8 @@ using nlohmann::json;
     throw InputError(where + ": " + field + " = " + shown(value) + ": must be " + allowed);
 }
 
-/// What an object that is an experiment, or the part of it that `path` begins with ("springs.idx"), has there; it must have it.
+/// What an object that is an experiment, or the part of it that `path` begins with ("springs.idx"), has there; it must
+/// have it.
 const json& member(const json& object, const std::string& path, const std::string& where, const char* allowed) {
     const std::size_t dot = path.find('.');
     const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
@@ -88,9 +89,9 @@ SolverParameters flex_defaults() {
     SolverParameters p = thesis_tank().solver;
     p.iterations = 1;
     p.gravity.setZero();
-    for (double* value :
-         {&p.radius, &p.solid_rest_distance, &p.fluid_rest_distance, &p.dynamic_friction, &p.static_friction,
-          &p.particle_friction, &p.damping, &p.flex.viscosity, &p.flex.solidPressure, &p.buoyancy, &p.collision_distance})
+    for (double* value : {&p.radius, &p.solid_rest_distance, &p.fluid_rest_distance, &p.dynamic_friction,
+                          &p.static_friction, &p.particle_friction, &p.damping, &p.flex.viscosity,
+                          &p.flex.solidPressure, &p.buoyancy, &p.collision_distance})
         *value = 0;
     p.max_acceleration = p.max_speed;
     return p;
@@ -175,8 +176,8 @@ void read_clusters(const json& rigids, const Reader& read, Model& model) {
         member(rigids, "rigids.clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
         [&](const json& row, const std::string& field) { return read.indices(row, field, -1, model.particles() - 1); });
     const long count = static_cast<long>(members.size());
-    const auto rest = read.points(member(rigids, "rigids.rest", read.where, "a rest position per particle"), "rigids.rest",
-                                  model.particles());
+    const auto rest = read.points(member(rigids, "rigids.rest", read.where, "a rest position per particle"),
+                                  "rigids.rest", model.particles());
     const json& given = member(rigids, "rigids.stiff", read.where, "a stiffness per cluster");
     auto stiffness = read.numbers(given, "rigids.stiff", given.is_array() && given.size() == 1 ? 1 : count);
     stiffness.resize(members.size(), stiffness.empty() ? 0 : stiffness.front());
@@ -201,8 +202,9 @@ void read_clusters(const json& rigids, const Reader& read, Model& model) {
 
 ParticleExperiment read_particle_experiment(const json& source, const std::string& where) {
     const Reader read{where};
-    fields::check_keys(source, {where, ""},
-                       {"name", "dt", "substeps", "params", "pos", "vel", "invm", "phase", "springs", "rigids", "rest", "frames"});
+    fields::check_keys(
+        source, {where, ""},
+        {"name", "dt", "substeps", "params", "pos", "vel", "invm", "phase", "springs", "rigids", "rest", "frames"});
     ParticleExperiment experiment;
     Model& model = experiment.model;
     if (source.contains("name") && source["name"].is_string()) experiment.name = source["name"];

@@ -78,11 +78,11 @@ bool is_traced(const json& asked) {
 }
 
 template <class Real, class AnySolver>
-json run_frames(const ParticleExperiment& experiment, const json& asked_frames, AnySolver solver) {
+json run_frames(const ParticleExperiment& experiment, const json& requested_frames, AnySolver solver) {
     State<Real> state = initial_state<Real>(experiment.model);
     json frames = json::array();
     long updates = 0;
-    for (const json& asked : asked_frames) {
+    for (const json& asked : requested_frames) {
         TraceRecorder<Real> recorder;
         const bool traced = is_traced(asked);
         while (updates < asked.at("frame").get<long>()) {
@@ -101,10 +101,11 @@ json run_frames(const ParticleExperiment& experiment, const json& asked_frames, 
 }
 
 /// Refuses what would take too long or too much memory, results included.
-void check_experiment_cost(const ParticleExperiment& experiment, const json& asked_frames, const std::string& where) {
+void check_experiment_cost(const ParticleExperiment& experiment, const json& requested_frames,
+                           const std::string& where) {
     constexpr double bytes_of_row = 120;  // three numbers in JSON
     double rows = 0, updates = 0;
-    for (const json& asked : asked_frames) {
+    for (const json& asked : requested_frames) {
         const double steps = is_traced(asked) ? experiment.substeps : 0;
         rows += 3 + steps * (2 + experiment.model.parameters.iterations);
         updates = asked.at("frame").get<double>();
@@ -114,14 +115,16 @@ void check_experiment_cost(const ParticleExperiment& experiment, const json& ask
 }
 
 /// The frames to record: as the input lists them, each number larger than the one before.
-json asked_frames(const json& experiment, const std::string& where) {
+json requested_frames(const json& experiment, const std::string& where) {
     json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
     long last = 0;
-    if (!frames.is_array()) throw InputError(where + ": frames = " + shown(frames) + ": must be an array of objects with a frame number");
+    if (!frames.is_array())
+        throw InputError(where + ": frames = " + shown(frames) + ": must be an array of objects with a frame number");
     for (const json& frame : frames) {
         if (!frame.is_object() || !frame.contains("frame") || !frame["frame"].is_number_integer() ||
             frame["frame"].get<long>() <= last)
-            throw InputError(where + ": frames = " + shown(frames) + ": must be objects whose frame numbers are 1 or more and increase");
+            throw InputError(where + ": frames = " + shown(frames) +
+                             ": must be objects whose frame numbers are 1 or more and increase");
         last = frame["frame"];
     }
     return frames;
@@ -132,7 +135,7 @@ json asked_frames(const json& experiment, const std::string& where) {
 json run_particle_experiment(const json& source, const std::string& where, Precision precision,
                              std::optional<int> gpu) {
     const ParticleExperiment experiment = read_particle_experiment(source, where);
-    const json asked = asked_frames(source, where);
+    const json asked = requested_frames(source, where);
     check_experiment_cost(experiment, asked, where);
     const auto frames = [&](auto real) {
         using Real = decltype(real);

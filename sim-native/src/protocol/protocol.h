@@ -22,7 +22,7 @@ struct Request {
     nlohmann::json overrides = nlohmann::json::object();  ///< with the request's own `duration` and `scheme` merged in
     Precision precision = Precision::single_precision;
     Perturbation perturbation;
-    std::optional<int> start;  ///< which of many starts: choose_start
+    std::optional<int> start;            ///< which of many starts: choose_start
     std::optional<std::string> backend;  ///< "cpu", "cuda" or "auto"; whether there is one is for its user to see
 };
 

@@ -36,10 +36,9 @@ json request_id(const json& value) {
 
 Request parse_request(const json& value, const std::string& document) {
     const Place place{document, ""};
-    fields::check_keys(
-        value, place,
-        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start", "overrides",
-         fields::schema_key});
+    fields::check_keys(value, place,
+                       {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start",
+                        "overrides", fields::schema_key});
     fields::check_schema_key(value, place);
     Request request;
     const json& id = fields::required(value, place, "id");
@@ -66,9 +65,11 @@ Request parse_request(const json& value, const std::string& document) {
         request.overrides = value.at("overrides");
         if (!request.overrides.is_object()) fields::refuse(place.key("overrides"), request.overrides, "an object");
     }
-    for (const auto& [key, must_be] : {std::pair("duration", "a number"), std::pair("scheme", R"("flex", "conserving" or "lattice")")}) {
+    for (const auto& [key, must_be] :
+         {std::pair("duration", "a number"), std::pair("scheme", R"("flex", "conserving" or "lattice")")}) {
         if (!value.contains(key)) continue;
-        if (value.at(key).is_null()) fields::refuse(place.key(key), value.at(key), must_be);  // it would erase the scene's own
+        if (value.at(key).is_null())
+            fields::refuse(place.key(key), value.at(key), must_be);  // it would erase the scene's own
         request.overrides[key] = value.at(key);
     }
     if (value.contains("backend")) {

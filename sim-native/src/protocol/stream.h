@@ -38,6 +38,7 @@ struct Sense {
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
+struct Water {};  ///< a WATR of the present state
 struct Rate {
     double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
 };
@@ -54,9 +55,9 @@ struct NewScene {
     SimulationSetup setup;
 };
 
-inline constexpr int max_credit = 1000;                 ///< frames
-inline constexpr int longest_step = 1000;                ///< frames
-inline constexpr std::size_t longest_command = 1 << 20;  ///< bytes
+inline constexpr int max_credit = 1000;              ///< frames
+inline constexpr int max_step = 1000;                ///< frames
+inline constexpr std::size_t max_command = 1 << 20;  ///< bytes
 
 /// Whether simulated seconds per second of wall time may be limited to this: 0 (no limit) or in [0.001, 1000].
 bool is_rate(double value);
@@ -84,8 +85,9 @@ struct FrameHead {
 
 }  // namespace stream
 
-using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
-                                   stream::Reset, stream::NewGait, stream::Steer, stream::Sense, stream::Overrides, stream::NewScene>;
+using StreamCommand =
+    std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate, stream::Reset, stream::NewGait,
+                 stream::Steer, stream::Sense, stream::Water, stream::Overrides, stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -98,12 +100,17 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 template <class Real>
 nlohmann::ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head);
 
-/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of `stream_scene`.
+/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of
+/// `stream_scene`.
 nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 /// The FRAM of the present state, as bytes.
 template <class Real>
 std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& head);
+
+/// The WATR of the present state, as bytes. `scene`: number of its SCEN. Throws InputError as Simulation::water.
+template <class Real>
+std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene);
 
 /// What a swimmer senses, in SENS and in answers.
 template <class Real>
@@ -117,6 +124,8 @@ extern template nlohmann::ordered_json stream_scene(const Simulation<float>&, co
 extern template nlohmann::ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
 extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, const Sensing&);
 extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const Sensing&);
+extern template std::string stream_water(const Simulation<float>&, std::uint32_t);
+extern template std::string stream_water(const Simulation<double>&, std::uint32_t);
 extern template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
 extern template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 

@@ -35,7 +35,8 @@ stream::Rate read_rate(const json& value) {
 /// The keys `drive`, `scale` and `offset`.
 stream::Steer read_steer(const json& value) {
     stream::Steer steer;
-    for (const auto& [key, list] : {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
+    for (const auto& [key, list] :
+         {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
         if (value.contains(key)) *list = read_actuator_values(value.at(key), place.key(key));
     if (steer.drive && (steer.scale || steer.offset))
         fields::refuse(place.key("drive"), "must not be given together with scale or offset");
@@ -50,14 +51,14 @@ bool is_for_each_frame(const json& value) {
 
 stream::Step read_step(const json& value) {
     stream::Step step;
-    step.frames = read_frames(value, stream::longest_step);
+    step.frames = read_frames(value, stream::max_step);
     if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, step.sense);
     json other = value;
     if (is_for_each_frame(value)) {
         const json& rows = value.at("drive");
         const std::string has = "has " + std::to_string(rows.size()) + " lists: must have ";
-        if (rows.size() > stream::longest_step)
-            fields::refuse(place.key("drive"), has + std::to_string(stream::longest_step) + " at most");
+        if (rows.size() > stream::max_step)
+            fields::refuse(place.key("drive"), has + std::to_string(stream::max_step) + " at most");
         if (!value.contains("frames")) step.frames = static_cast<int>(rows.size());
         if (rows.size() != static_cast<std::size_t>(step.frames))
             fields::refuse(place.key("drive"), has + "one for each of the " + std::to_string(step.frames) + " frames");
@@ -96,7 +97,8 @@ stream::Sense read_sense(const json& value) {
     if (value.contains("target")) {
         sense.target.emplace();
         if (!value.at("target").is_null())
-            fields::read(value.at("target"), place.key("target"), {-1e6, 1e6, false, "length"}, sense.target->emplace());
+            fields::read(value.at("target"), place.key("target"), {-1e6, 1e6, false, "length"},
+                         sense.target->emplace());
     }
     if (value.contains("each")) fields::read(value.at("each"), place.key("each"), {}, sense.each.emplace());
     return sense;
@@ -131,8 +133,7 @@ bool stream::is_rate(double value) {
 
 StreamCommand parse_stream_command(const json& value) {
     if (!value.is_object()) fields::refuse(place, value, "an object");
-    if (value.contains("id") && request_id(value).is_null())
-        fields::refuse(place.key("id"), value.at("id"), id_range);
+    if (value.contains("id") && request_id(value).is_null()) fields::refuse(place.key("id"), value.at("id"), id_range);
     std::string name;
     fields::read(fields::required(value, place, "do"), place.key("do"), {}, name);
 
@@ -144,13 +145,15 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "drive") return only({"drive"}), fields::required(value, place, "drive"), read_steer(value);
     if (name == "steer") return only({"scale", "offset"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
+    if (name == "water") return only({}), stream::Water{};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, drive, steer, sense, overrides or scene");
+    fields::refuse(place.key("do"), name,
+                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
 }
 
 }  // namespace natator

@@ -3,11 +3,11 @@
 #include <stdexcept>
 
 #include "base/strict_json.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
-#include "natator/measure.h"
 #include "natator/instruction_set.h"
+#include "natator/measure.h"
 #include "natator/version.h"
 #include "protocol/stream.h"
 #include "run/conservation_errors.h"
@@ -74,7 +74,8 @@ ordered_json periodic_json(const Model& model) {
     return periodic;
 }
 
-/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the swimmer.
+/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the
+/// swimmer.
 template <class Real>
 std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Real>& state) {
     std::vector<Vector3<Real>> places = state.position;
@@ -82,7 +83,7 @@ std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Re
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model.body, state));
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
-        const Eigen::Vector3d way = shortest_way(model, places[i].template cast<double>() - centre);
+        const Eigen::Vector3d way = minimum_image(model, places[i].template cast<double>() - centre);
         for (const PeriodicAxis& axis : model.periodic)
             places[i][axis.axis] = static_cast<Real>(centre[axis.axis] + way[axis.axis]);
     }
@@ -129,7 +130,8 @@ ordered_json muscles_json(const Scene& scene, const Model& model) {
                            {"actuator", muscle.actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
-        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
+        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical)
+            muscles.back()["bend"] = "vertical";
     }
     return muscles;
 }
@@ -139,7 +141,8 @@ ordered_json companions_json(const Scene& scene, const Model& model) {
     ordered_json companions = ordered_json::array();
     for (std::size_t k = 0; k < model.companions.size(); ++k) {
         const Body& body = model.companions[k].body;
-        companions.push_back({{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
+        companions.push_back(
+            {{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
     }
     return companions;
 }
@@ -163,7 +166,8 @@ ordered_json skin_json(const Scene& scene, const Model& model) {
         shares.push_back(weight.share);
     }
     std::vector<Eigen::Vector3d> rest;
-    for (const int particle : model.body.particles) rest.push_back(model.position[particle] - scene.creature->rear_centre);
+    for (const int particle : model.body.particles)
+        rest.push_back(model.position[particle] - scene.creature->rear_centre);
     return {{"file", skin.file},
             {"digest", skin.digest},
             {"unit", skin.unit},
@@ -177,8 +181,8 @@ ordered_json skin_json(const Scene& scene, const Model& model) {
 }
 
 template <class Real>
-constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Precision::double_precision
-                                                                  : Precision::single_precision;
+constexpr Precision precision_of =
+    sizeof(Real) == sizeof(double) ? Precision::double_precision : Precision::single_precision;
 
 }  // namespace
 
@@ -267,6 +271,23 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
     return message.finish();
 }
 
+template <class Real>
+std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene) {
+    const WaterField field = simulation.water();
+    MessageWriter message("WATR");
+    message.reserve(64 + 16 * field.velocity.size());
+    message.add(scene);
+    message.add(static_cast<std::uint32_t>(simulation.frames()));
+    for (const int count : field.cells) message.add(static_cast<std::uint32_t>(count));
+    message.add(std::uint32_t{0});
+    message.add(simulation.state().time);
+    message.add(field.cell);
+    for (const double component : field.corner) message.add(component);
+    message.add_vectors(field.velocity);
+    message.add_numbers(field.density);
+    return message.finish();
+}
+
 ordered_json stream_stop() {
     return {{"reason", "until"}};
 }
@@ -281,6 +302,8 @@ ordered_json stream_stop(const Instability& instability) {
 
 template ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
 template ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
+template std::string stream_water(const Simulation<float>&, std::uint32_t);
+template std::string stream_water(const Simulation<double>&, std::uint32_t);
 template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
 template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 

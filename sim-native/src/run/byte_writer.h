@@ -12,8 +12,10 @@ namespace natator {
 class ByteWriter {
 public:
     template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-    void add(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+        requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+    void add(T value) {
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
     template <class Real, int Rows>
     void add(const Eigen::Matrix<Real, Rows, 1>& vector) {
         for (const Real component : vector) add(component);

@@ -26,18 +26,21 @@ constexpr double gibibyte = 1024.0 * 1024 * 1024;
 struct Room {
     double bytes, numbers;
 
-    double with(const Computing& computing) const { return bytes + numbers * (computing.doubles ? sizeof(double) : sizeof(float)); }
+    double with(const Computing& computing) const {
+        return bytes + numbers * (computing.doubles ? sizeof(double) : sizeof(float));
+    }
 };
 // As measured, with the room that growing arrays leave.
-constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_image{60, 36}, of_contact{24, 1}, of_spring{80, 4},
-    of_member{56, 6}, of_cell{28, 0}, of_neighbour{4, 0}, of_water_neighbour{4, 4};
-constexpr double growth = 1.5;  // of a list that gets too short
+constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_ghost{60, 36}, of_contact{24, 1},
+    of_spring{80, 4}, of_member{56, 6}, of_cell{28, 0}, of_neighbour{4, 0}, of_water_neighbour{4, 4};
+constexpr double growth = 1.5;                      // of a list that gets too short
 constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several threads put together, an entry
-constexpr double kept_distances = 1 << 20;  // scheme flex keeps those of so many neighbours at most
-constexpr double raggedness = 1.12;         // of lists of 16 particles, which are all as long as the longest
-constexpr double of_bursting = 1.5;         // the same of those that are denser at the start than at rest
+constexpr double kept_distances = 1 << 20;          // scheme flex keeps those of so many neighbours at most
+constexpr double raggedness = 1.12;                 // of lists of 16 particles, which are all as long as the longest
+constexpr double of_bursting = 1.5;                 // the same of those that are denser at the start than at rest
 constexpr double max_samples = 4096, max_looks = 2e7;
-// Of scheme lattice: 2 x 17 moments, a change of the velocity, whose it is. Rows are padded, and each part of the planes has three of populations.
+// Of scheme lattice: 2 x 17 moments, a change of the velocity, whose it is. Rows are padded, and each part of the
+// planes has three of populations.
 constexpr double bytes_of_lattice_cell = 160, bytes_of_populations = 3 * 27 * sizeof(float), work_of_lattice_cell = 25;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
@@ -55,15 +58,15 @@ Grid grid_over(const Model& model, double search_distance) {
     return grid;
 }
 
-/// Of particles in the planes and ends of periodic axes that they are nearer to than `distance`, as scheme `conserving` has
-/// them: as if how near one is to a plane did not depend on the others.
-double images_at_start(const Model& model, double distance) {
+/// Of particles in the planes and ends of periodic axes that they are nearer to than `distance`, as scheme `conserving`
+/// has them: as if how near one is to a plane did not depend on the others.
+double ghosts_at_start(const Model& model, double distance) {
     const double particles = model.particles();
-    double with_images = particles;
+    double with_ghosts = particles;
     for (const Plane& plane : model.planes) {
         double near = 0;
         for (const Eigen::Vector3d& place : model.position) near += plane.distance(place) < distance ? 1 : 0;
-        with_images *= 1 + near / particles;
+        with_ghosts *= 1 + near / particles;
     }
     for (const PeriodicAxis& periodic : model.periodic) {
         double near = 0;
@@ -71,9 +74,9 @@ double images_at_start(const Model& model, double distance) {
             const double at = place[periodic.axis];
             near += (at - periodic.low < distance ? 1 : 0) + (periodic.high - at < distance ? 1 : 0);
         }
-        with_images *= 1 + near / particles;
+        with_ghosts *= 1 + near / particles;
     }
-    return with_images - particles;
+    return with_ghosts - particles;
 }
 
 /// Mean over some fluid particles of how many are nearer than a distance, fluid ones or all.
@@ -98,7 +101,8 @@ double near_at_start(const Model& model, double distance, const Grid& grid, bool
         const Grid::Range range = grid.range_around(cell);
         for (int row = 0; row < rows.count; ++row)
             for (int c = rows.first_cell[row] + range.first; c <= rows.first_cell[row] + range.last; ++c) {
-                for (const int j : in_cell[c]) sum += (model.position[j] - x).squaredNorm() < distance * distance && j != asked[k] ? 1 : 0;
+                for (const int j : in_cell[c])
+                    sum += (model.position[j] - x).squaredNorm() < distance * distance && j != asked[k] ? 1 : 0;
                 looks += static_cast<double>(in_cell[c].size());
             }
     }
@@ -160,12 +164,14 @@ double from_environment(const char* name, double usual) {
     if (text == nullptr || *text == '\0') return usual;
     const std::optional<double> value = decimal_number(text);
     if (!value || *value <= 0)
-        throw InputError("environment: " + std::string(name) + " = " + quoted(text) + ": must be a decimal number above 0");
+        throw InputError("environment: " + std::string(name) + " = " + quoted(text) +
+                         ": must be a decimal number above 0");
     return *value;
 }
 
 double memory_of_machine() {
-    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES)), page = static_cast<double>(sysconf(_SC_PAGESIZE));
+    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES)),
+                 page = static_cast<double>(sysconf(_SC_PAGESIZE));
     return pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::max();
 }
 
@@ -177,8 +183,8 @@ std::string in_gib(double bytes) {
 double time_steps_of(double time, const Scene& scene, const std::string& what) {
     const double steps = std::round(time / scene.time_step);
     if (!(steps <= limits::time_steps))
-        throw InputError(what + " = " + number_text(time) + ": must be at most 10 million time steps of timeStep = " +
-                         number_text(scene.time_step));
+        throw InputError(what + " = " + number_text(time) +
+                         ": must be at most 10 million time steps of timeStep = " + number_text(scene.time_step));
     return steps;
 }
 
@@ -215,21 +221,22 @@ Cost cost_of(const Model& model, const Computing& computing) {
     cost.candidates = std::max(start.fluid, fluid * std::min(20.25 * per_cube, fluid)) + start.contacts;
     const double of_fluid = fluid > 0 ? std::max(start.fluid / fluid / 2, at_rest) : 0;  // half of the cells is near
     const double fluid_neighbours = fluid * std::min(of_fluid, most);
-    const double images = water ? images_at_start(model, support) : 0;
-    cost.neighbours = fluid_neighbours * (1 + images / particles) + 2 * start.contacts;
+    const double ghosts = water ? ghosts_at_start(model, support) : 0;
+    cost.neighbours = fluid_neighbours * (1 + ghosts / particles) + 2 * start.contacts;
 
     double members = 0;
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
     const double springs = static_cast<double>(model.springs.size());
     const double of_solids = springs + members + work_of_cluster * static_cast<double>(model.clusters.size());
-    const double per_iteration = cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.conserving.solid_iterations) * of_solids +
-                                 particles * (work_of_particle + static_cast<double>(model.planes.size())) +
-                                 work_of_substep;
-    cost.per_substep += cost.candidates + 2 * cost.neighbours + max_iterations(model) * per_iteration + work_of_cell * start.cells +
-                       work_of_particle * particles + work_of_substep;
+    const double per_iteration =
+        cost.neighbours + (model.scheme == Scheme::flex ? 1 : p.conserving.solid_iterations) * of_solids +
+        particles * (work_of_particle + static_cast<double>(model.planes.size())) + work_of_substep;
+    cost.per_substep += cost.candidates + 2 * cost.neighbours + max_iterations(model) * per_iteration +
+                        work_of_cell * start.cells + work_of_particle * particles + work_of_substep;
 
     const double resting = water ? at_rest / std::numbers::sqrt2 : at_rest;
-    const double listed = fluid * std::min(raggedness * resting + of_bursting * std::max(start.near - resting, 0.0), most);
+    const double listed =
+        fluid * std::min(raggedness * resting + of_bursting * std::max(start.near - resting, 0.0), most);
     const auto add = [&](double count, const Room& room) { cost.bytes += count * room.with(computing); };
     add(1, of_program);
     add(particles, of_particle);
@@ -241,7 +248,7 @@ Cost cost_of(const Model& model, const Computing& computing) {
     if (computing.several_threads) add(listed, water ? of_water_part : of_part);
     if (!water) add(std::min(listed, kept_distances), {0, 1});
     if (water) add(particles, of_water_particle);
-    if (water) add(images, of_image);
+    if (water) add(ghosts, of_ghost);
     return cost;
 }
 
@@ -251,10 +258,12 @@ Budget Budget::of_user() {
             gibibyte * from_environment("NATATOR_MOST_MEMORY", memory)};
 }
 
-void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where, const Computing& computing) {
+void check_cost(const Model& model, double substeps, double more_bytes, const std::string& where,
+                const Computing& computing) {
     const Cost cost = cost_of(model, computing);
     const Budget budget = Budget::of_user();
-    std::string particles = std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
+    std::string particles =
+        std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
     if (cost.cells > 0) particles += " in " + figure_text(cost.cells) + " cells of water";
     if (cost.neighbours > limits::neighbours)
         throw InputError(where + ": " + particles + ": must be at most " + figure_text(limits::neighbours) +
@@ -276,7 +285,8 @@ void check_evaluation_cost(const Scene& scene, const Model& model, const Computi
 }
 
 void check_live_cost(const Scene& scene, const Model& model, std::optional<double> until, const Computing& computing) {
-    const double frames = until ? time_steps_of(*until, scene, "scene " + quoted(scene.name) + ": until") : limits::live_frames;
+    const double frames =
+        until ? time_steps_of(*until, scene, "scene " + quoted(scene.name) + ": until") : limits::live_frames;
     check_cost(model, substeps_of_settling(scene) + frames * model.parameters.substeps, 0,
                "scene " + quoted(scene.name), computing);
 }

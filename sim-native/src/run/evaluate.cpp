@@ -47,7 +47,7 @@ public:
         state_.time = (number + 1) * scene_.time_step;  // free of summed rounding
         return {look(std::nullopt)};
     }
-    void noted(std::size_t, EvaluationRun& run) {
+    void record_frame(std::size_t, EvaluationRun& run) {
         state_.origin = run.origin();
         if (options_.on_frame) options_.on_frame(state_.time, body_places(model_.body, state_));
         if (run.frames() == 0) return;

@@ -69,7 +69,7 @@ Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& en
     if (has_muscle_work(model_)) result_.work = work_;
     if (!model_.body.particles.empty()) result_.course = course_of(model_, model_.body, end, result_.distance);
     result_.companions = companion_results(scene_, model_, begin, end);
-    record_.tell(result_);
+    record_.write_to(result_);
     return result_;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "natator/evaluate.h"
-#include "run/laws.h"
 #include "physics/laws.h"
+#include "run/laws.h"
 #include "swim_record.h"
 
 namespace natator {
@@ -43,7 +43,7 @@ public:
     template <class Real>
     void move_tank(State<Real>& state) {
         record_.move_tank(state);
-        laws_.begin_anew();
+        laws_.restart();
     }
 
     /// Its result. `densities`: of all particles, in units of rest density.
@@ -69,15 +69,15 @@ inline int frames_of(const Scene& scene) {
 /// backend:
 ///   FrameEnds start();                                         by run, before the first frame
 ///   FrameEnds frame(int number, const std::vector<bool>& over);  those that are over stay as they are
-///   void noted(std::size_t run, EvaluationRun& its);           its start, or a frame of it, has been noted and is
-///   stable
+///   void record_frame(std::size_t run, EvaluationRun& its);           its start, or a frame of it, has been noted and
+///   is stable
 template <class Stepper>
 void run_frames(const Scene& scene, Stepper& stepper, std::vector<EvaluationRun>& runs) {
     const auto note = [&](const std::vector<FrameEnd>& ends, const std::vector<bool>& over, auto add) {
         for (std::size_t k = 0; k < runs.size(); ++k) {
             if (over[k]) continue;
             (runs[k].*add)(ends[k]);
-            if (!runs[k].instability()) stepper.noted(k, runs[k]);
+            if (!runs[k].instability()) stepper.record_frame(k, runs[k]);
         }
     };
     std::vector<bool> over(runs.size(), false);

@@ -52,23 +52,29 @@ GoalRecord::GoalRecord(const Scene& scene, const Model& model)
         if (goal.measure == Measure::depth) check_place(scene, model, k, {0, goal.amount, 0});
         if (goal.measure == Measure::reach) check_place(scene, model, k, goal.place);
         if (goal.measure == Measure::economy && (model.scheme == Scheme::flex || model.muscles.empty()))
-            refuse(scene, k, "economy needs the work of muscles: a creature with joints, in scheme conserving or lattice");
+            refuse(scene, k,
+                   "economy needs the work of muscles: a creature with joints, in scheme conserving or lattice");
     }
 }
 
-double GoalRecord::left_to_go(const Goal& goal, const Pose& pose) const {
+double GoalRecord::remaining(const Goal& goal, const Pose& pose) const {
     switch (goal.measure) {
-        case Measure::turn: return std::abs(goal.amount - turned_ * degrees);
-        case Measure::depth: return std::abs(start_.centre.y() + goal.amount - pose.centre.y());
-        case Measure::reach: return (start_.centre + goal.place - pose.centre).norm();
-        default: return 0;
+        case Measure::turn:
+            return std::abs(goal.amount - turned_ * degrees);
+        case Measure::depth:
+            return std::abs(start_.centre.y() + goal.amount - pose.centre.y());
+        case Measure::reach:
+            return (start_.centre + goal.place - pose.centre).norm();
+        default:
+            return 0;
     }
 }
 
 void GoalRecord::start(const Pose& pose) {
     start_ = pose;
     last_yaw_ = pose.yaw;
-    for (std::size_t k = 0; k < goals_.size(); ++k) progress_[k].at_start = progress_[k].left = left_to_go(goals_[k], pose);
+    for (std::size_t k = 0; k < goals_.size(); ++k)
+        progress_[k].at_start = progress_[k].left = remaining(goals_[k], pose);
 }
 
 bool GoalRecord::add(const Pose& pose, double time) {
@@ -79,7 +85,7 @@ bool GoalRecord::add(const Pose& pose, double time) {
     for (std::size_t k = 0; k < goals_.size(); ++k) {
         const Goal& goal = goals_[k];
         Progress& progress = progress_[k];
-        progress.left = left_to_go(goal, pose);
+        progress.left = remaining(goal, pose);
         progress.away += (pose.centre - start_.centre).norm();
         if (!goal.arrives() || progress.arrived_at || progress.left > goal.within) continue;
         progress.arrived_at = time;

@@ -28,7 +28,7 @@ private:
         double away = 0;  ///< sum over frames of the distance from the start
         std::optional<double> arrived_at;
     };
-    double left_to_go(const Goal& goal, const Pose& pose) const;
+    double remaining(const Goal& goal, const Pose& pose) const;
 
     std::vector<Goal> goals_;
     std::vector<Progress> progress_;

@@ -24,10 +24,10 @@ struct LawMargins {
     double largest() const;
 };
 
-/// Watches that a run keeps to laws of mechanics that no water and no body can break: nobody is behind a plane, no particle has more
-/// energy than gravity and muscles can give it, all together have no more than they began with and muscles gave (scheme
-/// `conserving`), no body is stretched to several times its length, no fluid compressed to a fraction of its volume. One for each run, in one thread at
-/// a time.
+/// Watches that a run keeps to laws of mechanics that no water and no body can break: nobody is behind a plane, no
+/// particle has more energy than gravity and muscles can give it, all together have no more than they began with and
+/// muscles gave (scheme `conserving`), no body is stretched to several times its length, no fluid compressed to a
+/// fraction of its volume. One for each run, in one thread at a time.
 class LawWatch {
 public:
     /// Watches a run that begins where the model does, with muscles at rest.
@@ -44,14 +44,15 @@ public:
 
     /// Looks at the start of the frames, once it has settled. The energy counts from here.
     std::optional<Instability> start(const physics::LawMeasures& measures);
-    /// Looks at the end of a frame. `work`: of the muscles since `start` (Solver::muscle_work), mass length^2/s^2; `time`: s.
+    /// Looks at the end of a frame. `work`: of the muscles since `start` (Solver::muscle_work), mass length^2/s^2;
+    /// `time`: s.
     std::optional<Instability> look(const physics::LawMeasures& measures, double work, double time);
     /// Looks at the mean of max(density - 1, 0) over the fluid, in rest densities.
     std::optional<Instability> look_at_compression(double mean_excess, double time);
     /// The run goes on from what it has come to in another model: that is allowed, and energy counts from here.
     void go_on(const physics::LawMeasures& measures);
     /// The tank has moved: energy counts anew, from the end of the next frame.
-    void begin_anew();
+    void restart();
 
     /// The limits that hold now, without what they grow by with time.
     const physics::LawLimits& limits() const;

@@ -40,10 +40,12 @@ MovingFrame::MovingFrame(const Scene& scene, const Model& model) : model_(model)
     if (model.water_box) {
         const double cells = tank_.step / model.water_box->cell;
         if (std::abs(cells - std::round(cells)) > 1e-3 || cells < 0.5)
-            refuse(scene, "step = " + number_text(tank_.step) + ": must be a multiple of the cells' " + number_text(model.water_box->cell) + " (fluid.spacing) in scheme lattice");
+            refuse(scene, "step = " + number_text(tank_.step) + ": must be a multiple of the cells' " +
+                              number_text(model.water_box->cell) + " (fluid.spacing) in scheme lattice");
     }
     const Eigen::Vector3d centre = rest_centre(model);
-    const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.conserving.kernel_support * model.parameters.fluid_rest_distance;
+    const double reach = model.body.length / 2 + tank_.step +
+                         2 * model.parameters.conserving.kernel_support * model.parameters.fluid_rest_distance;
     for (const int axis : {0, 2}) {
         if ((axis == 2 && !tank_.along_z) || is_periodic(scene, axis)) continue;
         const auto [low, high] = walls_across(scene, axis);
@@ -51,7 +53,8 @@ MovingFrame::MovingFrame(const Scene& scene, const Model& model) : model_(model)
         if (room < reach) {
             std::ostringstream text;
             text << "the body's centre is " << computed_text(room) << " from the nearer end of the tank along "
-                 << name_of_axis(axis) << "; must be at least " << computed_text(reach) << " (half the body, a step and two kernel radii)";
+                 << name_of_axis(axis) << "; must be at least " << computed_text(reach)
+                 << " (half the body, a step and two kernel radii)";
             refuse(scene, text.str());
         }
         axes_.push_back({axis, low, high, centre[axis]});
@@ -73,8 +76,8 @@ void MovingFrame::follow(const Eigen::Vector3d& centre, State<Real>& state) {
     state.origin = origin_;
 }
 
-/// Everything goes back by a step. Water that would then be beyond the wall behind comes to stand as far before the wall
-/// in front: its layer at the one wall closes up with the layer that was at the other.
+/// Everything goes back by a step. Water that would then be beyond the wall behind comes to stand as far before the
+/// wall in front: its layer at the one wall closes up with the layer that was at the other.
 template <class Real>
 void MovingFrame::move(const Axis& axis, int direction, State<Real>& state) {
     const int a = axis.axis;

@@ -5,7 +5,8 @@
 
 namespace natator {
 
-/// Amplitude of the perturbations that make many starts of one (choose_start, `converge`), in rest distances of the fluid.
+/// Amplitude of the perturbations that make many starts of one (choose_start, `converge`), in rest distances of the
+/// fluid.
 constexpr double start_amplitude = 1e-3;
 
 /// Shifts every coordinate of the starting positions by amplitude (2 u - 1), u in [0, 1) being the upper 53 bits of

@@ -30,9 +30,9 @@ bool all_same(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool same_layout(const Model& a, const Model& b) {
     return a.position == b.position && a.velocity == b.velocity && a.phase == b.phase &&
-           a.rest_position == b.rest_position && all_same(a.periodic, b.periodic) &&
-           all_same(a.springs, b.springs) && all_same(a.clusters, b.clusters) &&
-           all_same(a.muscles, b.muscles) && a.actuators == b.actuators && a.body.slices == b.body.slices;
+           a.rest_position == b.rest_position && all_same(a.periodic, b.periodic) && all_same(a.springs, b.springs) &&
+           all_same(a.clusters, b.clusters) && all_same(a.muscles, b.muscles) && a.actuators == b.actuators &&
+           a.body.slices == b.body.slices;
 }
 
 }  // namespace natator

@@ -8,8 +8,8 @@
 
 namespace natator {
 
-/// Brings the start to rest (thesis 2.3): velocities are zeroed after each update. Muscles are at rest; time stays 0. `solver`: a
-/// Solver or a GpuSolver.
+/// Brings the start to rest (thesis 2.3): velocities are zeroed after each update. Muscles are at rest; time stays 0.
+/// `solver`: a Solver or a GpuSolver.
 template <class AnySolver, class Real>
 std::optional<Instability> settle(const Settling& settling, AnySolver& solver, State<Real>& state) {
     for (int i = 0; i < settling.updates; ++i) {

@@ -66,9 +66,8 @@ bool read_state(const std::string& bytes, State<Real>& state) {
     if (bytes.size() != bytes_of(state).size()) return false;
     const char* at = bytes.data();
     const auto read_vectors = [&at](std::vector<Vector3<Real>>& vectors) {
-        return read_into<Real>(at, vectors.size(), 3, [&](std::size_t i, const Real* v) {
-            vectors[i] = {v[0], v[1], v[2]};
-        });
+        return read_into<Real>(at, vectors.size(), 3,
+                               [&](std::size_t i, const Real* v) { vectors[i] = {v[0], v[1], v[2]}; });
     };
     return read_vectors(state.position) && read_vectors(state.velocity) &&
            read_into<Real>(
@@ -84,15 +83,15 @@ bool is_not_worth_it(const Model& model, const Settling& settling) {
     return settling.updates == 0 || model.particles() > limits::cached_particles;
 }
 
-/// Leaves at most `most` starts, the last written ones.
-void prune(const fs::path& folder, std::size_t most) {
+/// Leaves at most `max_files` starts, the last written ones.
+void prune(const fs::path& folder, std::size_t max_files) {
     std::error_code error;
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     for (const auto& entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".start") files.emplace_back(entry.last_write_time(error), entry.path());
-    if (files.size() <= most) return;
+    if (files.size() <= max_files) return;
     std::sort(files.begin(), files.end());
-    for (std::size_t i = 0; i < files.size() - most; ++i) fs::remove(files[i].second, error);
+    for (std::size_t i = 0; i < files.size() - max_files; ++i) fs::remove(files[i].second, error);
 }
 
 }  // namespace
@@ -114,7 +113,8 @@ std::optional<SettledStateCache> SettledStateCache::of_user() {
 }
 
 template <class Real>
-std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling, const std::string& by) const {
+std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling,
+                                                   const std::string& by) const {
     if (is_not_worth_it(model, settling)) return std::nullopt;
     std::string key = settled_state_key(model, settling, sizeof(Real));
     if (key.empty()) return std::nullopt;
@@ -135,7 +135,8 @@ std::optional<State<Real>> SettledStateCache::find(const Model& model, const Set
 }
 
 template <class Real>
-void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled, const std::string& by) const {
+void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled,
+                             const std::string& by) const {
     if (is_not_worth_it(model, settling)) return;
     std::string key = settled_state_key(model, settling, sizeof(Real));
     if (key.empty()) return;
@@ -152,9 +153,13 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
     prune(folder_, max_files);
 }
 
-template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&, const std::string&) const;
-template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&, const std::string&) const;
-template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&, const std::string&) const;
-template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&, const std::string&) const;
+template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&,
+                                                                    const std::string&) const;
+template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&,
+                                                                      const std::string&) const;
+template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&,
+                                             const std::string&) const;
+template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&,
+                                              const std::string&) const;
 
 }  // namespace natator

@@ -17,7 +17,7 @@ std::string build_id() {
     std::string id;
     const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
         const auto here = reinterpret_cast<std::uintptr_t>(&build_id);
-        const auto holds = [&](const ElfW(Phdr)& part) {
+        const auto holds = [&](const ElfW(Phdr) & part) {
             return part.p_type == PT_LOAD && here - (info->dlpi_addr + part.p_vaddr) < part.p_memsz;
         };
         if (std::none_of(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum, holds)) return 0;
@@ -47,12 +47,13 @@ void add(ByteWriter& key, const Values&... values) {
     (key.add(values), ...);
 }
 
-// Structures are taken apart into all of their members: what has one more or less does not compile before it is listed here.
+// Structures are taken apart into all of their members: what has one more or less does not compile before it is listed
+// here.
 
 void add_parameters(ByteWriter& key, const SolverParameters& parameters) {
     const auto& [substeps, iterations, flex, conserving, gravity, radius, solid_rest_distance, fluid_rest_distance,
-                 dynamic_friction, static_friction, particle_friction, restitution, adhesion, sleep_threshold, max_speed,
-                 max_acceleration, shock_propagation, dissipation, damping, cohesion, surface_tension,
+                 dynamic_friction, static_friction, particle_friction, restitution, adhesion, sleep_threshold,
+                 max_speed, max_acceleration, shock_propagation, dissipation, damping, cohesion, surface_tension,
                  vorticity_confinement, free_surface_drag, buoyancy, collision_distance, particle_collision_margin,
                  shape_collision_margin, relaxation_factor] = parameters;
     add(key, substeps, iterations, gravity, radius, solid_rest_distance, fluid_rest_distance, dynamic_friction,
@@ -84,8 +85,8 @@ std::string settled_state_key(const Model& model, const Settling& settling, int 
     add(key, updates, step, settling_substeps);
 
     // Muscles rest while a model settles, and its own time step is that of later.
-    const auto& [scheme, parameters, time_step, position, velocity, inverse_mass, phase, rest_position, planes, water_box,
-                 periodic, springs, clusters, muscles, actuators, body, companions] = model;
+    const auto& [scheme, parameters, time_step, position, velocity, inverse_mass, phase, rest_position, planes,
+                 water_box, periodic, springs, clusters, muscles, actuators, body, companions] = model;
     add(key, scheme, position, velocity, inverse_mass, phase, rest_position, body.spacing);
     add_parameters(key, parameters);
     for (const auto& [normal, offset] : planes) add(key, normal, offset);

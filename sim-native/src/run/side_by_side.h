@@ -10,13 +10,14 @@
 
 namespace natator {
 
-/// Calls work(0) .. work(count - 1) on as many threads as there are processors, at most `most`. Throws what one of the calls
-/// threw, after all threads have ended.
-inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t most = SIZE_MAX) {
+/// Calls work(0) .. work(count - 1) on as many threads as there are processors, at most `max_threads`. Throws what one
+/// of the calls threw, after all threads have ended.
+inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work,
+                         std::size_t max_threads = SIZE_MAX) {
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     std::atomic<std::size_t> next = 0;
     std::vector<std::future<void>> workers;
-    for (std::size_t k = 0; k < std::min({count, processors, most}); ++k)
+    for (std::size_t k = 0; k < std::min({count, processors, max_threads}); ++k)
         workers.push_back(std::async(std::launch::async, [&] {
             for (std::size_t one = next++; one < count; one = next++) work(one);
         }));

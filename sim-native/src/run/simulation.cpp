@@ -120,7 +120,8 @@ void Simulation<Real>::set_gait(const Gait& gait) {
 template <class Real>
 void Simulation<Real>::refuse_to_steer_on_gpu() const {
     if (execution_.gpu && model().scheme != Scheme::lattice)
-        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) + "; must be on the CPU");
+        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) +
+                         "; must be on the CPU");
 }
 
 template <class Real>
@@ -235,7 +236,7 @@ template <class Real>
 void Simulation<Real>::follow(MovingFrame& follower) {
     follower.drift(scene().time_step);
     const Eigen::Vector3d centre = mean_place(body_places_in_tank(model().body, state_));
-    if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.begin_anew();
+    if (move_tank(run_->solver, state_, [&] { follower.follow(centre, state_); })) run_->laws.restart();
 }
 
 template <class Real>
@@ -251,6 +252,11 @@ const Model& Simulation<Real>::model() const {
 template <class Real>
 double Simulation<Real>::distance() const {
     return mean_x(model().body, state_) + state_.origin.x() - start_x_;
+}
+
+template <class Real>
+WaterField Simulation<Real>::water() const {
+    return model().water_box ? run_->solver.lattice_water() : water_field(model(), state_);
 }
 
 template <class Real>

@@ -37,7 +37,7 @@ std::optional<StopReason> SwimRecord::add(const Frame& frame) {
     return std::nullopt;
 }
 
-void SwimRecord::tell(Evaluation& evaluation) const {
+void SwimRecord::write_to(Evaluation& evaluation) const {
     if (follower_) evaluation.renewal = follower_->renewal();
     const double forward = evaluation.course ? evaluation.course->forward : evaluation.distance;
     evaluation.goals = goals_.results(evaluation.distance, forward, evaluation.work);

@@ -42,7 +42,7 @@ public:
     /// Where the tank's coordinates begin over ground; State::origin of a State that `move_tank` has not seen since.
     Eigen::Vector3d origin() const { return follower_ ? follower_->origin() : Eigen::Vector3d(0, 0, 0); }
     /// Adds what became of goals and of a moving tank to the figures of a stable run.
-    void tell(Evaluation& evaluation) const;
+    void write_to(Evaluation& evaluation) const;
 
 private:
     void note(const Frame& frame);

@@ -6,9 +6,9 @@ namespace {
 
 constexpr std::size_t max_companions = 64, max_obstacles = 1000;
 
-const json& checked_array(const json& value, const Place& place, std::size_t most, const char* what) {
-    if (!value.is_array() || value.size() > most)
-        refuse(place, value, "an array of at most " + std::to_string(most) + " " + what);
+const json& checked_array(const json& value, const Place& place, std::size_t max_size, const char* what) {
+    if (!value.is_array() || value.size() > max_size)
+        refuse(place, value, "an array of at most " + std::to_string(max_size) + " " + what);
     return value;
 }
 
@@ -41,7 +41,8 @@ Obstacle read_obstacle(const json& value, const Place& place, const std::filesys
 
 /// Whether two fill the same place; a mesh that is sampled otherwise is another one.
 bool coincide(const Obstacle& a, const Obstacle& b) {
-    return a.shape == b.shape && a.centre == b.centre && a.radius == b.radius && a.size == b.size && a.points == b.points;
+    return a.shape == b.shape && a.centre == b.centre && a.radius == b.radius && a.size == b.size &&
+           a.points == b.points;
 }
 
 /// Refuses an obstacle that is one before it once more: its particles would lie in each other.

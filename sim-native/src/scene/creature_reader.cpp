@@ -57,7 +57,8 @@ std::vector<int> read_ascending(const json& value, const Place& place, int first
         const Place at = place.item(i);
         if (lowest > last) {
             refuse(at, value[i],
-                   first > 0 ? "left out (no slice before the last is left for it)" : "left out (no slice is left for it)");
+                   first > 0 ? "left out (no slice before the last is left for it)"
+                             : "left out (no slice is left for it)");
         }
         const Range range{static_cast<double>(lowest), static_cast<double>(last), false, what};
         read(value[i], at, range, chosen.emplace_back());
@@ -124,10 +125,10 @@ void read_shape(const json& value, const Place& place, const std::filesystem::pa
 
 Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data) {
     Creature creature;
-    read_object(value, place, creature_fields(),
-                {"slices", "joints", "muscleSlices", "profile", "mesh", "joint", "bend", "clusterStiffness",
-                 "springStiffness"},
-                creature);
+    read_object(
+        value, place, creature_fields(),
+        {"slices", "joints", "muscleSlices", "profile", "mesh", "joint", "bend", "clusterStiffness", "springStiffness"},
+        creature);
     read_shape(value, place, data, creature);
     const auto last = static_cast<int>(creature.slices.size()) - 1;
     if (value.contains("muscleSlices")) {
@@ -137,8 +138,8 @@ Creature read_creature(const json& value, const Place& place, const std::filesys
             refuse(place.key("muscleSlices"), value.at("muscleSlices"), "two slices or more, or left out");
     }
     if (value.contains("joint"))
-        creature.joint = read_choice<Joint>(value.at("joint"), place.key("joint"),
-                                            {{"slice", Joint::slice}, {"line", Joint::line}});
+        creature.joint =
+            read_choice<Joint>(value.at("joint"), place.key("joint"), {{"slice", Joint::slice}, {"line", Joint::line}});
     if (value.contains("bend")) creature.bends = read_bends(value.at("bend"), place.key("bend"), creature.gaps());
     std::vector<int> ends = creature.joints;
     ends.insert(ends.begin(), 0);

@@ -45,8 +45,7 @@ Curve::Curve(std::vector<Point> points) : points_(std::move(points)), slopes_(po
     if (last == 1) slopes_ = {slope[0], slope[0]};
     if (last < 2) return;
     slopes_[0] = slope_at_end(length[0], length[1], slope[0], slope[1]);
-    for (std::size_t i = 1; i < last; ++i)
-        slopes_[i] = slope_between(length[i - 1], length[i], slope[i - 1], slope[i]);
+    for (std::size_t i = 1; i < last; ++i) slopes_[i] = slope_between(length[i - 1], length[i], slope[i - 1], slope[i]);
     slopes_[last] = slope_at_end(length[last - 1], length[last - 2], slope[last - 1], slope[last - 2]);
 }
 

@@ -28,8 +28,8 @@ private:
     std::vector<double> slopes_;  ///< at each point
 };
 
-/// Reads a curve from an array of points [part of the length, value], ascending in the first, with values in `range`; or a
-/// constant from a number. The points must cover the parts from `begin` to `end`. Throws InputError.
+/// Reads a curve from an array of points [part of the length, value], ascending in the first, with values in `range`;
+/// or a constant from a number. The points must cover the parts from `begin` to `end`. Throws InputError.
 Curve read_curve(const json& value, const Place& place, const Range& range, double begin = 0, double end = 1);
 
 }  // namespace natator::fields

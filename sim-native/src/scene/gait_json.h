@@ -16,7 +16,8 @@ std::vector<double> read_actuator_values(const nlohmann::json& value, const fiel
 /// A gait as requests have it.
 nlohmann::ordered_json gait_json(const Gait& gait);
 
-/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `offset` and `power`. Checks types, not ranges (check_gait).
+/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `offset` and `power`. Checks types, not ranges
+/// (check_gait).
 Gait parse_gait(const nlohmann::json& value, const std::string& document);
 /// Reads one that stands at a place of a document.
 Gait read_gait(const nlohmann::json& value, const fields::Place& place);

@@ -33,7 +33,8 @@ void read_target(const json& value, const Place& place, Goal& goal) {
         far = std::abs(goal.amount);
     }
     goal.within = goal.measure == Measure::turn ? 5 : 0.1;
-    if (value.contains("within")) read(value.at("within"), place.key("within"), {0, 10000, true, "degrees or length"}, goal.within);
+    if (value.contains("within"))
+        read(value.at("within"), place.key("within"), {0, 10000, true, "degrees or length"}, goal.within);
     if (far <= goal.within) {
         std::ostringstream text;
         text << "farther than `within`, " << number_text(goal.within) << ", from the start";

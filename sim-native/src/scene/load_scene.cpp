@@ -15,11 +15,12 @@ using nlohmann::json;
 
 constexpr int max_bases = 8;
 
-/// A mesh that a file names is beside that file, whatever the working directory; a plain name that is not there may be a
-/// bundled mesh. `mesh`: what has the key `file`.
+/// A mesh that a file names is beside that file, whatever the working directory; a plain name that is not there may be
+/// a bundled mesh. `mesh`: what has the key `file`.
 void place_mesh(json& mesh, const std::string& name, const std::filesystem::path& data) {
     if (!name.ends_with(".json") || !mesh.is_object() || !mesh.contains("file") || !mesh.at("file").is_string()) return;
-    const std::filesystem::path file = mesh.at("file").get<std::string>(), folder = std::filesystem::path(name).parent_path();
+    const std::filesystem::path file = mesh.at("file").get<std::string>(),
+                                folder = std::filesystem::path(name).parent_path();
     if (file.is_absolute()) return;
     const std::filesystem::path beside = (folder.empty() ? "." : folder) / file;
     std::error_code failed;
@@ -27,9 +28,9 @@ void place_mesh(json& mesh, const std::string& name, const std::filesystem::path
     if (!bundled || std::filesystem::exists(beside, failed)) mesh["file"] = beside.string();
 }
 
-/// The path of a scene or a creature that a file names is from where that file is; of one that is not there, from the working
-/// directory.
-std::string beside(const std::string& file, const std::string& path) {
+/// The path of a scene or a creature that a file names is from where that file is; of one that is not there, from the
+/// working directory.
+std::string relative_to(const std::string& file, const std::string& path) {
     constexpr std::string_view ending = ".json";
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     if (!file.ends_with(ending) || !path.ends_with(ending) || folder.empty()) return path;
@@ -43,18 +44,18 @@ json* array_in(json& document, const char* key) {
     return document.contains(key) && document.at(key).is_array() ? &document.at(key) : nullptr;
 }
 
-/// Places the file of a creature, and the mesh of one that is written in the scene itself. `holder`: the scene, or one of its
-/// companions.
+/// Places the file of a creature, and the mesh of one that is written in the scene itself. `holder`: the scene, or one
+/// of its companions.
 void place_creature(json& holder, const std::string& name, const std::filesystem::path& data) {
     if (!holder.is_object() || !holder.contains("creature") || !holder.at("creature").is_object()) return;
     json& creature = holder.at("creature");
     if (creature.contains("name") && creature.at("name").is_string())
-        creature["name"] = beside(name, creature.at("name").get<std::string>());
+        creature["name"] = relative_to(name, creature.at("name").get<std::string>());
     if (creature.contains("mesh")) place_mesh(creature.at("mesh"), name, data);
 }
 
-/// Whether a scene's creature is a change of the creature file that its `name` names: it is not if it brings its own `slices`,
-/// or a `profile` or `mesh` and no name.
+/// Whether a scene's creature is a change of the creature file that its `name` names: it is not if it brings its own
+/// `slices`, or a `profile` or `mesh` and no name.
 bool is_of_file(const json& creature) {
     const bool shaped = fields::has(creature, "profile") || fields::has(creature, "mesh");
     return !fields::has(creature, "slices") && (!shaped || fields::has(creature, "name"));
@@ -101,7 +102,7 @@ json with_bases(const std::string& name, json document, const std::filesystem::p
     if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
-    const std::string base_name = beside(name, base.get<std::string>());
+    const std::string base_name = relative_to(name, base.get<std::string>());
     json merged = with_bases(base_name, read_named("scenes", base_name, place.key("base"), data), data, level + 1);
     patch_scene(merged, document);
     return merged;
@@ -112,12 +113,12 @@ void replace_scale(json& of_file, const json& of_scene) {
     for (const json* creature : {static_cast<const json*>(&of_file), &of_scene})
         if (!creature->contains("mesh") || !creature->at("mesh").is_object()) return;
     for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"}})
-        if (fields::has(of_scene.at("mesh"), given) && !of_scene.at("mesh").contains(other)) of_file["mesh"].erase(other);
+        if (fields::has(of_scene.at("mesh"), given) && !of_scene.at("mesh").contains(other))
+            of_file["mesh"].erase(other);
 }
 
-/// Merges a scene's `creature` onto the file that it is a change of, if it is of any. Of slices, profile and mesh each takes the
-/// place of the others that the file may have.
-/// `holder`: the scene, or one of its companions.
+/// Merges a scene's `creature` onto the file that it is a change of, if it is of any. Of slices, profile and mesh each
+/// takes the place of the others that the file may have. `holder`: the scene, or one of its companions.
 void resolve_creature(json& holder, const Place& place, const std::filesystem::path& data) {
     if (!holder.contains("creature")) return;
     json& creature = holder.at("creature");
@@ -146,7 +147,8 @@ void add_digest(json& mesh, const Place& place, const std::filesystem::path& dat
 
 /// `holder`: the scene, or one of its companions.
 void add_mesh_digest(json& holder, const Place& creature, const std::filesystem::path& data) {
-    if (!holder.contains("creature") || !holder.at("creature").is_object() || !holder.at("creature").contains("mesh")) return;
+    if (!holder.contains("creature") || !holder.at("creature").is_object() || !holder.at("creature").contains("mesh"))
+        return;
     add_digest(holder.at("creature").at("mesh"), creature.key("mesh"), data);
 }
 
@@ -156,7 +158,8 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     const Place place{"scene " + quoted(name), ""};
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
     if (fields::has(overrides, "base"))
-        fields::refuse(place.key("overrides").key("base"), overrides.at("base"), "left out: the scene is chosen before it is changed");
+        fields::refuse(place.key("overrides").key("base"), overrides.at("base"),
+                       "left out: the scene is chosen before it is changed");
     json document = with_bases(name, read_data_file("scenes", name, data), data, 0);
     patch_scene(document, overrides);
     resolve_creature(document, place.key("creature"), data);

@@ -27,7 +27,8 @@ std::string mesh_bytes(const std::string& file, const std::filesystem::path& dat
     if (!std::filesystem::is_regular_file(status)) throw InputError("is no regular file; must be one");
     const auto size = std::filesystem::file_size(path, failed);
     if (failed || size > limits::mesh_bytes)
-        throw InputError("has " + std::to_string(size) + " bytes; must be at most " + std::to_string(limits::mesh_bytes));
+        throw InputError("has " + std::to_string(size) + " bytes; must be at most " +
+                         std::to_string(limits::mesh_bytes));
     std::string bytes(size, '\0');
     std::ifstream in(path, std::ios::binary);
     if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) throw InputError("cannot be read");
@@ -44,7 +45,8 @@ std::string digest_of(const std::string& bytes) {
 
 /// A direction along an axis of the file: "x", "-x" and so on.
 Eigen::Vector3d read_direction(const json& value, const Place& place) {
-    std::vector<std::pair<std::string_view, int>> choices{{"x", 1}, {"-x", -1}, {"y", 2}, {"-y", -2}, {"z", 3}, {"-z", -3}};
+    std::vector<std::pair<std::string_view, int>> choices{{"x", 1},   {"-x", -1}, {"y", 2},
+                                                          {"-y", -2}, {"z", 3},   {"-z", -3}};
     const int axis = read_choice<int>(value, place, choices);
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     direction[std::abs(axis) - 1] = axis > 0 ? 1 : -1;
@@ -75,7 +77,8 @@ double read_unit(const json& value, const Place& place, const TriangleMesh& mesh
         double length = 0;
         read(value.at("length"), place.key("length"), range, length);
         double low = mesh.vertices[0].x(), high = low;
-        for (const Eigen::Vector3d& vertex : mesh.vertices) low = std::min(low, vertex.x()), high = std::max(high, vertex.x());
+        for (const Eigen::Vector3d& vertex : mesh.vertices)
+            low = std::min(low, vertex.x()), high = std::max(high, vertex.x());
         unit = length / (high - low);
     }
     return unit;

@@ -11,8 +11,8 @@
 namespace natator::fields {
 namespace {
 
-constexpr int most_slices = 10000;
-constexpr int max_across = 1000;  // particles
+constexpr int max_profile_slices = 10000;
+constexpr int max_across = 1000;    // particles
 constexpr double on_border = 1e-9;  // slices: a part that is written in decimals lies in the slice that begins there
 constexpr Range extent{0, 1000, false, "length"};
 
@@ -33,9 +33,9 @@ Lattice read_lattice(const json& value, const Place& place, double spacing) {
     double length = 0;
     read(required(value, place, "length"), place.key("length"), {0, 1000, true, "length"}, length);
     const double slices = std::round(length / spacing);
-    if (slices < 2 || slices > most_slices) {
+    if (slices < 2 || slices > max_profile_slices) {
         refuse(place.key("length"), value.at("length"),
-               "2 to " + std::to_string(most_slices) + " spacings of " + number_text(spacing));
+               "2 to " + std::to_string(max_profile_slices) + " spacings of " + number_text(spacing));
     }
     return {static_cast<int>(slices), spacing};
 }
@@ -52,13 +52,15 @@ std::optional<Fin> read_fin(const json& profile, const Place& place, const Latti
     if (!(fin.height.first() > earliest && fin.height.first() <= latest)) {
         refuse(at.key("height").item(0).item(0), height[0][0],
                "more than " + computed_text(earliest) + " and at most " + computed_text(latest) +
-                   " of the length, where the first and the last slice are: a fin has a body before it and a slice of its own");
+                   " of the length, where the first and the last slice are: a fin has a body before it and a slice of "
+                   "its own");
     }
     if (value.contains("thickness")) {
         read(value.at("thickness"), at.key("thickness"), extent, fin.thickness);
         if (fin.thickness < lattice.spacing / 2 || fin.thickness > max_across * lattice.spacing) {
             refuse(at.key("thickness"), value.at("thickness"),
-                   "half a spacing of " + number_text(lattice.spacing) + " to " + std::to_string(max_across) + " spacings");
+                   "half a spacing of " + number_text(lattice.spacing) + " to " + std::to_string(max_across) +
+                       " spacings");
         }
     }
     return fin;
@@ -70,10 +72,11 @@ double across(const Curve& curve, const Place& place, const Lattice& lattice, in
     const double spacings = value / lattice.spacing;
     if (spacings >= min_across && spacings <= max_across) return spacings;
     std::ostringstream text;
-    text << computed_text(value) << " at " << lattice.part(slice) << " of the length, slice " << slice << " of " << lattice.slices << ": ";
+    text << computed_text(value) << " at " << lattice.part(slice) << " of the length, slice " << slice << " of "
+         << lattice.slices << ": ";
     if (spacings < min_across)
-        text << "thinner than two particles across; must be at least " << computed_text(min_across * lattice.spacing) << ", "
-             << min_across << " spacings";
+        text << "thinner than two particles across; must be at least " << computed_text(min_across * lattice.spacing)
+             << ", " << min_across << " spacings";
     else
         text << "must be at most " << max_across << " spacings of " << number_text(lattice.spacing);
     refuse(place, text.str());
@@ -106,8 +109,7 @@ std::vector<int> read_joint_parts(const json& value, const Place& place, int sli
         double part = 0;
         read(value[i], place.item(i), {0, 1, false, "part of the length"}, part);
         const int slice = std::min(static_cast<int>(part * slices + on_border), slices - 1);
-        if (joints.empty() ? slice > 0 && slice < slices - 1
-                           : slice > joints.back() && slice < slices - 1) {
+        if (joints.empty() ? slice > 0 && slice < slices - 1 : slice > joints.back() && slice < slices - 1) {
             joints.push_back(slice);
             continue;
         }

@@ -8,9 +8,10 @@ namespace natator {
 /// Fewest spacings that count as two particles across.
 inline constexpr double min_across = 1.5;
 
-/// The particles inside an ellipse of this height and width, at least `min_across` each, taking a particle for the centre
-/// of a square of one spacing. As many columns as is nearest to the width; of an odd or even number of rows what has the
-/// area nearest to the ellipse's. Two particles or more each way; the same to the left and right, above and below.
+/// The particles inside an ellipse of this height and width, at least `min_across` each, taking a particle for the
+/// centre of a square of one spacing. As many columns as is nearest to the width; of an odd or even number of rows what
+/// has the area nearest to the ellipse's. Two particles or more each way; the same to the left and right, above and
+/// below.
 Slice ellipse_slice(double height, double width);
 
 /// A rectangle, as a fin has it: as many particles each way as is nearest, one at least.

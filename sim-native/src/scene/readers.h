@@ -14,12 +14,11 @@ SolverParameters read_solver(const json& value, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
 /// `data` as in SceneOptions.
 Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data);
-std::vector<Companion> read_companions(const json& value, const Place& place,
-                                       const std::filesystem::path& data);
+std::vector<Companion> read_companions(const json& value, const Place& place, const std::filesystem::path& data);
 std::vector<Obstacle> read_obstacles(const json& value, const Place& place, const std::filesystem::path& data);
 MovingTank read_moving_tank(const json& value, const Place& place);
-/// The axes that a scene says its tank is periodic along, each between the two planes across it, which are no more then.
-/// Where the scene has no water and no planes there, nothing is left to be periodic.
+/// The axes that a scene says its tank is periodic along, each between the two planes across it, which are no more
+/// then. Where the scene has no water and no planes there, nothing is left to be periodic.
 std::vector<PeriodicAxis> read_periodic(const json& value, const Place& place, bool water, std::vector<Plane>& planes);
 std::vector<Goal> read_goals(const json& value, const Place& place);
 

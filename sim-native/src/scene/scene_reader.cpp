@@ -80,14 +80,16 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     scene.planes.clear();
     scene.fluid.reset();
     fields::read_object(document, place, scene_fields(),
-                        {"base", "scheme", "solver", "planes", "periodic", "fluid", "creature", "settling",
-                         "stopping", "movingTank", "goals", "companions", "obstacles"},
+                        {"base", "scheme", "solver", "planes", "periodic", "fluid", "creature", "settling", "stopping",
+                         "movingTank", "goals", "companions", "obstacles"},
                         scene);
     if (document.contains("base"))
-        fields::refuse(place.key("base"), document.at("base"), "left out: a scene that builds on another is read by load_scene");
+        fields::refuse(place.key("base"), document.at("base"),
+                       "left out: a scene that builds on another is read by load_scene");
     if (document.contains("scheme")) {
-        scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
-                                                   {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}, {"lattice", Scheme::lattice}});
+        scene.scheme = fields::read_choice<Scheme>(
+            document.at("scheme"), place.key("scheme"),
+            {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}, {"lattice", Scheme::lattice}});
     }
     if (document.contains("solver")) scene.solver = fields::read_solver(document.at("solver"), place.key("solver"));
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));

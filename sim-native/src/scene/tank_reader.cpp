@@ -34,7 +34,7 @@ std::vector<PeriodicAxis> read_periodic(const json& value, const Place& place, b
         if (!ends.one_each()) refuse(at, value[i], "an axis with walls to do without: " + one_each_needed(ends, axis));
         if (!(ends.high.front() > ends.low.front()))
             refuse(at, value[i], "an axis whose low end is below its high end");
-        std::erase_if(planes, [axis](const Plane& plane) { return stands_across(plane, axis); });
+        std::erase_if(planes, [axis](const Plane& plane) { return is_across(plane, axis); });
         all.push_back({axis, ends.low.front(), ends.high.front()});
     }
     std::sort(all.begin(), all.end(), [](const PeriodicAxis& a, const PeriodicAxis& b) { return a.axis < b.axis; });

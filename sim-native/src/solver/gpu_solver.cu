@@ -29,7 +29,7 @@ public:
 
     Trace<Real> view() const { return {predicted_.data(), iterated_.data(), velocity_.data()}; }
 
-    void tell(const DeviceModel<Real>& model, StepObserver<Real>& observer) const {
+    void report_to(const DeviceModel<Real>& model, StepObserver<Real>& observer) const {
         const std::vector<Vec4<Real>> predicted = predicted_.download(), iterated = iterated_.download(),
                                       velocity = velocity_.download();
         for (int k = 0; k < substeps_; ++k) {
@@ -76,7 +76,7 @@ public:
             return cuda::located(model_, state, gait, time_step, substeps, start, {bad, "velocities", state.time});
         }
         state.time = start + time_step;
-        if (observer) trace->tell(device_model(), *observer);
+        if (observer) trace->report_to(device_model(), *observer);
         return std::nullopt;
     }
 
@@ -116,9 +116,9 @@ protected:
 };
 
 template <class Real>
-class GpuSolver<Real>::ByBlock : public Implementation {
+class GpuSolver<Real>::BlockSolver : public Implementation {
 public:
-    explicit ByBlock(const Model& model)
+    explicit BlockSolver(const Model& model)
         : Implementation(model), runner_(model), states_(runner_.model(), 1), end_(states_) {}
 
 private:
@@ -127,7 +127,8 @@ private:
                        const cuda::Trace<Real>& trace) override {
         const cuda::ModelView<Real>& view = runner_.model().view();
         State<Real> begin = state;
-        if (gait && cuda::supports_both(this->model_)) actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
+        if (gait && cuda::supports_both(this->model_))
+            actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
         states_.upload({begin});
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
@@ -138,8 +139,9 @@ private:
         batch.start_time = state.time;
         batch.time_step = time_step;
         batch.substeps = substeps;
-        if (gait) batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data(),
-                               gait->offset.empty() ? nullptr : offset.data()};
+        if (gait)
+            batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data(),
+                          gait->offset.empty() ? nullptr : offset.data()};
         cuda::DeviceBuffer<Real> density(view.fluid);
         cuda::DeviceBuffer<int> neighbours(view.particles);
         batch.density = density.data();
@@ -159,9 +161,10 @@ private:
 };
 
 template <class Real>
-class GpuSolver<Real>::ByWholeGpu : public Implementation {
+class GpuSolver<Real>::GridSolver : public Implementation {
 public:
-    ByWholeGpu(const Model& model, const cuda::LargeOptions& options) : Implementation(model), runner_(model, 1, options) {}
+    GridSolver(const Model& model, const cuda::GridOptions& options)
+        : Implementation(model), runner_(model, 1, options) {}
 
     std::vector<Real> pressures() const override {
         const std::vector<Real> of_fluid = h_ > 0 ? runner_.pressures(h_) : std::vector<Real>{};
@@ -187,7 +190,9 @@ private:
         const std::vector<const Gait*> gaits(gait ? 1 : 0, gait);
         const auto end = runner_.run({state.time, time_step, substeps, gaits, false}, nullptr, trace).front();
         state = runner_.download(0, state);
-        if (gait) state.spring_rest_length = runner_.muscles(0).spring_rest_length;  // which the next frame's work begins with
+        if (gait)
+            state.spring_rest_length =
+                runner_.muscles(0).spring_rest_length;  // which the next frame's work begins with
         cuda::Progress progress;
         if (!end.finite) {
             progress.stopped = static_cast<int>(StopReason::unstable);
@@ -213,7 +218,9 @@ template <class Real>
 GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
     cuda::choose_device(options.device);
     check_model(model);
-    if (model.water_box) throw InputError("backend cuda: a GpuSolver has no scheme lattice; a Solver has its water on a GPU by Execution::gpu");
+    if (model.water_box)
+        throw InputError(
+            "backend cuda: a GpuSolver has no scheme lattice; a Solver has its water on a GPU by Execution::gpu");
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
     if (path == GpuPath::by_size) {
@@ -223,17 +230,17 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     if (path == GpuPath::block && model.scheme != Scheme::flex)
         throw InputError("backend cuda: scheme conserving by blocks; must be on the whole GPU");
     if (path == GpuPath::block && model.particles() > cuda::max_particles_of_a_block)
-        throw InputError("backend cuda: " + std::to_string(model.particles()) + " particles by blocks; must be at most " +
-                         std::to_string(cuda::max_particles_of_a_block));
-    cuda::LargeOptions large{.keeps_forces = options.forces};
+        throw InputError("backend cuda: " + std::to_string(model.particles()) +
+                         " particles by blocks; must be at most " + std::to_string(cuda::max_particles_of_a_block));
+    cuda::GridOptions grid{.keeps_forces = options.forces};
     if (path == GpuPath::whole_gpu_search) {
-        large.room = {0, 0};
-        large.lists = cuda::WaterLists::never;
+        grid.room = {0, 0};
+        grid.lists = cuda::WaterLists::never;
     }
     if (path == GpuPath::block)
-        implementation_ = std::make_unique<ByBlock>(model);
+        implementation_ = std::make_unique<BlockSolver>(model);
     else
-        implementation_ = std::make_unique<ByWholeGpu>(model, large);
+        implementation_ = std::make_unique<GridSolver>(model, grid);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;

@@ -10,9 +10,10 @@
 
 namespace natator {
 
-/// How a State is computed on a GPU. Up to 20 000 particles, by blocks of its own and by the whole GPU have bits of their own.
+/// How a State is computed on a GPU. Below 20 000 particles `block` and `whole_gpu` differ in the last digits.
 enum class GpuPath {
-    by_size,           ///< blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
+    /// blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
+    by_size,
     block,             ///< blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
     whole_gpu,         ///< kernels of the whole GPU
     whole_gpu_search,  ///< kernels of the whole GPU that store no lists, but search neighbours in every pass
@@ -25,14 +26,16 @@ struct GpuSolverOptions {
     bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
 };
 
-/// What a Solver is on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the same GPU
-/// and input give the same bits. A library built without CUDA has this class too; making one then throws NoDevice.
+/// A Solver on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the
+/// same GPU and input give the same bits. A library built without CUDA has this class too; making one then throws
+/// NoDevice.
 template <class Real>
 class GpuSolver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as this; a temporary one is refused by the
-    /// compiler. Throws NoDevice ("built without CUDA", or no such GPU), InputError when the Model's lists do not belong together (as
-    /// Solver does), or it needs what the GPU's stages do not do or is too large for `options.path`.
+    /// compiler. Throws NoDevice ("built without CUDA", or no such GPU), InputError when the Model's lists do not
+    /// belong together (as Solver does), or it needs what the GPU's stages do not do or is too large for
+    /// `options.path`.
     explicit GpuSolver(const Model& model, const GpuSolverOptions& options = {});
     explicit GpuSolver(const Model&& model, const GpuSolverOptions& options = {}) = delete;
     ~GpuSolver();
@@ -40,8 +43,9 @@ public:
     GpuSolver& operator=(GpuSolver&&) noexcept;
 
     /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds. Returns where
-    /// the state stopped being finite; `state` then keeps its values from before that substep. Throws as Solver's. The observer is told after the
-    /// last substep what it would have seen in all of them; what is kept for it takes device memory.
+    /// the state stopped being finite; `state` then keeps its values from before that substep. Throws as Solver's. The
+    /// observer is told after the last substep what it would have seen in all of them; what is kept for it takes device
+    /// memory.
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
                                       StepObserver<Real>* observer = nullptr);
 
@@ -68,8 +72,8 @@ public:
 
 private:
     class Implementation;
-    class ByBlock;
-    class ByWholeGpu;
+    class BlockSolver;
+    class GridSolver;
     std::unique_ptr<Implementation> implementation_;
 };
 

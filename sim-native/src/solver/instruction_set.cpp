@@ -73,27 +73,27 @@ const char* to_string(InstructionSet set) {
 
 namespace cpu {
 
-// A function that gives the kernels of this name for an instruction set. It calls the maker of that set alone: a maker is
-// compiled for its set as its kernels are, and a processor that lacks the set can't run it.
+// A function that gives the kernels of this name for an instruction set. It calls the maker of that set alone: a maker
+// is compiled for its set as its kernels are, and a processor that lacks the set can't run it.
 #define NATATOR_MADE_BY(set, Kernels, make)                    \
     {                                                          \
         static const Kernels<Real> chosen = set::make<Real>(); \
         return chosen;                                         \
     }
 #if defined(NATATOR_X86_KERNELS)
-#define NATATOR_MADE_FOR_X86(set, Kernels, make)                                       \
-    if (set == InstructionSet::avx512) NATATOR_MADE_BY(avx512, Kernels, make)          \
+#define NATATOR_MADE_FOR_X86(set, Kernels, make)                              \
+    if (set == InstructionSet::avx512) NATATOR_MADE_BY(avx512, Kernels, make) \
     if (set == InstructionSet::avx2) NATATOR_MADE_BY(avx2, Kernels, make)
 #else
 #define NATATOR_MADE_FOR_X86(set, Kernels, make)
 #endif
-#define NATATOR_CHOICE(Kernels, make)                                   \
-    template <class Real>                                               \
-    const Kernels<Real>& make([[maybe_unused]] InstructionSet set) {    \
-        NATATOR_MADE_FOR_X86(set, Kernels, make)                        \
-        NATATOR_MADE_BY(portable, Kernels, make)                        \
-    }                                                                   \
-    template const Kernels<float>& make<float>(InstructionSet);         \
+#define NATATOR_CHOICE(Kernels, make)                                \
+    template <class Real>                                            \
+    const Kernels<Real>& make([[maybe_unused]] InstructionSet set) { \
+        NATATOR_MADE_FOR_X86(set, Kernels, make)                     \
+        NATATOR_MADE_BY(portable, Kernels, make)                     \
+    }                                                                \
+    template const Kernels<float>& make<float>(InstructionSet);      \
     template const Kernels<double>& make<double>(InstructionSet);
 
 NATATOR_CHOICE(FluidKernels, fluid_kernels)

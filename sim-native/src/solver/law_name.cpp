@@ -11,7 +11,8 @@ namespace {
 
 using physics::Law;
 
-constexpr const char* law_names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression", "mach"};  ///< as Law has them
+/// as Law has them
+constexpr const char* law_names[] = {"", "finite", "particle-energy", "energy", "tank", "shape", "compression", "mach"};
 
 }  // namespace
 
@@ -24,16 +25,20 @@ std::string sentence_of(const Instability& instability) {
     if (instability.law == "particle-energy")
         return particle + " has more energy than gravity and muscles can give it" + at.str() + " (law particle-energy)";
     if (instability.law == "energy")
-        return "energy has grown by more than the muscles' work" + at.str() + ", most of it has " + particle + " (law energy)";
+        return "energy has grown by more than the muscles' work" + at.str() + ", most of it has " + particle +
+               " (law energy)";
     if (instability.law == "shape")
         return "the body is stretched to several times its length" + at.str() + ", by " + particle + " (law shape)";
-    if (instability.law == "compression") return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
+    if (instability.law == "compression")
+        return "the fluid is compressed to a fraction of its volume" + at.str() + " (law compression)";
     if (instability.law == "mach")
         return particle + " goes more than 0.3 cells in a substep" + at.str() + " (law mach: needs more substeps)";
     return particle + " is not finite after stage " + instability.stage + at.str();
 }
 
-const char* name(Law law) { return law_names[static_cast<int>(law)]; }
+const char* name(Law law) {
+    return law_names[static_cast<int>(law)];
+}
 
 Law law_named(const std::string& text) {
     const auto found = std::ranges::find(law_names, text);

@@ -6,7 +6,8 @@
 
 namespace natator {
 
-/// As it is in results: "finite", "particle-energy", "energy", "tank", "shape", "compression", "mach"; "" of none.
+/// The name of a law in results: "finite", "particle-energy", "energy", "tank", "shape", "compression", "mach"; "" of
+/// none.
 const char* name(physics::Law law);
 /// Whose name that is; none if it is no law's.
 physics::Law law_named(const std::string& text);

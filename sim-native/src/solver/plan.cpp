@@ -15,7 +15,8 @@ bool is_limit(double value) {
     return value < static_cast<double>(std::numeric_limits<float>::max());
 }
 
-/// Can a pair that is not fluid-fluid (in scheme `conserving` one of solids) ever collide? Pairs of one group do only with self_collide.
+/// Can a pair that is not fluid-fluid (in scheme `conserving` one of solids) ever collide? Pairs of one group do only
+/// with self_collide.
 bool has_contacts(const Model& model) {
     std::set<std::uint32_t> groups;
     bool any_solid = false;
@@ -39,10 +40,12 @@ bool is_uniform_fluid(const Model& model) {
            !(*fluid_phases.begin() & phase::self_collide_filter);
 }
 
-/// What scheme conserving is told of the water's weight.
+/// Description of how scheme conserving carries the water's weight.
 std::string about_weight(const Model& model) {
     if (!model.parameters.conserving.modified_pressure) return "";
-    return solved_depth(model) < depth(model) ? ", modified pressure" : ", modified pressure (carries nothing: the water is shallow or weightless)";
+    return solved_depth(model) < depth(model)
+               ? ", modified pressure"
+               : ", modified pressure (carries nothing: the water is shallow or weightless)";
 }
 
 }  // namespace
@@ -62,7 +65,8 @@ Plan make_plan(const Model& model) {
     plan.springs = !model.springs.empty();
     plan.clusters = !model.clusters.empty();
     plan.planes = !model.planes.empty();
-    plan.particle_friction = plan.contacts && p.dynamic_friction > 0 && (p.particle_friction > 0 || p.static_friction > 0);
+    plan.particle_friction =
+        plan.contacts && p.dynamic_friction > 0 && (p.particle_friction > 0 || p.static_friction > 0);
     plan.plane_friction = plan.planes && p.dynamic_friction > 0;
     plan.viscosity = any_fluid && (flex ? p.flex.viscosity != 0 : p.conserving.kinematic_viscosity > 0);
     plan.damping = p.damping != 0;
@@ -77,7 +81,8 @@ Plan make_plan(const Model& model) {
     plan.surface_tension = any_fluid && p.surface_tension > 0;
     plan.vorticity = any_fluid && p.vorticity_confinement > 0;
     plan.free_surface_drag = any_fluid && p.free_surface_drag > 0;
-    plan.fluid_forces = plan.surface_tension || plan.vorticity || (plan.water && (plan.cohesion || plan.free_surface_drag));
+    plan.fluid_forces =
+        plan.surface_tension || plan.vorticity || (plan.water && (plan.cohesion || plan.free_surface_drag));
     return plan;
 }
 
@@ -92,8 +97,8 @@ Plan make_unskipped_plan(const Model& model) {
     plan.damping = plan.clamp_speed = plan.sleep = plan.adhesion = plan.dissipation = true;
     plan.shock_propagation |= !p.gravity.isZero();
     plan.solid_pressure = plan.fluid;
-    plan.viscosity = plan.cohesion = plan.surface_tension = plan.vorticity = plan.free_surface_drag = plan.fluid_forces =
-        plan.fluid || plan.water;
+    plan.viscosity = plan.cohesion = plan.surface_tension = plan.vorticity = plan.free_surface_drag =
+        plan.fluid_forces = plan.fluid || plan.water;
     return plan;
 }
 

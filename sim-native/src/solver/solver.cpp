@@ -86,8 +86,9 @@ void check_driven(const std::vector<double>& driven, int actuators) {
         if (!(std::abs(driven[i]) <= 2 + rounding)) check_drive(driven, actuators);
 }
 
-/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
-constexpr double most_cells = 0.3;
+/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is
+/// nothing.
+constexpr double max_cells_per_substep = 0.3;
 
 /// Does nothing behind a stage.
 struct NoHook {
@@ -117,9 +118,7 @@ template <class Real>
 class Solver<Real>::Implementation {
 public:
     Implementation(const Model& model, const Execution& execution)
-        : model_(model),
-          execution_(execution),
-          stages_(stages_for(model, plan_for(model, execution.skip))) {
+        : model_(model), execution_(execution), stages_(stages_for(model, plan_for(model, execution.skip))) {
         check_threads(execution.threads);
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
         if (model.water_box) coupling_.emplace(model, execution.threads, execution.gpu);
@@ -148,6 +147,7 @@ public:
     void shift_water(const Eigen::Vector3d& by) {
         if (coupling_) coupling_->shift(by);
     }
+    WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
     double muscle_work() const { return muscle_work_; }
     void clear_muscle_work() { muscle_work_ = 0; }
 
@@ -204,15 +204,15 @@ private:
             if (coupling_) coupling_->push(state, static_cast<double>(h));
             stages.begin_substep(state, h);
             Residuals residuals{.time = state.time};
-            const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
+            const bool finite = observer               ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
                                 : execution_.residuals ? advance(stages, ResidualHook<Stages>{stages, residuals})
-                                : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
-                                                     : advance(stages, NoHook{});
+                                : execution_.profile   ? advance(stages, ProfileHook(*execution_.profile))
+                                                       : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
             if (coupling_) {
                 coupling_->follow(state, static_cast<double>(h), end);
-                if (coupling_->fastest() > most_cells)
+                if (coupling_->fastest() > max_cells_per_substep)
                     return Instability{coupling_->fastest_particle(), "frame", end, name(physics::Law::mach)};
             }
             if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
@@ -233,7 +233,8 @@ private:
 template <class Real>
 Solver<Real>::Solver(const Model& model, const Execution& execution) {
     if (execution.gpu && model.scheme != Scheme::lattice)
-        gpu_ = std::make_unique<GpuSolver<Real>>(model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
+        gpu_ = std::make_unique<GpuSolver<Real>>(
+            model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
     else
         implementation_ = std::make_unique<Implementation>(model, execution);
 }
@@ -260,7 +261,8 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& g
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
-    if (gpu_) throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
+    if (gpu_)
+        throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
     return implementation_->frame(state, [&](double time) {
         std::vector<double> driven = drive(time);
         check_driven(driven, implementation_->model().actuators);
@@ -271,6 +273,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
 template <class Real>
 void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
     if (!gpu_) implementation_->shift_water(by);
+}
+
+template <class Real>
+WaterField Solver<Real>::lattice_water() const {
+    return gpu_ ? WaterField{} : implementation_->lattice_water();
 }
 
 template <class Real>

@@ -4,10 +4,11 @@
 #include "physics/dfsph.h"
 #include "stage.h"
 
-// One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on
-// the host cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by kernels
-// that the host launches. after(stage) is called behind each. In scheme `lattice` these are the stages of its solids; its
-// water pushes them before (lattice::Coupling::push) and steps after them (Coupling::follow), both called in solver.cpp.
+// One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them:
+// on the host cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by
+// kernels that the host launches. after(stage) is called behind each. In scheme `lattice` these are the stages of its
+// solids; its water pushes them before (lattice::Coupling::push) and steps after them (Coupling::follow), both called
+// in solver.cpp.
 #if defined(__CUDACC__)
 #define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of
 #define NATATOR_STEP __host__ __device__
@@ -27,8 +28,9 @@ struct Iterations {
 
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
-    one_by_one,  ///< each group by itself
-    together,    ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
+    separate,  ///< each group by itself
+    /// scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
+    fused,
 };
 
 /// The groups of constraints that act on solids, in the order of all schemes.
@@ -54,7 +56,7 @@ NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStag
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.compute_density_and_fits();
         after(Stage::density_and_fits);
         stages.apply_corrections();
@@ -82,8 +84,8 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
 }
 
 /// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the
-/// last one left; those of the solids `solid_iterations` times, a number that Stages that solve them together take from the
-/// model.
+/// last one left; those of the solids `solid_iterations` times, a number that Stages that solve them together take from
+/// the model.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
@@ -92,7 +94,7 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_it
         stages.apply_density_impulses();
         after(Stage::density_constraint);
     }
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.solve_solids_together();
         after(Stage::solids);
     } else {
@@ -131,11 +133,12 @@ NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage
     }
 }
 
-/// Scheme `conserving`, once all passes are done: what the walls and the neighbours still do to the water, and where it goes.
+/// Scheme `conserving`, once all passes are done: what the walls and the neighbours still do to the water, and where it
+/// goes.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void end_water(Stages& stages, const AfterStage& after) {
-    if constexpr (Stages::grouping == Grouping::together) {
+    if constexpr (Stages::grouping == Grouping::fused) {
         stages.end_water_passes();
     } else {
         stages.return_zeroth_order_correction();

@@ -6,7 +6,8 @@
 int main(int, char** arguments) {
     const natator::SettledStateCache starts(arguments[1]);
     const natator::Scene scene = natator::load_scene(
-        "bench/small-tank", {.overrides = R"({"duration": 0.02, "settling": {"updates": 2}})", .data = NATATOR_DATA_FOLDER});
+        "bench/small-tank",
+        {.overrides = R"({"duration": 0.02, "settling": {"updates": 2}})", .data = NATATOR_DATA_FOLDER});
     natator::evaluate(scene, natator::resting_gait(scene.creature->actuators()), {.execution = {.starts = &starts}});
     int kept = 0;
     if (std::filesystem::exists(starts.folder()))

@@ -7,7 +7,7 @@ from natator.errors import InputError
 from natator.export.bodies import KINDS, Swim
 from natator.export.folder import FILES, METADATA, ExportFolder, files_in
 from natator.export.glb import Glb
-from natator.export.points import Ply, Vtp
+from natator.export.points import Ply, Vti, Vtp
 from natator.export.tables import WIDTHS, Csv, Npz
 from natator.export.usd import Usd
 from natator.export.water import WaterSurface
@@ -17,7 +17,7 @@ from natator.trajectory import frames
 
 #: writers: `frame` writes one, `finish` what comes after the last, `close` ends it, whether finished or not; memory does not grow
 #: with the number of frames
-FORMATS = {"vtp": Vtp, "ply": Ply, "usd": Usd, "usdc": functools.partial(Usd, binary=True), "glb": Glb, "csv": Csv, "npz": Npz}
+FORMATS = {"vtp": Vtp, "vti": Vti, "ply": Ply, "usd": Usd, "usdc": functools.partial(Usd, binary=True), "glb": Glb, "csv": Csv, "npz": Npz}
 HOLD_MESHES = ("vtp", "ply", "usd", "usdc")  # whose vertices are others in every frame
 NOT_METADATA = {"protocol", "number", "restarted", "mass", "fluid"}
 
@@ -36,6 +36,11 @@ def export(scene, format, folder, gait=None, duration=None, every=1, fields=tupl
     if water_surface and format not in HOLD_MESHES:
         raise InputError(f"--water-surface and --format {format}: expected a format that holds meshes of many shapes: "
                          f"{', '.join(HOLD_MESHES)}")
+    on_grid = format == "vti"
+    if on_grid:
+        package("pyvista", "pyvista", "--format vti")
+        if not water:
+            raise InputError("--no-water and --format vti: expected one of them, as it holds the water alone")
     if water_surface:
         package("pysplashsurf", "pysplashsurf", "--water-surface")
     if format in ("usd", "usdc"):
@@ -44,6 +49,8 @@ def export(scene, format, folder, gait=None, duration=None, every=1, fields=tupl
     with ExportFolder(folder, force) as target, Stream(scene, gait=gait, fields=fields, **options) as stream:
         duration = stream.scene["duration"] if duration is None else duration
         swim = Swim.of(stream, water)
+        if on_grid and not stream.water().density.size:
+            raise InputError(f"--format vti: {scene} has no water; expected some")
         if water_surface and not len(swim.all_water):
             raise InputError(f"--water-surface: {scene} has no water; expected some")
         if not len(swim.shown) and not water_surface:
@@ -51,8 +58,8 @@ def export(scene, format, folder, gait=None, duration=None, every=1, fields=tupl
         meshes = {"water_surface": WaterSurface(swim)} if water_surface else {}
         writer, count = FORMATS[format](swim, target.path, **meshes), 0
         try:
-            for frame in frames(stream, duration, every, least=1):
-                writer.frame(frame)
+            for frame in frames(stream, duration, every, least=1, water=on_grid):
+                writer.frame(frame, *[stream.last_water] * on_grid)
                 count += 1
                 if on_frame:
                     on_frame(frame)

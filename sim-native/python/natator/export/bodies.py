@@ -13,7 +13,7 @@ BONES_PER_VERTEX = 4
 
 
 class Swim:
-    """What stays the same of all particles of a SCEN message.
+    """The constant properties of all particles, from a SCEN message.
 
     Attributes: `kind` (place in KINDS), `cluster` (of several the one nearest to the head, −1 without), `creature` (0 the swimmer,
     from 1 on companions, −1 none) and `mass` (infinite if held in place) of each particle; `shown`, `water`, `solids`: indices of
@@ -22,7 +22,7 @@ class Swim:
 
     @classmethod
     def of(cls, stream, water=True):
-        """Of a fresh stream with positions. Raises Unstable, and ProgramError for a scene that is none."""
+        """Reads it from a new stream that sends positions. Raises Unstable, and ProgramError for a malformed scene."""
         stream.require_stable()
         try:
             return cls(stream.scene, stream.frame.position, water)
@@ -65,7 +65,7 @@ class Swim:
         return (-0.5 * self.muscle_lateral * frame.drive[self.muscle_actuators]).astype("f4")
 
     def places_in(self, shown, particles):
-        """Where in a sorted list of particles each of these is."""
+        """Index of each of these particles in a sorted list of particles."""
         return np.searchsorted(shown, particles).astype("i4")
 
     def surface_in(self, shown):
@@ -73,7 +73,7 @@ class Swim:
         return self.places_in(shown, np.concatenate(self.triangles))
 
     def clusters_of(self, creature):
-        """Particles of each of its clusters; without any, all of its particles."""
+        """Particles of each cluster of a creature; of a creature without clusters, all of its particles."""
         own = [cluster for cluster in self.scene["clusters"] if cluster and self.creature[cluster[0]] == creature]
         return own or [np.flatnonzero(self.creature == creature)]
 
@@ -145,7 +145,7 @@ def _rim(grid):
 
 
 def _join(front, rear):
-    """Goes round both rims at once, on the one whose next particle comes first."""
+    """Triangles between two rims, advancing on the rim whose next particle comes first."""
     ends = [rim + [(4 + rim[0][0], rim[0][1])] for rim in (front, rear)]
     (front, rear), i, j = ends, 0, 0
     while i < len(front) - 1 or j < len(rear) - 1:
@@ -218,7 +218,7 @@ class Rig:
         self.shares = np.pad(self.shares, ((0, 0), (0, BONES_PER_VERTEX - self.shares.shape[1])))
 
     def motions(self, position):
-        """Of each bone, to where the particles are."""
+        """The rigid motion of each bone to where its particles are."""
         return [motion(self._rest[cluster], position[cluster].astype(float)) for cluster in self._clusters]
 
     def places(self, position):
@@ -228,7 +228,7 @@ class Rig:
         return (self.shares[..., None] * moved).sum(1).astype("f4")
 
     def normals(self):
-        """Of each vertex: the mean of its triangles' outer sides, weighted by area."""
+        """Normal of each vertex: mean of the outer normals of its triangles, weighted by area."""
         a, b, c = (self.vertices[self.triangles[:, i]] for i in range(3))
         sums = np.zeros_like(self.vertices)
         np.add.at(sums, self.triangles, np.cross(b - a, c - a)[:, None])

@@ -94,7 +94,7 @@ class ExportFolder:
 
 
 def _clear(folder):
-    """Removes all in it but the lock."""
+    """Removes everything in a folder except its lock."""
     for path in folder.iterdir():
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)

@@ -73,7 +73,7 @@ class Glb:
         self._document["scenes"][0]["nodes"] += [root, self._to("nodes", {"name": name, "mesh": mesh, "skin": skin})]
 
     def _to(self, key, value):
-        """Adds to a list; the place there."""
+        """Appends to a list; returns the index."""
         self._document[key].append(value)
         return len(self._document[key]) - 1
 
@@ -86,7 +86,7 @@ class Glb:
         return self._to("accessors", {"bufferView": view, "componentType": component, "count": len(values), "type": kind, **bounds})
 
     def close(self):
-        """Nothing is open before the end."""
+        """Does nothing: no file is open before the end."""
 
 
 def _floats(values):

@@ -39,7 +39,7 @@ class Ply:
             out.write(b"" if faces is None else faces.tobytes())
 
     def finish(self):
-        """Every file is whole already."""
+        """Does nothing: each frame's file is already complete."""
 
     close = finish
 
@@ -82,7 +82,7 @@ class Vtp:
             self._write(frame, "water-surface", part, vertices, {"Polys": triangles})
 
     def _write(self, frame, name, part, points, cells, of_points={}, of_cells={}):
-        """VTK's PolyData in XML, its numbers behind the XML as they are (appended, raw)."""
+        """VTK's PolyData in XML, its numbers appended raw after the XML."""
         blocks, offset = [], 0
 
         def listed(arrays):
@@ -114,9 +114,32 @@ class Vtp:
         return 1
 
     def finish(self):
-        (self._folder / "swim.pvd").write_text(
-            '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">\n<Collection>\n'
-            + "".join(self._index) + "</Collection>\n</VTKFile>\n")
+        _write_collection(self._folder / "swim.pvd", self._index)
 
     def close(self):
-        """No file stays open between frames."""
+        """Does nothing: no file stays open between frames."""
+
+
+class Vti:
+    """For ParaView: `water.pvd` names `water/water_FRAME.vti` of all times, the water on a grid: velocity, density, vorticity and Q."""
+
+    def __init__(self, swim, folder):
+        self._folder, self._index = folder, []
+
+    def frame(self, frame, water):
+        path = f"water/water_{frame.number:06d}.vti"
+        (self._folder / "water").mkdir(exist_ok=True)
+        water.save(self._folder / path)
+        self._index.append(f'<DataSet timestep="{frame.time!r}" part="0" name="water" file="{path}"/>\n')
+
+    def finish(self):
+        _write_collection(self._folder / "water.pvd", self._index)
+
+    def close(self):
+        """Does nothing: no file stays open between frames."""
+
+
+def _write_collection(file, entries):
+    """ParaView's list of the files of all times."""
+    file.write_text('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">\n<Collection>\n'
+                    + "".join(entries) + "</Collection>\n</VTKFile>\n")

@@ -58,7 +58,7 @@ class Npz:
 
 
 def _entry(archive, name):
-    """Of no time: the same export gives the same bytes."""
+    """A zip entry without a date, so that the same export gives the same bytes."""
     return archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True)
 
 

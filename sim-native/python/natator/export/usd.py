@@ -137,7 +137,7 @@ class Usd:
             (self._folder / "swim.usdc").unlink()
 
     def close(self):
-        """The layer is of this writer alone, and goes with it."""
+        """Releases the layer, which only this writer has."""
 
 
 def _extent(places, margin):

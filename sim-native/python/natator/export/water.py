@@ -1,4 +1,4 @@
-"""The surface of water that is particles, as a closed mesh; sim-native/docs/exporting.md tells how."""
+"""The surface of water that is particles, as a closed mesh; see sim-native/docs/exporting.md."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def with_mirrored(places, planes, reach):
 
 
 def onto_walls(vertices, planes):
-    """What is behind a wall goes to the nearest place on it."""
+    """Projects points behind a wall onto it."""
     for plane in planes:
         vertices = vertices - np.minimum(vertices @ plane[:3] + plane[3], 0)[:, None] * plane[:3]
     return vertices

@@ -33,7 +33,8 @@ void check_areas(const TriangleMesh& mesh, const std::vector<GridPoint>& points)
 
 /// Every edge belongs to two faces, which go along it in opposite directions.
 void check_edges(const TriangleMesh& mesh) {
-    std::map<std::pair<int, int>, std::array<std::vector<std::size_t>, 2>> faces;  // by ends: those that go up, and down
+    std::map<std::pair<int, int>, std::array<std::vector<std::size_t>, 2>>
+        faces;  // by ends: those that go up, and down
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) {
             const int a = mesh.triangles[i][k], b = mesh.triangles[i][(k + 1) % 3];
@@ -119,8 +120,8 @@ private:
     }
 
     /// Neighbours at an edge that lie on each other.
-    static bool folded(const Triangle& a, const Triangle& b, const std::array<int, 3>& own, const std::array<int, 3>& other,
-                       int shared) {
+    static bool folded(const Triangle& a, const Triangle& b, const std::array<int, 3>& own,
+                       const std::array<int, 3>& other, int shared) {
         if (shared == 3) return true;
         const auto apart = [](const std::array<int, 3>& of) { return std::find(of.begin(), of.end(), 0) - of.begin(); };
         const auto tip = apart(own), other_tip = apart(other);
@@ -164,8 +165,8 @@ void check_intersections(const TriangleMesh& mesh, const std::vector<GridPoint>&
             if ((box.low.array() > other.high.array()).any() || (other.low.array() > box.high.array()).any()) continue;
             if (!intersections.cut(order[k], order[m])) continue;
             const auto [first, second] = std::minmax(order[k], order[m]);
-            throw InputError("intersects itself: " + mesh.name(first) + ", at " + shown(mesh.corner(first, 0)) + ", and " +
-                             mesh.name(second) + ", at " + shown(mesh.corner(second, 0)) +
+            throw InputError("intersects itself: " + mesh.name(first) + ", at " + shown(mesh.corner(first, 0)) +
+                             ", and " + mesh.name(second) + ", at " + shown(mesh.corner(second, 0)) +
                              ", cut or touch; only neighbours may, in what they share");
         }
     }

@@ -62,7 +62,7 @@ private:
 
 class Ears {
 public:
-    Ears(const Outline& outline, long& work, long most) : outline_(outline), work_(work), most_(most) {
+    Ears(const Outline& outline, long& work, long max_work) : outline_(outline), work_(work), max_work_(max_work) {
         const int count = outline.size();
         for (int i = 0; i < count; ++i) before_.push_back((i + count - 1) % count), behind_.push_back((i + 1) % count);
         quality_.assign(before_.size(), none);
@@ -80,7 +80,8 @@ public:
             triangles.push_back({a, ear, b});
             forget(ear);
             behind_[a] = b, before_[b] = a;
-            std::erase_if(hollow_, [&](int i) { return (i == a || i == b) && outline_.turn(before_[i], i, behind_[i]) > 0; });
+            std::erase_if(hollow_,
+                          [&](int i) { return (i == a || i == b) && outline_.turn(before_[i], i, behind_[i]) > 0; });
             look_at(a), look_at(b);
             last = a;
         }
@@ -95,11 +96,12 @@ private:
     bool is_ear(int i) {
         const int a = before_[i], b = behind_[i];
         if (outline_.turn(a, i, b) <= 0) return false;
-        if ((work_ += static_cast<long>(hollow_.size())) > most_)
+        if ((work_ += static_cast<long>(hollow_.size())) > max_work_)
             throw InputError("has an outline of " + std::to_string(outline_.size()) +
                              " corners, too many hollow ones among them; must be cut into smaller faces");
         const auto same = [this](int p, int q) { return outline_.number(p) == outline_.number(q); };
-        // What reaches into a triangle has a hollow corner there. Edges that go both ways have two corners in one place.
+        // What reaches into a triangle has a hollow corner there. Edges that go both ways have two corners in one
+        // place.
         return std::none_of(hollow_.begin(), hollow_.end(), [&](int w) {
             if (w == a || w == b) return false;
             if (same(w, a)) return same(before_[w], b) || same(behind_[w], b);
@@ -121,7 +123,7 @@ private:
 
     const Outline& outline_;
     long& work_;
-    long most_;
+    long max_work_;
     std::vector<int> before_, behind_;  // of those that are left
     std::vector<int> hollow_;           // at which the outline does not turn inwards
     std::vector<double> quality_;       // of ears
@@ -140,7 +142,8 @@ void turn_edges(const Outline& outline, std::vector<Three>& triangles) {
         }
     };
     const auto tip = [&](std::size_t number, int a, int b) {
-        return *std::find_if(triangles[number].begin(), triangles[number].end(), [&](int i) { return i != a && i != b; });
+        return *std::find_if(triangles[number].begin(), triangles[number].end(),
+                             [&](int i) { return i != a && i != b; });
     };
     for (std::size_t i = 0; i < triangles.size(); ++i) enter(i);
     for (long left = 100L * outline.size(); !edges.empty() && left > 0;) {
@@ -161,7 +164,7 @@ void turn_edges(const Outline& outline, std::vector<Three>& triangles) {
 
 }  // namespace
 
-void begin_with_least(std::vector<int>& corners) {
+void rotate_to_canonical(std::vector<int>& corners) {
     // Two beginnings are compared; the loser goes behind the first difference (Shiloach: Fast canonization of circular
     // strings, 1981).
     const std::size_t count = corners.size();
@@ -180,10 +183,10 @@ void begin_with_least(std::vector<int>& corners) {
 }
 
 std::vector<std::array<int, 3>> cut_polygon(std::span<const int> corners, std::span<const GridPoint> points, long& work,
-                                            long most) {
+                                            long max_work) {
     const Outline outline(corners, points);
     if (!outline.has_area()) return {};
-    std::vector<Three> triangles = Ears(outline, work, most).cut();
+    std::vector<Three> triangles = Ears(outline, work, max_work).cut();
     turn_edges(outline, triangles);
     for (Three& triangle : triangles)
         for (int& corner : triangle) corner = outline.number(corner);

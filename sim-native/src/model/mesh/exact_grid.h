@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-/// Tests of signs without rounding. Vertices are put on a grid of 2^30 steps across the largest extent of their box; what is
-/// computed of such whole numbers is exact.
+/// Tests of signs without rounding. Vertices are put on a grid of 2^30 steps across the largest extent of their box;
+/// what is computed of such whole numbers is exact.
 namespace natator {
 
 __extension__ using Wide = __int128;

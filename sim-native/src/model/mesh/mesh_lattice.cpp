@@ -11,11 +11,11 @@
 namespace natator {
 namespace {
 
-constexpr double most_across = 1000;  // spacings
+constexpr double max_across = 1000;  // spacings
 constexpr double max_volume_error = 0.25;
 
-/// On which side of the line from a to b a point of the plane (y, z) is, moved by an infinitesimal amount along y and by one
-/// that is infinitesimal even to that along z: never on it, unless a = b.
+/// On which side of the line from a to b a point of the plane (y, z) is, moved by an infinitesimal amount along y and
+/// by one that is infinitesimal even to that along z: never on it, unless a = b.
 int side_of_edge(const GridPoint& a, const GridPoint& b, const GridPoint& point) {
     if (const int side = sign_of(area(a, b, point, 1, 2))) return side;
     if (const int side = sign_of(Wide{a.z() - b.z()})) return side;
@@ -28,16 +28,19 @@ MeshLattice::MeshLattice(const TriangleMesh& mesh, double spacing) : grid_(mesh.
     const Eigen::Vector3d extent = grid_.high() - grid_.low();
     for (int axis = 0; axis < 3; ++axis) {
         const double across = extent[axis] / spacing;
-        if (across >= (axis == 0 ? 2 : 1.5) && across <= most_across) continue;
+        if (across >= (axis == 0 ? 2 : 1.5) && across <= max_across) continue;
         std::ostringstream text;
-        text << (axis == 0 ? "is " : axis == 1 ? "is high " : "is wide ") << across << " spacings"
-             << (axis == 0 ? " long" : "") << ", " << extent[axis] << " units of the file of " << spacing
-             << " to a spacing; must be " << (axis == 0 ? "2" : "1.5, which is two particles across,") << " to "
-             << most_across << ": see unit and length";
+        text << (axis == 0   ? "is "
+                 : axis == 1 ? "is high "
+                             : "is wide ")
+             << across << " spacings" << (axis == 0 ? " long" : "") << ", " << extent[axis] << " units of the file of "
+             << spacing << " to a spacing; must be " << (axis == 0 ? "2" : "1.5, which is two particles across,")
+             << " to " << max_across << ": see unit and length";
         throw InputError(text.str());
     }
     count_ = (extent / spacing).array().round().max(1).cast<int>();
-    count_.z() = 2 * static_cast<int>(std::lround(extent.z() / spacing / 2 + 0.5));  // on both sides, with room to spare
+    count_.z() =
+        2 * static_cast<int>(std::lround(extent.z() / spacing / 2 + 0.5));  // on both sides, with room to spare
     middle_ = (grid_.low() + grid_.high()) / 2;
 }
 
@@ -70,8 +73,9 @@ std::vector<std::vector<Crossing>> crossings_of(const TriangleMesh& mesh, const 
                 if (!inside) continue;
                 double x = 0;
                 for (int k = 0; k < 3; ++k)
-                    x += place[k].x() * (static_cast<double>(area(corner[(k + 1) % 3], corner[(k + 2) % 3], line, 1, 2)) /
-                                         static_cast<double>(whole));
+                    x += place[k].x() *
+                         (static_cast<double>(area(corner[(k + 1) % 3], corner[(k + 2) % 3], line, 1, 2)) /
+                          static_cast<double>(whole));
                 // A face that goes round from y to z looks to larger x: the line leaves the body there.
                 lines[static_cast<std::size_t>(row) * columns + column].push_back({x, whole > 0 ? -1 : 1});
             }
@@ -79,7 +83,8 @@ std::vector<std::vector<Crossing>> crossings_of(const TriangleMesh& mesh, const 
     return lines;
 }
 
-void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row, int column, std::vector<int>& inside) {
+void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row, int column,
+                std::vector<int>& inside) {
     std::sort(line.begin(), line.end(),
               [](const Crossing& a, const Crossing& b) { return a.x != b.x ? a.x < b.x : a.step > b.step; });
     int winding = 0;
@@ -88,9 +93,10 @@ void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row
         winding += line[i].step;
         const double from = line[i].x, to = line[i + 1].x;
         if ((winding < 0 || winding > 1) && to - from > least)
-            throw InputError(std::string(winding < 0 ? "has a part whose faces look inwards" : "has a part inside another") +
-                             ", at " + shown(Eigen::Vector3d((from + to) / 2, lattice.y(row), lattice.z(column))) +
-                             " (forward, up, right); faces must bound one solid");
+            throw InputError(
+                std::string(winding < 0 ? "has a part whose faces look inwards" : "has a part inside another") +
+                ", at " + shown(Eigen::Vector3d((from + to) / 2, lattice.y(row), lattice.z(column))) +
+                " (forward, up, right); faces must bound one solid");
         if (winding < 1) continue;
         // Slices count against x: those with from <= x < to.
         const int first = static_cast<int>(std::floor(lattice.slice(to))) + 1;

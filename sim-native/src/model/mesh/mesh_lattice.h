@@ -44,12 +44,12 @@ struct Crossing {
 
 /// What the lines of the lattice along x go through, by row and column.
 ///
-/// Which faces a line goes through is told by exact signs; a line through an edge or a corner is moved aside by symbolic
-/// perturbation (Edelsbrunner, Mücke: Simulation of Simplicity, 1990), so that it counts once.
+/// Which faces a line goes through is told by exact signs; a line through an edge or a corner is moved aside by
+/// symbolic perturbation (Edelsbrunner, Mücke: Simulation of Simplicity, 1990), so that it counts once.
 std::vector<std::vector<Crossing>> crossings_of(const TriangleMesh& mesh, const MeshLattice& lattice);
 
-/// Numbers of the slices that are inside on one line, appended to `inside`; sorts the line's crossings. Throws InputError
-/// where the winding number is neither 0 nor 1.
+/// Numbers of the slices that are inside on one line, appended to `inside`; sorts the line's crossings. Throws
+/// InputError where the winding number is neither 0 nor 1.
 void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row, int column, std::vector<int>& inside);
 
 /// Throws InputError if so many particles have a volume that is far from the mesh's.

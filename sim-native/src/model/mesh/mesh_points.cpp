@@ -14,9 +14,11 @@ std::vector<Eigen::Vector3d> points_inside(const TriangleMesh& mesh, double spac
     for (int row = 0; row < lattice.count().y(); ++row)
         for (int column = 0; column < lattice.count().z(); ++column) {
             slices.clear();
-            add_inside(lines[static_cast<std::size_t>(row) * lattice.count().z() + column], lattice, row, column, slices);
+            add_inside(lines[static_cast<std::size_t>(row) * lattice.count().z() + column], lattice, row, column,
+                       slices);
             for (const int slice : slices)
-                points.push_back(Eigen::Vector3d(lattice.x(slice), lattice.y(row), lattice.z(column)) - lattice.middle());
+                points.push_back(Eigen::Vector3d(lattice.x(slice), lattice.y(row), lattice.z(column)) -
+                                 lattice.middle());
             if (points.size() > limits::particles)
                 throw InputError("holds more than " + std::to_string(limits::particles) +
                                  " particles at this spacing; see unit and length");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_left_out = 2;  // slices at each tip
 constexpr double max_asymmetric = 0.1;   // of the particles
-constexpr int reach = 3;                  // spacings from the surface to the next particle
+constexpr int reach = 3;                 // spacings from the surface to the next particle
 
 /// Columns of each row of each slice, half spacings from the middle: those of the left half, mirrored.
 using Sites = std::vector<std::vector<std::vector<int>>>;
@@ -21,7 +21,8 @@ using Sites = std::vector<std::vector<std::vector<int>>>;
 Sites symmetric_sites(const TriangleMesh& mesh, const MeshLattice& lattice) {
     const int rows = lattice.count().y(), columns = lattice.count().z();
     std::vector<std::vector<Crossing>> lines = crossings_of(mesh, lattice);
-    Sites sites(static_cast<std::size_t>(lattice.count().x()), std::vector<std::vector<int>>(static_cast<std::size_t>(rows)));
+    Sites sites(static_cast<std::size_t>(lattice.count().x()),
+                std::vector<std::vector<int>>(static_cast<std::size_t>(rows)));
     long particles = 0, different = 0;
     std::vector<int> left, right, both;
     for (int row = 0; row < rows; ++row)
@@ -32,7 +33,8 @@ Sites symmetric_sites(const TriangleMesh& mesh, const MeshLattice& lattice) {
             add_inside(lines[static_cast<std::size_t>(row) * columns + mirrored], lattice, row, mirrored, right);
             std::sort(left.begin(), left.end());
             std::sort(right.begin(), right.end());
-            std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(both));
+            std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(),
+                                          std::back_inserter(both));
             different += static_cast<long>(both.size());
             particles += 2 * static_cast<long>(left.size());
             if (particles > limits::particles)
@@ -43,7 +45,8 @@ Sites symmetric_sites(const TriangleMesh& mesh, const MeshLattice& lattice) {
     if (static_cast<double>(different) > max_asymmetric * static_cast<double>(particles)) {
         std::ostringstream text;
         text << "has different halves to the left and right of " << lattice.middle().z() << ": " << different << " of "
-             << particles << " particles have none on the other side; must be at most a tenth, since the left half is mirrored";
+             << particles
+             << " particles have none on the other side; must be at most a tenth, since the left half is mirrored";
         throw InputError(text.str());
     }
     for (auto& slice : sites)
@@ -74,7 +77,7 @@ bool thin(const Slice& slice) {
 void refuse_thin(const MeshLattice& lattice, std::size_t number, const Slice& slice) {
     std::ostringstream text;
     text << "is thinner than two particles at " << lattice.part(static_cast<double>(number)) << ", "
-         << (slice.height == 0 ? "where no particle is inside"
+         << (slice.height == 0  ? "where no particle is inside"
              : slice.height < 2 ? "where one row is inside"
                                 : "where one column is inside")
          << "; must be thicker, or the spacing finer";
@@ -92,8 +95,9 @@ void check_reach(const TriangleMesh& mesh, const MeshLattice& lattice, const Sit
                 if (square < 0) continue;
                 const double half = std::sqrt(square);
                 const std::vector<int>& columns = sites[i][k];
-                const auto found = std::lower_bound(columns.begin(), columns.end(), column - half,
-                                                    [&](int z, double from) { return (z + lattice.count().z() - 1) / 2.0 < from; });
+                const auto found =
+                    std::lower_bound(columns.begin(), columns.end(), column - half,
+                                     [&](int z, double from) { return (z + lattice.count().z() - 1) / 2.0 < from; });
                 if (found != columns.end() && (*found + lattice.count().z() - 1) / 2.0 <= column + half) return true;
             }
         return false;

@@ -18,7 +18,7 @@ namespace {
 
 // Of the largest extent: what is one place anywhere, and at borders. A body's finest spacing is 1e-3.
 constexpr double one_place = 1e-6, max_nearby = 1e-4;
-constexpr long max_steps = 10'000'000;    // along borders
+constexpr long max_steps = 10'000'000;     // along borders
 constexpr long max_corners = 200'000'000;  // that are looked at to cut up polygons, some seconds' worth
 
 /// Leaves out vertices that no face uses; the others keep their order.
@@ -95,7 +95,8 @@ void merge_equal(PolygonMesh& mesh) {
     std::vector<int> same;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const Eigen::Vector3d& place = mesh.vertices[i];
-        same.push_back(known.try_emplace(std::tuple(place.x(), place.y(), place.z()), static_cast<int>(i)).first->second);
+        same.push_back(
+            known.try_emplace(std::tuple(place.x(), place.y(), place.z()), static_cast<int>(i)).first->second);
     }
     merge(mesh, same);
 }
@@ -138,10 +139,12 @@ std::vector<OpenEdge> open_edges(const PolygonMesh& mesh) {
         for (std::size_t k = 0; k < mesh.faces[i].size(); ++k)
             edges.push_back({mesh.faces[i][k], mesh.faces[i][(k + 1) % mesh.faces[i].size()], i, k});
     const auto ends = [](const OpenEdge& edge) { return std::minmax(edge.from, edge.to); };
-    std::stable_sort(edges.begin(), edges.end(), [&](const OpenEdge& a, const OpenEdge& b) { return ends(a) < ends(b); });
+    std::stable_sort(edges.begin(), edges.end(),
+                     [&](const OpenEdge& a, const OpenEdge& b) { return ends(a) < ends(b); });
     std::vector<OpenEdge> open;
     for (auto first = edges.begin(); first != edges.end();) {
-        const auto last = std::find_if(first, edges.end(), [&](const OpenEdge& edge) { return ends(edge) != ends(*first); });
+        const auto last =
+            std::find_if(first, edges.end(), [&](const OpenEdge& edge) { return ends(edge) != ends(*first); });
         if (std::all_of(first, last, [&](const OpenEdge& edge) { return edge.from == first->from; }))
             open.insert(open.end(), first, last);
         first = last;
@@ -149,7 +152,7 @@ std::vector<OpenEdge> open_edges(const PolygonMesh& mesh) {
     return open;
 }
 
-double largest_extent(const PolygonMesh& mesh) {
+double max_extent(const PolygonMesh& mesh) {
     const ExactGrid grid(mesh.vertices);
     return (grid.high() - grid.low()).maxCoeff();
 }
@@ -188,7 +191,8 @@ void merge_near(PolygonMesh& mesh, const std::vector<bool>& some, double distanc
     leave_out_flat_faces(mesh);
 }
 
-/// Vertices in the middle of an open edge, of other open edges that go the other way along it, become corners of its face.
+/// Vertices in the middle of an open edge, of other open edges that go the other way along it, become corners of its
+/// face.
 class EdgeCorners {
 public:
     EdgeCorners(PolygonMesh& mesh, double off_line)
@@ -204,7 +208,8 @@ public:
         }
         for (auto last = between.rbegin(); last != between.rend(); ++last) {  // so that numbers in front of it stay
             std::vector<int>& face = mesh_.faces[last->first.first];
-            face.insert(face.begin() + static_cast<long>(last->first.second) + 1, last->second.rbegin(), last->second.rend());
+            face.insert(face.begin() + static_cast<long>(last->first.second) + 1, last->second.rbegin(),
+                        last->second.rend());
         }
     }
 
@@ -225,7 +230,8 @@ private:
                 if (used_[i] || used_[number]) continue;
                 const Eigen::Vector3d place = mesh_.vertices[edges_[i].to] - begin;
                 const double distance = edges_[i].to == edge.from ? length : place.dot(along) / length;
-                if (distance <= passed || distance > least || (place - along * (distance / length)).norm() > off_line_) continue;
+                if (distance <= passed || distance > least || (place - along * (distance / length)).norm() > off_line_)
+                    continue;
                 least = distance;
                 next = i;
             }
@@ -252,7 +258,7 @@ private:
 void close_borders(PolygonMesh& mesh) try {
     PolygonMesh closed = mesh;
     for (double nearby = one_place; nearby < 1.1 * max_nearby; nearby *= 10) {
-        const double distance = nearby * largest_extent(closed);
+        const double distance = nearby * max_extent(closed);
         merge_near(closed, at_open_edges(closed), distance);
         EdgeCorners(closed, distance).add();
         if (!open_edges(closed).empty()) continue;
@@ -269,7 +275,7 @@ TriangleMesh triangles_of(PolygonMesh mesh) {
     leave_out_unused(mesh);
     merge_equal(mesh);
     leave_out_flat_faces(mesh);
-    merge_near(mesh, std::vector<bool>(mesh.vertices.size(), true), one_place * largest_extent(mesh));
+    merge_near(mesh, std::vector<bool>(mesh.vertices.size(), true), one_place * max_extent(mesh));
     if (!open_edges(mesh).empty()) close_borders(mesh);
 
     TriangleMesh triangles;
@@ -277,7 +283,7 @@ TriangleMesh triangles_of(PolygonMesh mesh) {
     const std::vector<GridPoint> points = grid_points(mesh);
     long work = 0;
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        begin_with_least(mesh.faces[i]);
+        rotate_to_canonical(mesh.faces[i]);
         const auto name = [&] { return face_name(mesh.source[i], mesh.has_lines); };
         std::vector<std::array<int, 3>> cut;
         if (const std::vector<int>& face = mesh.faces[i]; face.size() == 3)

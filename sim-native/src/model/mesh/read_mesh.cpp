@@ -29,7 +29,8 @@ public:
         mesh.source.push_back(source);
     }
     static void check_count(long triangles) {
-        if (triangles > limits::mesh_faces) throw InputError("more than " + std::to_string(limits::mesh_faces) + " triangles");
+        if (triangles > limits::mesh_faces)
+            throw InputError("more than " + std::to_string(limits::mesh_faces) + " triangles");
     }
 
     PolygonMesh mesh;
@@ -38,10 +39,12 @@ private:
     long triangles_ = 0;
 };
 
-/// What stands behind the first slash of an .obj corner, the numbers of a texture and of a normal: either may be left out.
+/// What stands behind the first slash of an .obj corner, the numbers of a texture and of a normal: either may be left
+/// out.
 void check_other_numbers(std::string_view word, const TextWords& words) {
     std::size_t slashes = 0;
-    for (std::size_t begin = word.find('/'); begin != std::string_view::npos; begin = word.find('/', begin), ++slashes) {
+    for (std::size_t begin = word.find('/'); begin != std::string_view::npos;
+         begin = word.find('/', begin), ++slashes) {
         std::string_view digits = word.substr(++begin);
         digits = digits.substr(0, digits.find('/'));
         if (digits.starts_with('-')) digits.remove_prefix(1);
@@ -99,7 +102,8 @@ TriangleMesh read_obj(std::string_view text) {
     for (std::size_t i = 0; i < reader.mesh.faces.size(); ++i)
         for (const int corner : reader.mesh.faces[i])
             if (static_cast<std::size_t>(corner) >= vertices.size())
-                throw InputError("line " + std::to_string(reader.mesh.source[i]) + ": corner \"" + std::to_string(corner + 1L) +
+                throw InputError("line " + std::to_string(reader.mesh.source[i]) + ": corner \"" +
+                                 std::to_string(corner + 1L) +
                                  "\": " + must_be_one_of(static_cast<long>(vertices.size())));
     return triangles_of(std::move(reader.mesh));
 }
@@ -124,7 +128,8 @@ std::vector<int> stl_facet(TextWords& words, std::vector<Eigen::Vector3d>& verti
             for (double& value : place) value = words.coordinate(words.next_of_text());
             corners.push_back(static_cast<int>(vertices.size()) - 1);
         } else if (what == "endfacet") {
-            if (corners.size() != 3) words.refuse("a facet of " + std::to_string(corners.size()) + " vertices; must be 3");
+            if (corners.size() != 3)
+                words.refuse("a facet of " + std::to_string(corners.size()) + " vertices; must be 3");
             return corners;
         } else if (what == "outer") {
             in_normal = false;
@@ -174,7 +179,7 @@ TriangleMesh read_binary_stl(std::string_view bytes) {
             float place[3];
             std::memcpy(place, bytes.data() + stl_head + stl_facet_size * i + 12 * (k + 1), sizeof place);
             for (const float value : place)
-                if (!(std::abs(value) <= largest_coordinate))
+                if (!(std::abs(value) <= max_coordinate))
                     throw InputError("facet " + std::to_string(i + 1) + ": a coordinate is no number within 1e9");
             reader.mesh.vertices.emplace_back(place[0] + 0.0, place[1] + 0.0, place[2] + 0.0);
             corners.push_back(static_cast<int>(reader.mesh.vertices.size()) - 1);
@@ -184,8 +189,8 @@ TriangleMesh read_binary_stl(std::string_view bytes) {
     return triangles_of(std::move(reader.mesh));
 }
 
-/// Binary if it holds all facets that its head counts, whatever the head begins with and whatever stands behind them: of a
-/// text the four bytes of that number are more than a file may hold.
+/// Binary if it holds all facets that its head counts, whatever the head begins with and whatever stands behind them:
+/// of a text the four bytes of that number are more than a file may hold.
 TriangleMesh read_stl(std::string_view bytes) {
     const std::size_t facets = binary_stl_facets(bytes);
     if (bytes.size() >= stl_head && bytes.size() >= stl_head + stl_facet_size * facets) return read_binary_stl(bytes);

@@ -29,7 +29,8 @@ std::string narrowed(std::string_view bytes, std::size_t width, std::size_t lowe
     text.reserve(bytes.size() / width);
     for (std::size_t at = 0; at + width <= bytes.size(); at += width) {
         const std::string_view one = bytes.substr(at, width);
-        const auto others = static_cast<std::size_t>(std::count(one.begin(), one.end(), '\0')) + (one[lowest] == '\0' ? 0 : 1);
+        const auto others =
+            static_cast<std::size_t>(std::count(one.begin(), one.end(), '\0')) + (one[lowest] == '\0' ? 0 : 1);
         text += others == width && static_cast<unsigned char>(one[lowest]) < 0x80 ? one[lowest] : '?';
     }
     return text;
@@ -98,7 +99,7 @@ void TextWords::refuse(const std::string& what) const {
 
 double TextWords::coordinate(std::string_view word) const {
     const std::optional<double> value = decimal_number(word);
-    if (!value || std::abs(*value) > largest_coordinate)
+    if (!value || std::abs(*value) > max_coordinate)
         refuse((word.empty() ? "a coordinate is missing" : quoted(std::string(word)) + " is no coordinate") +
                "; must be three numbers within 1e9");
     return *value + 0.0;  // -0 is 0

@@ -6,8 +6,8 @@
 
 namespace natator {
 
-/// The text of a file without its byte-order mark, a character a byte: of UTF-16 and UTF-32 what is no ASCII becomes '?',
-/// which is enough for numbers and keywords. Other text is as it is in `bytes`; `room` holds what had to be made.
+/// The text of a file without its byte-order mark, a character a byte: of UTF-16 and UTF-32 what is no ASCII becomes
+/// '?', which is enough for numbers and keywords. Other text is as it is in `bytes`; `room` holds what had to be made.
 std::string_view plain_text(std::string_view bytes, std::string& room);
 
 /// Small letters for ASCII's large ones.

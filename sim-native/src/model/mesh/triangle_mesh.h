@@ -10,10 +10,13 @@ namespace natator {
 struct TriangleMesh {
     std::vector<Eigen::Vector3d> vertices;   ///< no two in the same place
     std::vector<Eigen::Vector3i> triangles;  ///< corners go round counter-clockwise seen from outside
-    std::vector<long> source;                ///< of each triangle: its line in the file, or its number if that is binary
-    bool has_lines = true;                   ///< whether `source` counts lines
+    /// of each triangle: its line in the file, or its number if that is binary
+    std::vector<long> source;
+    bool has_lines = true;  ///< whether `source` counts lines
 
-    Eigen::Vector3d corner(std::size_t triangle, int i) const { return vertices[static_cast<std::size_t>(triangles[triangle][i])]; }
+    Eigen::Vector3d corner(std::size_t triangle, int i) const {
+        return vertices[static_cast<std::size_t>(triangles[triangle][i])];
+    }
     /// "the face of line 12", "facet 3".
     std::string name(std::size_t triangle) const;
 };
@@ -35,8 +38,9 @@ bool is_stl(const std::string& name);
 /// where: numbers that are none or not finite, corners that are not there, an end in the middle, more than
 /// limits::mesh_faces, and what triangles_of refuses.
 ///
-/// The readers are our own. tinyobjloader and assimp take a number that is none for 0, tell no line of a face, and leave
-/// holes where a face has corners on a straight edge or repeats one; assimp reads in single precision and is 10 MB.
+/// The readers are our own. tinyobjloader and assimp take a number that is none for 0, tell no line of a face, and
+/// leave holes where a face has corners on a straight edge or repeats one; assimp reads in single precision and is 10
+/// MB.
 TriangleMesh read_mesh(const std::string& bytes, const std::string& name);
 
 }  // namespace natator

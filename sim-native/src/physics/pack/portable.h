@@ -33,7 +33,8 @@ inline Floats ones(unsigned bits) {
 }
 
 inline Floats gather_one(const float* from, const std::int32_t* index) {
-    return Floats{from[index[0]], from[index[1]], from[index[2]], from[index[3]]};  // lane by lane g++ would shuffle one by one
+    return Floats{from[index[0]], from[index[1]], from[index[2]],
+                  from[index[3]]};  // lane by lane g++ would shuffle one by one
 }
 
 /// Of ints and of floats alike.
@@ -109,8 +110,8 @@ inline Doubles square_root(Doubles v) {
 inline Four<Doubles> gather(const double* packed, const std::int32_t* index) {
     const auto part = [&](int lane, int at) { return load(packed + 4 * static_cast<std::int64_t>(index[lane]) + at); };
     const Doubles a = part(0, 0), b = part(1, 0), c = part(0, 2), d = part(1, 2);
-    return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
-            __builtin_shufflevector(c, d, 1, 3)};
+    return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3),
+            __builtin_shufflevector(c, d, 0, 2), __builtin_shufflevector(c, d, 1, 3)};
 }
 
 }  // namespace natator::physics::inline NATATOR_SET

@@ -11,7 +11,9 @@ constexpr double min_order = 0.5, max_order = 4;
 constexpr double significant = 2;  // standard errors
 
 /// Of independent errors. std::hypot would keep the program from systems older than glibc 2.35.
-double of_both(double one, double other) { return std::sqrt(one * one + other * other); }
+double of_both(double one, double other) {
+    return std::sqrt(one * one + other * other);
+}
 
 /// The order that three levels show, if they show one.
 std::optional<double> observed_order(const Sample& base, const Sample& half, const Sample& quarter) {
@@ -24,7 +26,9 @@ std::optional<double> observed_order(const Sample& base, const Sample& half, con
 }
 
 /// What a level's error is in a sum that has it so many times.
-double weighted(double weight, const Sample& level) { return weight == 0 ? 0 : weight * level.error; }
+double weighted(double weight, const Sample& level) {
+    return weight == 0 ? 0 : weight * level.error;
+}
 
 }  // namespace
 

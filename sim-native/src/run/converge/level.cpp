@@ -10,8 +10,7 @@ using nlohmann::json;
 
 /// The first cell's share of the block stays where it was: a lattice point is in the middle of its cell.
 json refined_fluid(const FluidBlock& fluid, int n) {
-    const Eigen::Vector3d origin =
-        fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2 * (1 - 1.0 / n));
+    const Eigen::Vector3d origin = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2 * (1 - 1.0 / n));
     const double parts = n * n * n;
     return {{"count", {n * fluid.count.x(), n * fluid.count.y(), n * fluid.count.z()}},
             {"spacing", fluid.spacing / n},
@@ -42,7 +41,8 @@ json refined(const Scene& scene, const Level& level, int substeps) {
     json overrides = {{"solver", json::object()}};
     if (level.space > 1) {
         if (!scene.companions.empty() || !scene.obstacles.empty())
-            throw InputError("level " + quoted(level.name) + ": half the spacing is not known of companions and obstacles; "
+            throw InputError("level " + quoted(level.name) +
+                             ": half the spacing is not known of companions and obstacles; "
                              "the levels of this scene are time/2 and time/4");
         overrides["solver"] = refined_distances(scene.solver, level.space);
         if (scene.fluid) overrides["fluid"] = refined_fluid(*scene.fluid, level.space);

@@ -22,8 +22,8 @@ struct Level {
 ///
 /// - Time: substeps of frames and of the settling, times `level.time`.
 /// - Spacing, all divided by `level.space`, here n: the lattice of the fluid, which fills the same cells; radius,
-///   solid_rest_distance, fluid_rest_distance, collision_distance and both margins; fluid.clearance. A particle of the fluid
-///   has 1/n^3 of the mass. The body's particles are divided by creature.refinement (model/refine_body.h).
+///   solid_rest_distance, fluid_rest_distance, collision_distance and both margins; fluid.clearance. A particle of the
+///   fluid has 1/n^3 of the mass. The body's particles are divided by creature.refinement (model/refine_body.h).
 /// Duration, gait, tank, gravity, kinematic_viscosity and all that has no length stay as they are.
 /// Throws InputError for half the spacing of a scene with companions or obstacles, whose particles nothing makes finer.
 nlohmann::json refined(const Scene& scene, const Level& level, int substeps);

@@ -25,12 +25,7 @@ template <class Real>
 class Batch {
 public:
     Batch(const Scene& scene, const Model& model, const BatchOptions& options)
-        : scene_(scene),
-          model_(model),
-          cache_(options.starts),
-          times_(options.times),
-          runner_(model),
-          laws_(model) {}
+        : scene_(scene), model_(model), cache_(options.starts), times_(options.times), runner_(model), laws_(model) {}
 
     /// The members' evaluations, each of a State that starts settled.
     std::vector<Evaluation> evaluate(const std::vector<BatchMember>& members) {
@@ -94,7 +89,8 @@ private:
     std::vector<Evaluation> run(const std::vector<BatchMember>& members, const DeviceStates<Real>& states,
                                 const std::vector<Progress>& settled) {
         std::vector<double> frequency, power, amplitude, phase, offset;
-        const bool steers = std::any_of(members.begin(), members.end(), [](const auto& m) { return !m.gait.offset.empty(); });
+        const bool steers =
+            std::any_of(members.begin(), members.end(), [](const auto& m) { return !m.gait.offset.empty(); });
         for (const BatchMember& member : members) {
             frequency.push_back(member.gait.frequency);
             power.push_back(member.gait.power);
@@ -152,15 +148,17 @@ private:
             const auto k = static_cast<int>(number);
             EvaluationRun run(scene_, model_, members[k].gait, laws_);
             take(run, progress[k], &path[number * (frames + 1)]);
-            evaluations[k] = finish(run, scene_, model_, runner_.model().particle_of(), members[k].gait, settled[k].stopped < 0,
-                                    starts_of_nobody, ends->state(k, like), densities.data() + number * view.fluid, view.fluid);
+            evaluations[k] =
+                finish(run, scene_, model_, runner_.model().particle_of(), members[k].gait, settled[k].stopped < 0,
+                       starts_of_nobody, ends->state(k, like), densities.data() + number * view.fluid, view.fluid);
         });
         return evaluations;
     }
 
     /// What the kernel has decided.
     static void take(EvaluationRun& run, const Progress& progress, const double* path) {
-        const StopReason stopped = progress.stopped < 0 ? StopReason::completed : static_cast<StopReason>(progress.stopped);
+        const StopReason stopped =
+            progress.stopped < 0 ? StopReason::completed : static_cast<StopReason>(progress.stopped);
         std::optional<Instability> found;
         if (stopped == StopReason::unstable) {
             const bool finite = progress.broken != physics::Law::finite;  // but against another law
@@ -213,30 +211,33 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 template <class Real>
 std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                  const BatchOptions& options) {
-    if (uses_grid_kernels(scene, model, options))
-        return evaluate_on_grid<Real>(scene, model, members, options);
+    if (uses_grid_kernels(scene, model, options)) return evaluate_on_grid<Real>(scene, model, members, options);
     Batch<Real> batch(scene, model, options);
     return evaluate_in_parts(batch, members);
 }
 
-/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host; as many at once as it has room for.
-std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox& box, const std::vector<BatchMember>& members,
-                                             const BatchOptions& options) {
+/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host; as many at once as it
+/// has room for.
+std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox& box,
+                                             const std::vector<BatchMember>& members, const BatchOptions& options) {
     constexpr double bytes_of_cell = 2 * 27 * sizeof(float) + 2 * sizeof(int) + 16;  // populations, owners, room
     std::size_t free = 0, all = 0;
     check(cudaMemGetInfo(&free, &all), "memory");
     const double room = static_cast<double>(free) / (bytes_of_cell * box.cells.cast<double>().prod());
     const auto at_once = static_cast<std::size_t>(std::clamp(room, 1.0, 1e6));
     std::vector<Evaluation> evaluations(members.size());
-    side_by_side(members.size(), [&](std::size_t k) {
-        Scene own = scene;
-        if (members[k].arrangement) own.fluid->disorder = *members[k].arrangement;
-        EvaluationOptions how;
-        how.precision = options.precision;
-        how.perturbation = members[k].perturbation;
-        how.execution.gpu = options.device;
-        evaluations[k] = natator::evaluate(own, members[k].gait, how);
-    }, at_once);
+    side_by_side(
+        members.size(),
+        [&](std::size_t k) {
+            Scene own = scene;
+            if (members[k].arrangement) own.fluid->disorder = *members[k].arrangement;
+            EvaluationOptions how;
+            how.precision = options.precision;
+            how.perturbation = members[k].perturbation;
+            how.execution.gpu = options.device;
+            evaluations[k] = natator::evaluate(own, members[k].gait, how);
+        },
+        at_once);
     return evaluations;
 }
 
@@ -255,7 +256,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     const std::vector<Evaluation> evaluations = options.precision == Precision::double_precision
                                                     ? cuda::evaluate<double>(scene, model, members, options)
                                                     : cuda::evaluate<float>(scene, model, members, options);
-    if (options.times) options.times->memory = std::max(options.times->memory, memory.most());
+    if (options.times) options.times->memory = std::max(options.times->memory, memory.peak());
     return evaluations;
 }
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -47,40 +47,40 @@ inline std::vector<Start> starts_of(const Scene& scene, std::span<const BatchMem
 
 /// What settling makes of a start.
 template <class Real>
-struct Settled {
+struct SettledMember {
     State<Real> state;
     ListRoom room{};  ///< of lists since it settled; none of one that was kept
     std::optional<Instability> instability{};
 };
 template <class Real>
-using SettledStarts = SharedOnce<Start, Settled<Real>>;
+using SettledStarts = SharedOnce<Start, SettledMember<Real>>;
 
 /// Evaluates as many members at a time as there are States side by side.
 template <class Real>
 class GridScene {
 public:
-    /// `starts` of all members of the company, kept in `cache` if it is not null.
-    GridScene(const Scene& scene, const ModelGroup& company, SettledStarts<Real>& starts, int states, WaterLists lists,
+    /// `starts` of all members of the group, kept in `cache` if it is not null.
+    GridScene(const Scene& scene, const ModelGroup& group, SettledStarts<Real>& starts, int states, WaterLists lists,
               const SettledStateCache* cache, BatchTimes* times)
         : scene_(scene),
-          company_(company),
+          group_(group),
           starts_(starts),
           cache_(cache),
           times_(times),
-          runner_(company.model, states, {.lists = lists}) {}
+          runner_(group.model, states, {.lists = lists}) {}
 
     /// Members from `first` on, at most as many as there are States.
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
-        const std::span<const BatchMember> members(company_.members.data() + first, count);
+        const std::span<const BatchMember> members(group_.members.data() + first, count);
         const std::vector<Start> starts = starts_of(scene_, members);
         begin_at(starts);
-        update_ = {0, scene_.time_step, company_.model.parameters.substeps, {}, false};
+        update_ = {0, scene_.time_step, group_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update_.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update_);
         std::vector<EvaluationRun> runs;
         runs.reserve(count);
         for (int k = 0; k < count; ++k)
-            runs.emplace_back(scene_, company_.model, members[k].gait, laws_of(std::get<0>(starts[k])));
+            runs.emplace_back(scene_, group_.model, members[k].gait, laws_of(std::get<0>(starts[k])));
         needs_body_ = runs.front().needs_body();
         work_.assign(count, 0);
         const HostTime begin_of_frames = std::chrono::steady_clock::now();
@@ -91,17 +91,17 @@ public:
         const std::size_t before = evaluations.size(), fluid = densities.size() / runner_.states();
         std::vector<State<Real>> ends;
         for (int k = 0; k < count; ++k) {
-            ends.push_back(runner_.download(k, initial_state<Real>(company_.model)));
+            ends.push_back(runner_.download(k, initial_state<Real>(group_.model)));
             ends.back().origin = runs[k].origin();
         }
         evaluations.resize(before + count);
         side_by_side(count, [&](std::size_t k) {
             evaluations[before + k] =
-                finish(runs[k], scene_, company_.model, runner_.model().particle_of(), members[k].gait, !begins_[k]->instability,
-                       begins_[k]->state, ends[k], densities.data() + k * fluid, fluid);
+                finish(runs[k], scene_, group_.model, runner_.model().particle_of(), members[k].gait,
+                       !begins_[k]->instability, begins_[k]->state, ends[k], densities.data() + k * fluid, fluid);
         });
         begins_.clear();
-        starts_.leave(starts);
+        starts_.release(starts);
     }
 
     // As run_frames asks for it.
@@ -124,7 +124,7 @@ public:
         return ends;
     }
     /// The tank moves once for every step that a swimmer gets on; its State goes to the host and back.
-    void noted(std::size_t k, EvaluationRun& run) {
+    void record_frame(std::size_t k, EvaluationRun& run) {
         if (run.frames() == 0 || !run.tank_is_due()) return;
         State<Real> state = runner_.download(static_cast<int>(k), runner_.muscles(static_cast<int>(k)));
         run.move_tank(state);
@@ -139,28 +139,28 @@ private:
 
     /// Takes the States to the members' settled starts, and those without a member to the last.
     void begin_at(const std::vector<Start>& starts) {
-        const std::vector<Start> claimed = starts_.claim(starts);
+        const std::vector<Start> acquired = starts_.acquire(starts);
         try {
-            give(claimed);
+            publish(acquired);
         } catch (...) {  // others may wait for them
-            starts_.fail(claimed, std::current_exception());
+            starts_.fail(acquired, std::current_exception());
             throw;
         }
         for (int k = 0; k < runner_.states(); ++k) {
-            const auto& begin = begins_.emplace_back(starts_.of(starts[std::min<std::size_t>(k, starts.size() - 1)]));
+            const auto& begin = begins_.emplace_back(starts_.get(starts[std::min<std::size_t>(k, starts.size() - 1)]));
             runner_.make_room(begin->room);
             runner_.upload(k, begin->state);
         }
     }
 
     /// Settles starts side by side, but for those that are kept from an earlier batch.
-    void give(const std::vector<Start>& claimed) {
+    void publish(const std::vector<Start>& acquired) {
         std::vector<Start> unsettled;
-        for (const Start& start : claimed) {
+        for (const Start& start : acquired) {
             std::optional<State<Real>> known;
             if (is_kept(start)) known = cache_->find<Real>(model_of(start), scene_.settling, device_);
             if (known)
-                starts_.give(start, {std::move(*known)});
+                starts_.publish(start, {std::move(*known)});
             else
                 unsettled.push_back(start);
         }
@@ -173,9 +173,10 @@ private:
         }
         const std::vector<std::optional<Instability>> found = settle(different);
         for (std::size_t k = 0; k < different; ++k) {
-            const State<Real> settled = runner_.download(static_cast<int>(k), initial_state<Real>(company_.model));
-            if (!found[k] && is_kept(unsettled[k])) cache_->keep(model_of(unsettled[k]), scene_.settling, settled, device_);
-            starts_.give(unsettled[k], {settled, runner_.room(), found[k]});
+            const State<Real> settled = runner_.download(static_cast<int>(k), initial_state<Real>(group_.model));
+            if (!found[k] && is_kept(unsettled[k]))
+                cache_->keep(model_of(unsettled[k]), scene_.settling, settled, device_);
+            starts_.publish(unsettled[k], {settled, runner_.room(), found[k]});
         }
     }
 
@@ -185,8 +186,8 @@ private:
     /// What begins so.
     Model model_of(const Start& start) const {
         const auto& [arrangement, amplitude, seed] = start;
-        Model own = company_.model;
-        own.position = company_.begin.at(arrangement);
+        Model own = group_.model;
+        own.position = group_.begin.at(arrangement);
         perturb({amplitude, seed}, own);
         return own;
     }
@@ -240,13 +241,15 @@ private:
     }
 
     /// Of an update that is not finite; the particle by device number.
-    static std::optional<Instability> instability_of(const typename Runner::End& end, const typename Runner::Update& update) {
+    static std::optional<Instability> instability_of(const typename Runner::End& end,
+                                                     const typename Runner::Update& update) {
         if (end.finite) return std::nullopt;
-        return Instability{end.bad_particle, "velocities", update.start_time + end.bad_substep * update.time_step / update.substeps};
+        return Instability{end.bad_particle, "velocities",
+                           update.start_time + end.bad_substep * update.time_step / update.substeps};
     }
 
     const Scene& scene_;
-    const ModelGroup& company_;
+    const ModelGroup& group_;
     SettledStarts<Real>& starts_;
     const SettledStateCache* cache_;
     std::string device_ = current_device_name() + " grid ";
@@ -258,7 +261,7 @@ private:
     std::vector<double> work_;        ///< of the muscles, by member
     std::map<int, LawWatch> laws_;    ///< by arrangement, see laws_of
     std::vector<bool> idle_;
-    std::vector<std::shared_ptr<const Settled<Real>>> begins_;  ///< by State, where they began
+    std::vector<std::shared_ptr<const SettledMember<Real>>> begins_;  ///< by State, where they began
 };
 
 }  // namespace natator::cuda

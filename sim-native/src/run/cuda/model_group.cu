@@ -21,24 +21,25 @@ Model arranged(Scene scene, const Model& model, int arrangement) {
 
 std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, const std::vector<BatchMember>& members) {
     std::vector<ModelGroup> all;
-    std::map<int, std::size_t> company_of;
+    std::map<int, std::size_t> group_of;
     const bool arranges = model.scheme == Scheme::conserving && scene.fluid;
     const int usual = arranges ? FluidBlock{}.disorder : 0;
     all.push_back({arranges ? arranged(scene, model, usual) : model, {}});
     for (std::size_t k = 0; k < members.size(); ++k) {
         const int arrangement = arrangement_of(members[k], scene);
-        if (!company_of.contains(arrangement)) {
-            const Model own = arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
+        if (!group_of.contains(arrangement)) {
+            const Model own =
+                arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
             const Model& first = all.front().model;
             const bool alike =
                 own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;
             if (!alike) all.push_back({own, {}});
-            company_of[arrangement] = alike ? 0 : all.size() - 1;
-            all[company_of[arrangement]].begin[arrangement] = own.position;
+            group_of[arrangement] = alike ? 0 : all.size() - 1;
+            all[group_of[arrangement]].begin[arrangement] = own.position;
         }
-        ModelGroup& company = all[company_of[arrangement]];
-        company.members.push_back(members[k]);
-        company.numbers.push_back(k);
+        ModelGroup& group = all[group_of[arrangement]];
+        group.members.push_back(members[k]);
+        group.numbers.push_back(k);
     }
     return all;
 }

@@ -19,9 +19,9 @@ struct ModelGroup {
 /// Of the member's water.
 int arrangement_of(const BatchMember& member, const Scene& scene);
 
-/// Where nothing but the water's places depends on its arrangement, the device gets the Model of the usual one whatever the
-/// members', so that a member's bits do not depend on its company. An arrangement that asks for more substeps, say, stays
-/// alone.
+/// Where nothing but the water's places depends on its arrangement, the device gets the Model of the usual one whatever
+/// the members', so that a member's bits do not depend on its group. An arrangement that asks for more substeps, say,
+/// stays alone.
 std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, const std::vector<BatchMember>& members);
 
 }  // namespace natator::cuda

@@ -1,8 +1,8 @@
 // What a build without CUDA answers.
 #include "solver/cuda/no_cuda.h"
 
-#include "uses_grid_kernels.h"
 #include "natator/batch.h"
+#include "uses_grid_kernels.h"
 
 namespace natator {
 

@@ -19,7 +19,8 @@ bool has_room_by_blocks(const Model& model) {
 }  // namespace
 
 bool uses_grid_kernels(const Scene& scene, const Model& model, const BatchOptions& options) {
-    if (options.whole_gpu || model.scheme != Scheme::flex || !scene.goals.empty() || !scene.companions.empty()) return true;
+    if (options.whole_gpu || model.scheme != Scheme::flex || !scene.goals.empty() || !scene.companions.empty())
+        return true;
     if (!supports_both(model)) return false;
     if (options.precision != Precision::single_precision || make_plan(model).effects()) return true;
     return !has_room_by_blocks(model) || device_attribute(cudaDevAttrCooperativeLaunch) == 0;

@@ -25,7 +25,8 @@ std::optional<double> cavities(const Model& model, const State<Real>& state, con
     for (int i = 0; i < model.particles(); ++i)
         if (model.is_fluid(i)) depths.push_back(depth(i));
     if (depths.empty()) return std::nullopt;
-    const auto surface = depths.begin() + static_cast<std::ptrdiff_t>((1 - below_surface) * static_cast<double>(depths.size()));
+    const auto surface =
+        depths.begin() + static_cast<std::ptrdiff_t>((1 - below_surface) * static_cast<double>(depths.size()));
     std::nth_element(depths.begin(), surface, depths.end());
     const double deep = *surface + support(model);
     const std::vector<double> volumes = particle_volumes(model);

@@ -19,17 +19,19 @@ using physics::LawLimits;
 using physics::LawMeasures;
 
 // Spray can have a multiple of what falling gives: heavy water that meets light water, or a jet between two fronts.
-constexpr double speed_margin = 3;      ///< of the speed of a fall
-constexpr double max_unequal = 4;      ///< of masses: a light particle gets up to so many times the energy of a heavy one's fall, per mass
+constexpr double speed_margin = 3;  ///< of the speed of a fall
+/// of masses: a light particle gets up to so many times the energy of a heavy one's fall, per mass
+constexpr double max_unequal = 4;
 constexpr double max_body_lengths = 90;  ///< a second, that anything goes unless it falls as fast
-constexpr double energy_margin = 0.1;   ///< of the energy of a fall of all that moves
-// What explicit forces set free, measured in a box of water: at most 14 cohesion at R = 1.5 s = 0.15, and without gravity, which
-// gives no measure for it, 0.25 surface_tension at s = 0.1.
+constexpr double energy_margin = 0.1;    ///< of the energy of a fall of all that moves
+// What explicit forces set free, measured in a box of water: at most 14 cohesion at R = 1.5 s = 0.15, and without
+// gravity, which gives no measure for it, 0.25 surface_tension at s = 0.1.
 constexpr double cohesion_energy = 1.0 / 32, tension_energy = 5;
-constexpr double corrected_start = 0.01;  ///< of the radius, by constraints in a substep: starts may be shifted by as much
-constexpr double disordered = 1.1;      ///< room in the box around water that is disordered, over what it needs
-constexpr double depth_margin = 1;      ///< of the interaction radius
-constexpr double reach_margin = 3;      ///< of a body's length
+/// of the radius, by constraints in a substep: starts may be shifted by as much
+constexpr double corrected_start = 0.01;
+constexpr double disordered = 1.1;  ///< room in the box around water that is disordered, over what it needs
+constexpr double depth_margin = 1;  ///< of the interaction radius
+constexpr double reach_margin = 3;  ///< of a body's length
 
 template <class Real>
 physics::Vec3<Real> vec3(const Vector3<Real>& v) {
@@ -67,7 +69,8 @@ Eigen::Vector3d bounded_gravity(const Model& model) {
     Eigen::Vector3d gravity = model.parameters.gravity;
     for (const PeriodicAxis& axis : model.periodic) gravity[axis.axis] = 0;
     if (model.water_box && !model.body.particles.empty())  // less what the water carries
-        gravity *= 1 - model.water_box->density * std::pow(model.body.spacing, 3) * model.inverse_mass[model.body.particles.front()];
+        gravity *= 1 - model.water_box->density * std::pow(model.body.spacing, 3) *
+                           model.inverse_mass[model.body.particles.front()];
     return gravity;
 }
 
@@ -116,11 +119,15 @@ struct LawWatch::Parts {
         const Sources own = sources(model);
         for (const double inverse_mass : model.inverse_mass) mass += inverse_mass > 0 ? 1 / inverse_mass : 0;
         highest = begin.particle_energy;
-        fallen = speed_margin * speed_margin * (own.start + own.unequal * std::max(1.0, own.crowding) * own.fall + own.noise) + own.forces;
-        gain = mass * (energy_margin * (own.start + own.fall) + std::max(0.0, own.crowding - 1) * own.fall + own.forces + own.noise);
+        fallen = speed_margin * speed_margin *
+                     (own.start + own.unequal * std::max(1.0, own.crowding) * own.fall + own.noise) +
+                 own.forces;
+        gain = mass * (energy_margin * (own.start + own.fall) + std::max(0.0, own.crowding - 1) * own.fall +
+                       own.forces + own.noise);
         const double swum = square(max_body_lengths * length) / 2;
         if (length > 0) most = std::max(swum, 4 * std::max(1.0, own.crowding) * own.fall);
-        // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its motion.
+        // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its
+        // motion.
         if (model.scheme == Scheme::flex && own.crowding == 0) fallen += swum;
         if (model.scheme == Scheme::flex) gain = std::numeric_limits<double>::infinity();
         first = begin.energy;
@@ -161,15 +168,18 @@ struct LawWatch::Parts {
         own.fall = std::max(1.0, std::abs(p.buoyancy)) * (high - low) + pull * p.radius;
         if (count == 0) return own;
         const double room = (fluid.sizes().array() + spacing).prod();
-        own.crowding = std::max(1.0, disordered * model.particles() * spacing * spacing * spacing / room);  // solids take room, too
+        own.crowding = std::max(
+            1.0, disordered * model.particles() * spacing * spacing * spacing / room);  // solids take room, too
         own.forces = cohesion_energy * p.cohesion * square(p.radius / physics::thesis_substep);
         if (!(pull > 0)) own.forces += tension_energy * p.surface_tension * spacing;
-        own.forces = std::min(own.forces, square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
+        own.forces = std::min(own.forces,
+                              square(p.radius * p.substeps / model.time_step) / 2);  // nobody sees what goes by faster
         const double expansion = physics::max_excess * p.substeps / model.time_step;
         const double slow = pull > 0 ? physics::expansion * std::sqrt(pull / spacing) : expansion;
         const double rate = std::min(expansion, slow);
         own.noise += square(spacing * rate) / 2;
-        // What comes apart everywhere at this rate: r^2 / 6 is the mean square of the way from the middle, half of it energy.
+        // What comes apart everywhere at this rate: r^2 / 6 is the mean square of the way from the middle, half of it
+        // energy.
         if (own.crowding > 1.02 * disordered) own.noise += square(rate * fluid.diagonal().norm()) / 6;
         return own;
     }
@@ -191,7 +201,10 @@ struct LawWatch::Parts {
     std::optional<Instability> look(const LawMeasures& m, double time, const char* stage) {
         set(time);
         const auto use = [](double& largest, double part, double of) {
-            if (std::isfinite(of)) largest = std::max(largest, of > 0 ? part / of : part > 0 ? std::numeric_limits<double>::infinity() : 0);
+            if (std::isfinite(of))
+                largest = std::max(largest, of > 0     ? part / of
+                                            : part > 0 ? std::numeric_limits<double>::infinity()
+                                                       : 0);
         };
         use(margins.particle_energy, m.particle_energy - highest, limits.particle_energy - highest);
         use(margins.energy, m.energy - first, limits.energy - first);
@@ -204,12 +217,12 @@ struct LawWatch::Parts {
 
     double periodic_gravity;
     double length = 0, time_step = 0, mass = 0, muscle_speed = 0;
-    double highest = 0;  ///< energy of a particle at the start, (length/s)^2
-    double fallen = 0;   ///< what falling may add to it
-    double first = 0;    ///< energy that the run begins with, mass (length/s)^2
+    double highest = 0;                                     ///< energy of a particle at the start, (length/s)^2
+    double fallen = 0;                                      ///< what falling may add to it
+    double first = 0;                                       ///< energy that the run begins with, mass (length/s)^2
     double most = std::numeric_limits<double>::infinity();  ///< what all may add to it
-    double gain = 0;     ///< what it may rise by
-    double work = 0;     ///< of the muscles, by then
+    double gain = 0;                                        ///< what it may rise by
+    double work = 0;                                        ///< of the muscles, by then
     bool begun = true;
     LawLimits limits{};
     LawMargins margins;
@@ -265,10 +278,16 @@ std::optional<Instability> broken_by_compression(double mean_excess, double time
     return Instability{0, "frame", time, name(Law::compression)};
 }
 
-void LawWatch::begin_anew() { parts_->begun = false; }
+void LawWatch::restart() {
+    parts_->begun = false;
+}
 
-const LawLimits& LawWatch::limits() const { return parts_->limits; }
-const LawMargins& LawWatch::margins() const { return parts_->margins; }
+const LawLimits& LawWatch::limits() const {
+    return parts_->limits;
+}
+const LawMargins& LawWatch::margins() const {
+    return parts_->margins;
+}
 
 template LawMeasures measure_laws(const Model&, const State<float>&);
 template LawMeasures measure_laws(const Model&, const State<double>&);

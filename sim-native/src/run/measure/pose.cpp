@@ -23,8 +23,8 @@ Eigen::Vector3d rest_centre(const Model& model) {
 
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     if (places.size() != body.particles.size())
-        throw InputError("pose of " + std::to_string(places.size()) + " places: must have " + std::to_string(body.particles.size()) +
-                         " as the body has particles");
+        throw InputError("pose of " + std::to_string(places.size()) + " places: must have " +
+                         std::to_string(body.particles.size()) + " as the body has particles");
     if (places.size() < 3) return Eigen::Matrix3d::Identity();
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::Matrix3Xd rest(3, count), now(3, count);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/check_model.h"
 #include "natator/error.h"
 #include "physics/constants.h"
@@ -14,12 +14,12 @@ namespace natator {
 namespace {
 
 constexpr std::size_t max_places = 1000;
-constexpr double max_within = 1000;    // length
-constexpr double outermost = 1e-6;      // of a body's length: lies as far out as another
-constexpr double no_inertia = 1e-9;     // of the largest: a body that is a line does not resist turns about itself
+constexpr double max_within = 1000;  // length
+constexpr double outermost = 1e-6;   // of a body's length: lies as far out as another
+constexpr double no_inertia = 1e-9;  // of the largest: a body that is a line does not resist turns about itself
 
-/// The body's particles as the sums that motion is read off: place, velocity and mass of each. One that is held in place
-/// counts as others do.
+/// The body's particles as the sums that motion is read off: place, velocity and mass of each. One that is held in
+/// place counts as others do.
 struct Cloud {
     Eigen::Matrix3Xd place, velocity;
     Eigen::VectorXd mass;
@@ -75,7 +75,8 @@ std::vector<double> bend_of(const Model& model, const State<Real>& state) {
         if (muscle.actuator >= model.actuators) continue;  // a companion's
         const Spring& spring = model.springs[muscle.spring];
         const double length =
-            (state.position[spring.a].template cast<double>() - state.position[spring.b].template cast<double>()).norm();
+            (state.position[spring.a].template cast<double>() - state.position[spring.b].template cast<double>())
+                .norm();
         const double reach = physics::muscle_strain * muscle.lateral;
         bend[muscle.actuator] += reach * (length / spring.rest_length - 1);
         weight[muscle.actuator] += reach * reach;
@@ -87,10 +88,14 @@ std::vector<double> bend_of(const Model& model, const State<Real>& state) {
 /// How far out a particle lies on a side at rest.
 double towards(SkinPlace::Side side, const Eigen::Vector3d& rest) {
     switch (side) {
-        case SkinPlace::Side::left: return -rest.z();
-        case SkinPlace::Side::right: return rest.z();
-        case SkinPlace::Side::above: return rest.y();
-        case SkinPlace::Side::below: return -rest.y();
+        case SkinPlace::Side::left:
+            return -rest.z();
+        case SkinPlace::Side::right:
+            return rest.z();
+        case SkinPlace::Side::above:
+            return rest.y();
+        case SkinPlace::Side::below:
+            return -rest.y();
     }
     return 0;
 }
@@ -138,7 +143,7 @@ void feel_water(const Model& model, const State<Real>& state, double within, std
         const Eigen::Vector3d place = state.position[i].template cast<double>();
         if (!reach.contains(place)) continue;
         for (Probe& probe : probes) {
-            const double part = shortest_way(model, place - probe.place).squaredNorm() / (within * within);
+            const double part = minimum_image(model, place - probe.place).squaredNorm() / (within * within);
             if (part >= 1) continue;
             const double weight = (1 - part) * (1 - part) * (1 - part);
             probe.water += weight * state.velocity[i].template cast<double>();
@@ -154,7 +159,8 @@ std::vector<SkinFlow> flow_at(const Model& model, const State<Real>& state, cons
     std::vector<Probe> probes;
     for (const SkinPlace& place : sensing.flow) probes.push_back(probe_at(model, state, place));
     const SolverParameters& solver = model.parameters;
-    const double within = sensing.within > 0 ? sensing.within : solver.solid_rest_distance + 2 * solver.fluid_rest_distance;
+    const double within =
+        sensing.within > 0 ? sensing.within : solver.solid_rest_distance + 2 * solver.fluid_rest_distance;
     feel_water(model, state, within, probes);
     std::vector<SkinFlow> flow;
     for (const Probe& probe : probes) {

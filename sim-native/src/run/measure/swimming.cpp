@@ -35,7 +35,8 @@ double range_between(const std::vector<double>& path, double begin, double end) 
 }  // namespace
 
 double water_across(const Model& model) {
-    const bool water = model.water_box || std::ranges::any_of(model.phase, [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
+    const bool water = model.water_box ||
+                       std::ranges::any_of(model.phase, [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
     if (!water) return 0;
     double across = 0;
     for (const std::vector<int>& slice : model.body.slices) {
@@ -52,7 +53,8 @@ double water_across(const Model& model) {
 
 std::string warning_of_across(double across) {
     if (across == 0 || across > min_spacings_across - 0.01) return "";
-    return "the body is " + figure_text(across) + " spacings of the water across: at least " + figure_text(min_spacings_across) +
+    return "the body is " + figure_text(across) + " spacings of the water across: at least " +
+           figure_text(min_spacings_across) +
            " are needed, below which its speed may change by half with a finer water";
 }
 

@@ -24,10 +24,10 @@ struct Box {
 /// The smallest box with all positions in it; there is at least one.
 template <class Real>
 Box<Real> bounding_box(const std::vector<Vector3<Real>>& position, ThreadTeam& team) {
-    constexpr int shortest_part = 8192;  // fewer are done before another thread is awake
+    constexpr int min_part = 8192;  // fewer are done before another thread is awake
     const auto around = [](const Vector3<Real>& x) { return Box<Real>{{x[0], x[1], x[2]}, {x[0], x[1], x[2]}}; };
     std::vector<Box<Real>> boxes(team.max_parts(), around(position[0]));
-    team.for_parts(static_cast<int>(position.size()), shortest_part, [&](int part, int begin, int end) {
+    team.for_parts(static_cast<int>(position.size()), min_part, [&](int part, int begin, int end) {
         Box<Real> box = boxes[part];  // not shared with another thread's cache line
         for (int i = begin; i < end; ++i) box.cover(around(position[i]));
         boxes[part] = box;

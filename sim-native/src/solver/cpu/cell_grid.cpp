@@ -14,7 +14,8 @@ void CellGrid<Real>::cover(const std::array<Real, 3>& low, const std::array<Real
     constexpr double many = 1e9;  // also for a box that is not finite
     std::array<double, 3> cells{};
     for (int axis = 0; axis < 3; ++axis)
-        cells[axis] = std::min(many, std::max(1.0, std::floor((double(high[axis]) - double(low[axis])) / size[axis]) + 1));
+        cells[axis] =
+            std::min(many, std::max(1.0, std::floor((double(high[axis]) - double(low[axis])) / size[axis]) + 1));
 
     // Particles far from the rest must not cost memory: halve the longest axis until the box is small enough.
     while (cells[0] * cells[1] * cells[2] > max_cells) {

@@ -49,7 +49,7 @@ public:
         return rows;
     }
 
-    /// Of these rows the cells [first, last] along x that may hold particles within the search distance of `cell`.
+    /// The cells [first, last] of such a row, along x, that may hold particles within the search distance of `cell`.
     struct Range {
         int first, last;
     };

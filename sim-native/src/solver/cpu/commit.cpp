@@ -10,7 +10,7 @@ template <class Real>
 bool Substep<Real>::finite() const {
     std::atomic<bool> all_finite = true;
     const auto check = [&](const Real* values, std::size_t count) {
-        team_->for_parts(static_cast<int>(count), shortest_part * lanes, [&](int, int begin, int end) {
+        team_->for_parts(static_cast<int>(count), min_part * lanes, [&](int, int begin, int end) {
             if (!motion_kernels_->finite(values + begin, end - begin)) all_finite = false;
         });
     };
@@ -34,8 +34,8 @@ template <class Real>
 std::optional<int> Substep<Real>::first_not_finite() const {
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        for (const Vec3<Real>& v : {new_velocity_[i], vec3(ws_.unsorted_position[i]), position_of_slot(slot),
-                                    ws_.correction.at(slot)})
+        for (const Vec3<Real>& v :
+             {new_velocity_[i], vec3(ws_.unsorted_position[i]), position_of_slot(slot), ws_.correction.at(slot)})
             if (!eigen(v).allFinite()) return i;
     }
     return std::nullopt;
@@ -43,7 +43,7 @@ std::optional<int> Substep<Real>::first_not_finite() const {
 
 template <class Real>
 void Substep<Real>::commit() {
-    team_->for_each(ws_.particles, shortest_part * lanes, [this](int i) {
+    team_->for_each(ws_.particles, min_part * lanes, [this](int i) {
         if (inverse_mass_[i] == 0) return;
         state_->position[i] = eigen(position_of_slot(ws_.slot_of[i]));
         state_->velocity[i] = eigen(new_velocity_[i]);

@@ -31,12 +31,12 @@ void Substep<Real>::find_contacts() {
     }
     std::sort(pairs.begin(), pairs.end());
 
-    ws_.touched.clear();
+    ws_.contact_slots.clear();
     ws_.contact_begin.clear();
     ws_.contact.clear();
     for (const auto& [slot, other] : pairs) {
-        if (ws_.touched.empty() || ws_.touched.back() != slot) {
-            ws_.touched.push_back(slot);
+        if (ws_.contact_slots.empty() || ws_.contact_slots.back() != slot) {
+            ws_.contact_slots.push_back(slot);
             ws_.contact_begin.push_back(static_cast<int>(ws_.contact.size()));
         }
         ws_.contact.push_back(other);

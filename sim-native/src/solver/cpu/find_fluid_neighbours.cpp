@@ -39,7 +39,9 @@ constexpr std::size_t max_distances = 1 << 20;
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
     const auto cell_of = [this](int slot) { return slot < ws_.fluid ? ws_.cell_of[ws_.particle_of[slot]] : -1; };
-    const auto go_to = [this](Surroundings<Real>& around, int cell) { around.go_to(ws_.grid, cell, ws_.fluid_cell_begin); };
+    const auto go_to = [this](Surroundings<Real>& around, int cell) {
+        around.go_to(ws_.grid, cell, ws_.fluid_cell_begin);
+    };
     const auto choose = [this](int slot, std::int32_t* found, int n) {
         if (!plan_.uniform_fluid) {
             const int i = ws_.particle_of[slot];
@@ -48,13 +50,14 @@ void Substep<Real>::find_fluid_neighbours() {
         }
         return std::min(n, max_neighbours_);
     };
-    const std::size_t size = lists_.list({.position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
-                                          .blocks = ws_.blocks(),
-                                          .distance_squared = constants_.search_distance * constants_.search_distance,
-                                          .filler = ws_.slots,
-                                          .shortest_part = shortest_part,
-                                          .kernels = neighbour_kernels_},
-                                         *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, cell_of, go_to, choose);
+    const std::size_t size =
+        lists_.list({.position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
+                     .blocks = ws_.blocks(),
+                     .distance_squared = constants_.search_distance * constants_.search_distance,
+                     .filler = ws_.slots,
+                     .min_part = min_part,
+                     .kernels = neighbour_kernels_},
+                    *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, cell_of, go_to, choose);
     const bool keep = size <= max_distances;
     ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }

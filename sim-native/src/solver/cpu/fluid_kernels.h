@@ -6,7 +6,7 @@
 
 namespace natator::cpu {
 
-/// What the fluid kernels read and write; plain pointers, because the kernels are compiled once per instruction set
+/// Input and output of the fluid kernels; plain pointers, because the kernels are compiled once per instruction set
 /// and must not share inline code with the rest of the program. Arrays are by slot unless said otherwise.
 template <class Real>
 struct FluidView {
@@ -41,7 +41,7 @@ template <class Real>
 struct FluidKernels {
     /// Lays positions and compressions out for the other loops.
     void (*pack)(const FluidView<Real>& fluid);
-    /// The same for velocities.
+    /// Lays velocities out, as positions are.
     void (*pack_velocity)(const FluidView<Real>& fluid);
     /// Needs packed positions. density_i = (sum_j (1 - r/R)^2 + solid_density_i) / S and compression C_i =
     /// max(density_i - 1, 0).
@@ -54,7 +54,7 @@ struct FluidKernels {
 };
 
 NATATOR_DECLARE_KERNELS(FluidKernels, fluid_kernels)
-/// The same particle by particle.
+/// The fluid's kernels, particle by particle.
 NATATOR_DECLARE_KERNELS(FluidKernels, scalar_fluid_kernels)
 
 }  // namespace natator::cpu

@@ -34,7 +34,8 @@ void finish_velocity(const MotionView<Real>& slots, int viscous_blocks, const Ve
     without_viscosity.viscosity = false;
     for_each_group<Group>(slots, [&](int slot) {
         const auto u = get3<Group>(slots.velocity, slot);
-        const auto smoothing = get3<Group>(slots.correction, slot), predicted = get3<Group>(slots.predicted_velocity, slot);
+        const auto smoothing = get3<Group>(slots.correction, slot),
+                   predicted = get3<Group>(slots.predicted_velocity, slot);
         const VelocityRule<Real>& own = slot < viscous_blocks * lanes ? rule : without_viscosity;
         put3<Group>(slots.velocity, slot, flex_velocity(u, smoothing, predicted, own));
     });

@@ -17,7 +17,7 @@ struct MotionView {
     Real* velocity[3];
 };
 
-/// What happens to each particle by itself, in one instruction set. No product is fused with a sum, so that all sets
+/// Kernels that move each particle by itself, in one instruction set. No product is fused with a sum, so that all sets
 /// give the same bits.
 template <class Real>
 struct MotionKernels {

@@ -41,8 +41,8 @@ void interleave(const std::int32_t* const* list, const int* count, int rows, std
         for (int row = 0; row < rows; ++row) to[row * lanes + lane] = row < count[lane] ? list[lane][row] : filler;
 }
 
-/// Of so many slots from `slot` on, which what is loaded serves all: `width` candidates at a time; the nearer ones move to the
-/// front of their vector, which is written as a whole.
+/// Of so many slots from `slot` on, which what is loaded serves all: `width` candidates at a time; the nearer ones move
+/// to the front of their vector, which is written as a whole.
 template <int slots>
 inline void find_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
                             std::int32_t* const* found, int* count) {

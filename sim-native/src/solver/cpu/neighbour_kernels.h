@@ -9,13 +9,13 @@ namespace natator::cpu {
 /// Runs of slots [begin[k], end[k]). Two arrays, so that what was written as two numbers is not read as one, which
 /// would have to wait for the stores.
 struct SlotRuns {
-    static constexpr int most = 18;
+    static constexpr int max_runs = 18;
     int count = 0;
-    int begin[most];
-    int end[most];
+    int begin[max_runs];
+    int end[max_runs];
 };
 
-/// How the lists of fluid neighbours are built, in one instruction set.
+/// Kernels that build lists of neighbours, in one instruction set.
 template <class Real>
 struct NeighbourKernels {
     /// Writes to `found` the slots of the runs that are nearer to `slot` than sqrt(distance_squared), without those at
@@ -23,7 +23,7 @@ struct NeighbourKernels {
     /// positions must go on for 16 slots behind each run.
     int (*find)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
                 std::int32_t* found);
-    /// The same for `slot` and the one behind it.
+    /// Searches for `slot` and the slot behind it at once.
     void (*find_two)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
                      std::int32_t* const found[2], int count[2]);
     /// Lays 16 lists side by side: entry `lane` of row k is list[lane][k], or `filler` from count[lane] on. Writes

@@ -34,8 +34,8 @@ int add_runs(const CellGrid<Real>& grid, const typename CellGrid<Real>::Rows& ro
     return slots;
 }
 
-/// Where the neighbours of a cell's particles may be, kept for the particles that follow in the same cell, and the rows of
-/// cells for the cells that follow in the same row.
+/// Where the neighbours of a cell's particles may be, kept for the particles that follow in the same cell, and the rows
+/// of cells for the cells that follow in the same row.
 template <class Real>
 struct Surroundings {
     int cell = -1;
@@ -60,7 +60,8 @@ private:
     typename CellGrid<Real>::Rows rows_;
 };
 
-/// Where NeighbourLists::list writes: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each (sliced ELLPACK).
+/// Where NeighbourLists::list writes: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each (sliced
+/// ELLPACK).
 struct SlicedRows {
     std::vector<int>& row_begin;             ///< one more than blocks
     AlignedVector<std::int32_t>& neighbour;  ///< grows, and may be longer than the rows need
@@ -72,33 +73,35 @@ template <class Real>
 class NeighbourLists {
 public:
     struct Search {
-        const Real* position[3];    ///< by slot
-        int blocks;                 ///< that get lists
-        Real distance_squared;      ///< neighbours are nearer
-        std::int32_t filler;        ///< slot that unused entries point to
-        int shortest_part;          ///< blocks; fewer are done before another thread is awake
+        const Real* position[3];  ///< by slot
+        int blocks;               ///< that get lists
+        Real distance_squared;    ///< neighbours are nearer
+        std::int32_t filler;      ///< slot that unused entries point to
+        int min_part;             ///< blocks; fewer are done before another thread is awake
         const NeighbourKernels<Real>* kernels;
     };
 
-    /// cell_of(slot) gives a slot's cell, or -1 for slots without particle, which come last; go_to(Surroundings, cell) goes
-    /// there. choose(slot, found, n) drops those that do not count and returns how many are left. Returns the number of
-    /// entries in all rows.
+    /// cell_of(slot) gives a slot's cell, or -1 for slots without particle, which come last; go_to(Surroundings, cell)
+    /// goes there. choose(slot, found, n) drops those that do not count and returns how many are left. Returns the
+    /// number of entries in all rows.
     template <class CellOf, class GoTo, class Choose>
     std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const CellOf& cell_of, const GoTo& go_to,
                      const Choose& choose) {
         rooms_.resize(team.max_parts());
         for (Room& room : rooms_) room.size = 0;
-        // The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
-        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
-            list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, cell_of, go_to,
-                      choose);
+        // The first part of the blocks has its rows written in place, the others into room of their own, to be
+        // appended.
+        team.for_parts(search.blocks, search.min_part, [&](int part, int begin, int end) {
+            list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, cell_of,
+                      go_to, choose);
         });
         std::size_t size = 0;
         for (const Room& room : rooms_) size += room.size;
         if (size > std::numeric_limits<int>::max())
-            throw InputError("particles have crowded: " + std::to_string(size) + " neighbours; must be fewer than 2^31");
+            throw InputError("particles have crowded: " + std::to_string(size) +
+                             " neighbours; must be fewer than 2^31");
         if (rows.neighbour.size() < size) rows.neighbour.resize(size + size / 2);
-        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
+        team.for_parts(search.blocks, search.min_part, [&](int part, int begin, int end) {
             if (part == 0) return;
             std::size_t before = 0;
             for (int k = 0; k < part; ++k) before += rooms_[k].size;
@@ -128,7 +131,7 @@ private:
             std::array<int, lanes> count{};
             std::array<const std::int32_t*, lanes> list{};
             std::array<int, lanes> cell{};
-            int used = 0, most = 0;
+            int used = 0, max_count = 0;
             while (used < lanes && (cell[used] = cell_of(block * lanes + used)) >= 0) ++used;
             for (int lane = 0, found = 1; lane < used; lane += found) {
                 go_to(around, cell[lane]);
@@ -138,20 +141,22 @@ private:
                     list[k] = room.found[k].data();
                     count[k] = choose(block * lanes + k, room.found[k].data(), count[k]);
                     rows.count[block * lanes + k] = count[k];
-                    most = std::max(most, count[k]);
+                    max_count = std::max(max_count, count[k]);
                 }
             }
-            const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(most)) * lanes;
+            const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(max_count)) * lanes;
             if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
-            search.kernels->interleave(list.data(), count.data(), most, search.filler, all_rows.data() + end);
+            search.kernels->interleave(list.data(), count.data(), max_count, search.filler, all_rows.data() + end);
             rows.row_begin[block] = static_cast<int>(end / lanes);
-            end += static_cast<std::size_t>(most) * lanes;
+            end += static_cast<std::size_t>(max_count) * lanes;
         }
         room.size = end;
     }
 
-    /// Looks for the neighbours of `slots` slots of a cell from `slot` on, one or two of one block, in the room of their lanes.
-    static void find(const Search& search, int slot, int slots, const Surroundings<Real>& around, Room& room, int* count) {
+    /// Looks for the neighbours of `slots` slots of a cell from `slot` on, one or two of one block, in the room of
+    /// their lanes.
+    static void find(const Search& search, int slot, int slots, const Surroundings<Real>& around, Room& room,
+                     int* count) {
         std::int32_t* found[2]{};
         for (int k = 0; k < slots; ++k) {
             std::vector<std::int32_t>& of_lane = room.found[slot % lanes + k];

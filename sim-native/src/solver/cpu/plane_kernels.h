@@ -23,7 +23,7 @@ struct NearPlanes {
     Real* displacement[3];  ///< null without a base
 };
 
-/// What planes do to the particles near them, in one instruction set. `chosen` has a bit per lane of a block. No
+/// The constraints of planes on particles near them, in one instruction set. `chosen` has a bit per lane of a block. No
 /// product is fused with a sum, so that all sets give the same bits.
 template <class Real>
 struct PlaneKernels {
@@ -35,7 +35,7 @@ struct PlaneKernels {
 };
 
 NATATOR_DECLARE_KERNELS(PlaneKernels, plane_kernels)
-/// The same particle by particle.
+/// The kernels of planes, particle by particle.
 NATATOR_DECLARE_KERNELS(PlaneKernels, scalar_plane_kernels)
 
 }  // namespace natator::cpu

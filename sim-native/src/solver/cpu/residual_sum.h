@@ -7,7 +7,7 @@
 
 namespace natator::cpu {
 
-/// Of errors that come one after the other.
+/// Sums a Residual of errors that come one after the other.
 class ResidualSum {
 public:
     void add(double error) {

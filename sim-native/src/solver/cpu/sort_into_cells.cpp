@@ -11,7 +11,7 @@ namespace natator::cpu {
 template <class Real>
 void Substep<Real>::sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin) {
     const int count = static_cast<int>(ids.size());
-    const int grain = std::max(shortest_part * lanes, (count + team_->size() - 1) / team_->size());
+    const int grain = std::max(min_part * lanes, (count + team_->size() - 1) / team_->size());
     next_slot_.resize(team_->size());
     for (std::vector<int>& next : next_slot_) next.clear();
     team_->for_parts(count, grain, [&](int part, int begin, int end) {
@@ -42,9 +42,8 @@ void Substep<Real>::number_slots() {
     const auto& position = ws_.unsorted_position;
     const Box<Real> box = bounding_box(position, *team_);
     ws_.grid.cover(box.low, box.high, constants_.search_distance, 4096 + 16 * ws_.particles);
-    team_->for_each(ws_.particles, shortest_part * lanes, [&](int i) {
-        ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
-    });
+    team_->for_each(ws_.particles, min_part * lanes,
+                    [&](int i) { ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z()); });
     sort_by_cell(ws_.fluid_ids, 0, ws_.fluid_cell_begin);
     sort_by_cell(ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
 }

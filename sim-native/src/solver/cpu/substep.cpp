@@ -24,8 +24,8 @@ Constants<Real>::Constants(const SolverParameters& p)
         gradient_estimate = static_cast<Real>(
             3 / rest_packing_sum(p.fluid_rest_distance / p.radius, [](double q) { return (1 - q) * q; }));
     const double rest_sum = p.fluid_rest_distance > 0 ? rest_packing_sum(p.fluid_rest_distance / p.radius,
-                                                                       [](double q) { return (1 - q) * (1 - q); })
-                                                    : 0;
+                                                                         [](double q) { return (1 - q) * (1 - q); })
+                                                      : 0;
     if (rest_sum > 0) density_scale = static_cast<Real>(1 / rest_sum);
 }
 
@@ -75,7 +75,8 @@ MotionView<Real> Substep<Real>::motion_view() {
             .end_block = ws_.all_blocks(),
             .position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
             .start = {ws_.start.x.data(), ws_.start.y.data(), ws_.start.z.data()},
-            .predicted_velocity = {ws_.predicted_velocity.x.data(), ws_.predicted_velocity.y.data(), ws_.predicted_velocity.z.data()},
+            .predicted_velocity = {ws_.predicted_velocity.x.data(), ws_.predicted_velocity.y.data(),
+                                   ws_.predicted_velocity.z.data()},
             .correction = {ws_.correction.x.data(), ws_.correction.y.data(), ws_.correction.z.data()},
             .constraint_count = ws_.constraint_count.data(),
             .velocity = {ws_.velocity.x.data(), ws_.velocity.y.data(), ws_.velocity.z.data()}};
@@ -130,8 +131,8 @@ template <class Real>
 std::vector<int> Substep<Real>::neighbour_counts() const {
     std::vector<int> counts(ws_.particles, 0);
     for (const int i : ws_.fluid_ids) counts[i] = ws_.neighbour_count[ws_.slot_of[i]];
-    for (std::size_t k = 0; k < ws_.touched.size(); ++k)
-        counts[ws_.particle_of[ws_.touched[k]]] += ws_.contact_begin[k + 1] - ws_.contact_begin[k];
+    for (std::size_t k = 0; k < ws_.contact_slots.size(); ++k)
+        counts[ws_.particle_of[ws_.contact_slots[k]]] += ws_.contact_begin[k + 1] - ws_.contact_begin[k];
     return counts;
 }
 

@@ -54,11 +54,11 @@ public:
         h_ = h;
     }
 
-    static constexpr Grouping grouping = Grouping::one_by_one;
+    static constexpr Grouping grouping = Grouping::separate;
     static constexpr bool effects = true;
 
     void predict();
-    /// Without pairs to search slots keep their numbers.
+    /// Numbers slots by cell; without pairs to search slots keep their numbers.
     void sort_into_cells() {
         if (plan_.fluid || plan_.contacts) number_slots();
         gather_slots();
@@ -87,8 +87,8 @@ public:
     // Scheme flex knows no forces: what follows is for scheme conserving to hide.
     /// Work of the last substep's changes of rest length, mass length^2/s^2.
     double spring_work(const std::vector<Real>&) const { return 0; }
-    /// From here on the water's forces on the particles are summed up; see Solver::forces.
     void measure_divergence(Residuals&) {}
+    /// Begins to sum the water's forces on the particles, see Solver::forces.
     void keep_forces() {}
     void clear_forces() {}
     std::vector<Vector3<Real>> forces() const { return {}; }
@@ -117,7 +117,7 @@ protected:
     /// Calls work(view of some blocks) until all blocks of the view are done, on all threads.
     template <class View, class Work>
     void on_all_threads(View view, const Work& work) {
-        team_->for_parts(view.end_block, shortest_part, [&](int, int begin, int end) {
+        team_->for_parts(view.end_block, min_part, [&](int, int begin, int end) {
             View part = view;
             part.first_block = begin;
             part.end_block = end;
@@ -127,13 +127,13 @@ protected:
     /// Calls work(slot) for all slots in use, on all threads.
     template <class Work>
     void for_each_slot(const Work& work) {
-        team_->for_parts(ws_.all_blocks(), shortest_part, [&](int, int begin, int end) {
+        team_->for_parts(ws_.all_blocks(), min_part, [&](int, int begin, int end) {
             for (int slot = begin * lanes; slot < std::min(end * lanes, ws_.fluid); ++slot) work(slot);
             for (int slot = std::max(begin * lanes, ws_.solid_begin); slot < std::min(end * lanes, ws_.slots); ++slot)
                 work(slot);
         });
     }
-    static constexpr int shortest_part = 512;  ///< blocks; fewer are done before another thread is awake
+    static constexpr int min_part = 512;  ///< blocks; fewer are done before another thread is awake
     PlaneView<Real> plane_view(int plane) const;
     NearPlanes<Real> near_planes();
     /// Calls work(block, chosen lanes, plane) for what is near planes, last plane first, in the first blocks.
@@ -166,11 +166,11 @@ protected:
     State<Real>* state_ = nullptr;
     Real h_ = 0;
 
-    /// Of contacts of particles.
+    /// Friction rule of contacts between particles.
     physics::Friction<Real> particle_friction() const {
         return {plan_.particle_friction, constants_.static_friction, constants_.particle_friction};
     }
-    /// What a contact of this depth pushes a slot by, before its share is taken.
+    /// Displacement of a slot by a contact of this depth, before its share is taken.
     Vec3<Real> contact_push(int slot, int other, Real depth) const {
         const Vec3<Real> difference = position_of_slot(slot) - position_of_slot(other);
         return physics::contact_push(difference, norm(difference), depth, particle_friction(), [&] {
@@ -188,10 +188,10 @@ protected:
     template <class Visit>
     void for_each_fluid_neighbour(int slot, const Visit& visit) const;
 
-    int max_neighbours_;                      ///< fluid neighbours kept per particle
-    std::vector<Real> inverse_mass_;           ///< by particle
-    Vec3<Real> up_;                            ///< against gravity; 0 without it
-    std::vector<Vec3<Real>> new_velocity_;     ///< by particle, the substep's outcome
+    int max_neighbours_;                    ///< fluid neighbours kept per particle
+    std::vector<Real> inverse_mass_;        ///< by particle
+    Vec3<Real> up_;                         ///< against gravity; 0 without it
+    std::vector<Vec3<Real>> new_velocity_;  ///< by particle, the substep's outcome
     std::vector<physics::SpringRule<Real>> spring_rules_;
     std::vector<std::vector<Vec3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep

@@ -18,8 +18,8 @@ void pause() {
 #endif
 }
 
-/// Returns once value is no longer `old`. Mostly that is after the rest of a loop, or the little that one thread does between
-/// two; falling asleep and being woken takes longer than these, so it looks for a while before it sleeps.
+/// Returns once value is no longer `old`. Mostly that is after the rest of a loop, or the little that one thread does
+/// between two; falling asleep and being woken takes longer than these, so it looks for a while before it sleeps.
 template <class T>
 void wait(const std::atomic<T>& value, T old) {
     constexpr int looks = 4000;  // some forty microseconds

@@ -9,11 +9,12 @@
 
 namespace natator::cpu {
 
-/// Threads that share loops. Whoever waits for long sleeps, so that a team costs other programs nothing, and a loop waits for
-/// no helper that has not begun, so that other programs cost a team little.
+/// Threads that share loops. Whoever waits for long sleeps, so that a team costs other programs nothing, and a loop
+/// waits for no helper that has not begun, so that other programs cost a team little.
 class ThreadTeam {
 public:
-    /// A team of one runs all loops in the caller's thread. It is smaller where the machine does not give so many threads.
+    /// A team of one runs all loops in the caller's thread. It is smaller where the machine does not give so many
+    /// threads.
     explicit ThreadTeam(int threads);
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam&) = delete;
@@ -57,13 +58,14 @@ private:
     std::vector<std::exception_ptr> thrown_;  ///< by part
     std::atomic<bool> over_{false};           ///< no more work will come
     std::atomic<unsigned> call_{0};           ///< counts the calls of run
-    /// Parts of one thread that nobody has taken: it begins with those, so that it finds in its cache what it left there.
+    /// Parts of one thread that nobody has taken: it begins with those, so that it finds in its cache what it left
+    /// there.
     struct alignas(64) Share {
         std::atomic<int> next{0};
         int end = 0;
     };
-    std::vector<Share> shares_;               ///< by thread
-    std::atomic<int> inside_;                 ///< helpers in the present call; -1: none may enter
+    std::vector<Share> shares_;  ///< by thread
+    std::atomic<int> inside_;    ///< helpers in the present call; -1: none may enter
 };
 
 }  // namespace natator::cpu

@@ -37,12 +37,12 @@ struct Workspace {
     std::vector<Vector3<Real>> unsorted_position, unsorted_velocity;  ///< as they are predicted
 
     // By slot.
-    Vector3Array<Real> position;           ///< as the iterations move it
-    Vector3Array<Real> start;              ///< at the start of the substep
+    Vector3Array<Real> position;            ///< as the iterations move it
+    Vector3Array<Real> start;               ///< at the start of the substep
     Vector3Array<Real> predicted_velocity;  ///< velocity v* after external forces
-    Vector3Array<Real> correction;         ///< sum of the constraints' corrections
-    Vector3Array<Real> velocity;           ///< (x - x_start) / h, input of the viscosity; then the outcome
-    AlignedVector<Real> constraint_count;  ///< n of the relaxation
+    Vector3Array<Real> correction;          ///< sum of the constraints' corrections
+    Vector3Array<Real> velocity;            ///< (x - x_start) / h, input of the viscosity; then the outcome
+    AlignedVector<Real> constraint_count;   ///< n of the relaxation
     AlignedVector<Real> inverse_mass;
     AlignedVector<Real> solid_density;  ///< what solids add to the fluid's density
     AlignedVector<Real> density;        ///< in units of rest density
@@ -61,8 +61,8 @@ struct Workspace {
     // Room for the fluid kernels, see FluidView.
     AlignedVector<Real> packed, packed_velocity, distance;
 
-    // Contacts, pairs that are not both fluid: neighbours of touched[k] are contact[contact_begin[k] .. [k+1]).
-    std::vector<int> touched;
+    // Contacts, pairs that are not both fluid: neighbours of contact_slots[k] are contact[contact_begin[k] .. [k+1]).
+    std::vector<int> contact_slots;
     std::vector<int> contact_begin;
     std::vector<int> contact;
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "state_team.cuh"
 #include "physics/pair.h"
 #include "physics/plane.h"
+#include "state_team.cuh"
 
 namespace natator::cuda {
 
@@ -43,7 +43,7 @@ __device__ void for_each_neighbour(const ModelView<Real>& model, const Team& tea
     }
 }
 
-/// What the far slot holds: beyond the reach of all others, without weight.
+/// Content of the far slot: a place beyond the reach of all others, without weight.
 template <class Real>
 __device__ Vec4<Real> far_away() {
     return {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away), Real(0)};
@@ -77,20 +77,20 @@ __device__ void add_in_order(int begin, int end, const Find& find, const Add& ad
     }
 }
 
-/// Units of for_each_unit that the slots with contacts make.
+/// Tasks of for_each_warp_task that the slots with contacts make.
 template <class Real, class Team>
-__device__ int touched_units(const ModelView<Real>& model, const Team& team) {
-    return model.plan.contacts ? (team.shared().touched * pair_lanes + 31) / 32 : 0;
+__device__ int contact_task_count(const ModelView<Real>& model, const Team& team) {
+    return model.plan.contacts ? (team.shared().contact_slot_count * pair_lanes + 31) / 32 : 0;
 }
-/// Calls work(slot, lane) for the slots of such a unit, `pair_lanes` threads each, all lanes of a warp together; slot is -1
-/// for those beyond the last.
+/// Calls work(slot, lane) for the slots of such a task, `pair_lanes` threads each, all lanes of a warp together; slot
+/// is -1 for those beyond the last.
 template <class Team, class Work>
-__device__ void work_on_touched(const Team& team, int unit, const Work& work) {
-    const int lane = threadIdx.x % 32, k = unit * (32 / pair_lanes) + lane / pair_lanes;
-    work(k < team.shared().touched ? static_cast<int>(team.touched()[k]) : -1, lane % pair_lanes);
+__device__ void for_each_contact_slot(const Team& team, int task, const Work& work) {
+    const int lane = threadIdx.x % 32, k = task * (32 / pair_lanes) + lane / pair_lanes;
+    work(k < team.shared().contact_slot_count ? static_cast<int>(team.contact_slots()[k]) : -1, lane % pair_lanes);
 }
 
-/// Of contacts of particles, and of planes.
+/// Friction in contacts of particles, and at planes.
 template <class Real>
 __device__ physics::Friction<Real> particle_friction(const ModelView<Real>& model) {
     return {model.plan.particle_friction, model.static_friction, model.particle_friction};
@@ -105,22 +105,22 @@ template <class Real, class Team>
 __device__ Real partner_weight(const ModelView<Real>& model, const Team& team, int s, int other) {
     const Real w = team.position()[other].w;
     if (!model.plan.shock_propagation) return w;
-    return w * physics::shock_factor(model.up, model.shock_propagation,
-                                     xyz(team.start()[s]) - xyz(team.start()[other]));
+    return w *
+           physics::shock_factor(model.up, model.shock_propagation, xyz(team.start()[s]) - xyz(team.start()[other]));
 }
 
-/// What a contact of this depth pushes slot s by, before its share is taken.
+/// Displacement of slot s by a contact of this depth, before its share is taken.
 template <class Real, class Team>
 __device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Team& team, int s, int other, Real depth) {
     const Vec3<Real> x = xyz(team.position()[s]), there = xyz(team.position()[other]);
-    return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model), [&] {
-        return (x - xyz(team.start()[s])) - (there - xyz(team.start()[other]));
-    });
+    return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model),
+                                 [&] { return (x - xyz(team.start()[s])) - (there - xyz(team.start()[other])); });
 }
 
 /// Calls visit(plane, distance) for the planes of a set, the last plane first; x may change between two calls.
 template <class Real, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near, const Vec3<Real>& x, const Visit& visit) {
+__device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near, const Vec3<Real>& x,
+                                    const Visit& visit) {
     if (near == 0) return;
     for (int k = model.planes - 1; k >= 0; --k)
         if (near >> k & 1) visit(model.plane[k].surface, distance_to(model.plane[k].surface, x));

@@ -37,15 +37,16 @@ void choose_device(int device) {
 
 std::optional<std::string> refusal(const Model& model) {
     if (model.particles() == 0) return "the scene has no particles; must have some";
-    if (model.planes.size() > most_planes)
-        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
+    if (model.planes.size() > max_planes)
+        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(max_planes);
     if (!make_plan(model).water) return std::nullopt;
     if (model.parameters.conserving.density_tolerance > 0) {
-        return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) + "; must be 0: a GPU has numIterations";
+        return "densityTolerance = " + number_text(model.parameters.conserving.density_tolerance) +
+               "; must be 0: a GPU has numIterations";
     }
-    if (const std::size_t borders = model.planes.size() + 2 * model.periodic.size(); borders > max_borders)
-        return std::to_string(borders) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +
-               "; must be at most " + std::to_string(max_borders) + " in scheme conserving";
+    if (const std::size_t boundaries = model.planes.size() + 2 * model.periodic.size(); boundaries > max_boundaries)
+        return std::to_string(boundaries) + (model.periodic.empty() ? " planes" : " planes and ends of periodic axes") +
+               "; must be at most " + std::to_string(max_boundaries) + " in scheme conserving";
     if (model.particles() >= 1 << max_slot_bits)
         return std::to_string(model.particles()) + " particles; must be fewer than " +
                std::to_string(1 << max_slot_bits) + " in scheme conserving";

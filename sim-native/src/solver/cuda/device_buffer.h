@@ -7,8 +7,8 @@
 
 namespace natator::cuda {
 
-/// Waits for uploads and clears, on the default stream. Not for the whole device: that is refused, and breaks what another
-/// thread is capturing, as long as it captures a graph.
+/// Waits for uploads and clears, on the default stream. Not for the whole device: that is refused, and breaks what
+/// another thread is capturing, as long as it captures a graph.
 inline void wait_for_uploads() {
     check(cudaStreamSynchronize(nullptr), "upload");
 }
@@ -23,7 +23,7 @@ struct OnDevice {
     }
     static void free(void* data, std::size_t bytes) {
         cudaFree(data);
-        DeviceMemory::give_back(bytes);
+        DeviceMemory::release(bytes);
     }
 };
 
@@ -43,7 +43,8 @@ public:
     }
     std::vector<T> download() const {
         std::vector<T> values(size());
-        if (size() > 0) check(cudaMemcpy(values.data(), data(), size() * sizeof(T), cudaMemcpyDeviceToHost), "download");
+        if (size() > 0)
+            check(cudaMemcpy(values.data(), data(), size() * sizeof(T), cudaMemcpyDeviceToHost), "download");
         return values;
     }
     void clear() {

@@ -10,19 +10,19 @@ class DeviceMemory {
 public:
     static void take(std::size_t bytes) {
         const std::size_t now = held_ += bytes;
-        for (std::size_t most = most_; most < now && !most_.compare_exchange_weak(most, now);) {
+        for (std::size_t peak = peak_; peak < now && !peak_.compare_exchange_weak(peak, now);) {
         }
     }
-    static void give_back(std::size_t bytes) { held_ -= bytes; }
+    static void release(std::size_t bytes) { held_ -= bytes; }
 
     /// What they take more than at the mark's making, at most since then. Another mark, and what other threads take,
     /// counts in: for measurements of one thing at a time.
     class Mark {
     public:
-        Mark() : before_(held_) { most_ = before_; }
-        std::size_t most() const {
-            const std::size_t most = most_;
-            return most > before_ ? most - before_ : 0;
+        Mark() : before_(held_) { peak_ = before_; }
+        std::size_t peak() const {
+            const std::size_t peak = peak_;
+            return peak > before_ ? peak - before_ : 0;
         }
 
     private:
@@ -30,7 +30,7 @@ public:
     };
 
 private:
-    inline static std::atomic<std::size_t> held_{0}, most_{0};
+    inline static std::atomic<std::size_t> held_{0}, peak_{0};
 };
 
 }  // namespace natator::cuda

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "ghost_maps.h"
+#include "ghost_transforms.h"
 #include "kernel_choice.h"
 #include "model/background_pressure.h"
-#include "model/borders.h"
+#include "model/boundaries.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
@@ -27,16 +27,16 @@ int cells_off_chip(const Model& model) {
     return 4096 + 16 * model.particles();
 }
 
-/// Particles listed by kind: position k of the result is what stands at `begin[k]` to `begin[k + 1]` of `shares`.
+/// Particles listed by kind: position k of the result is what stands at `begin[k]` to `begin[k + 1]` of `incidences`.
 struct Lists {
     std::vector<int> begin;
-    std::vector<Incidence> shares;
+    std::vector<Incidence> incidences;
     explicit Lists(const std::vector<std::vector<Incidence>>& by_particle) {
         for (const auto& list : by_particle) {
-            begin.push_back(static_cast<int>(shares.size()));
-            shares.insert(shares.end(), list.begin(), list.end());
+            begin.push_back(static_cast<int>(incidences.size()));
+            incidences.insert(incidences.end(), list.begin(), list.end());
         }
-        begin.push_back(static_cast<int>(shares.size()));
+        begin.push_back(static_cast<int>(incidences.size()));
     }
 };
 
@@ -78,7 +78,7 @@ void DeviceModel<Real>::set_constants(const Model& model) {
     view_.solid_pressure = static_cast<Real>(p.flex.solidPressure);
     view_.restitution = static_cast<Real>(p.restitution);
     view_.touching_distance = constants.collision_distance + Real(physics::touching_tolerance) * constants.radius;
-    view_.slowest_impact = 2 * static_cast<Real>(p.gravity.norm());
+    view_.min_impact_speed = 2 * static_cast<Real>(p.gravity.norm());
     view_.dissipation = static_cast<Real>(p.dissipation);
     view_.cohesion_strength = static_cast<Real>(p.cohesion) * constants.radius;
     view_.cohesion_slope = constants.cohesion_slope;
@@ -97,7 +97,7 @@ void DeviceModel<Real>::set_constants(const Model& model) {
     view_.bounded_fluid_gravity = vec3<Real>(gravity_on_walls(model) * p.buoyancy);
     view_.iterations = p.iterations;
     view_.solid_iterations = p.conserving.solid_iterations;
-    view_.most_neighbours = p.flex.maxNeighborsPerParticle;
+    view_.max_neighbours = p.flex.maxNeighborsPerParticle;
     view_.planes = static_cast<int>(model.planes.size());
     for (int k = 0; k < view_.planes; ++k) {
         const Plane& plane = model.planes[k];
@@ -147,7 +147,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.conserving.kinematic_viscosity * density);
-    water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
+    water.max_expansion_rate = static_cast<Real>(max_expansion_rate(model.parameters, solved_depth(model)));
     water.carried = background_pressure<Real>(model);
     water.kernel = physics::wendland_kernel(water.radius, static_cast<Real>(wendland(0, radius)));
     const double reach = effect_radius(model);
@@ -159,15 +159,15 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.volume = keep(volume_, volume);
     water.fluid_volume = view_.fluid > 0 ? volume.front() : 0;
 
-    const std::vector<physics::Seam<Real>> seams = seams_of<Real>(model);
-    const std::vector<physics::Border<Real>> borders = borders_of<Real>(model);
+    const std::vector<physics::PeriodicAxis<Real>> axes = periodic_axes_of<Real>(model);
+    const std::vector<physics::Boundary<Real>> boundaries = boundaries_of<Real>(model);
     water.weight_on_walls = vec3<Real>(model.parameters.buoyancy * gravity_on_walls(model));
-    water.seams = static_cast<int>(seams.size());
-    water.borders = static_cast<int>(borders.size());
-    std::copy(seams.begin(), seams.end(), water.seam);
-    std::copy(borders.begin(), borders.end(), water.border);
-    water.ghost_map = keep(ghost_map_, ghost_maps(borders));
-    water.max_copies = max_copies(borders, water.radius);
+    water.periodic_axes = static_cast<int>(axes.size());
+    water.boundaries = static_cast<int>(boundaries.size());
+    std::copy(axes.begin(), axes.end(), water.periodic_axis);
+    std::copy(boundaries.begin(), boundaries.end(), water.boundary);
+    water.ghost_transform = keep(ghost_transform_, ghost_transforms(boundaries));
+    water.max_copies = max_copies(boundaries, water.radius);
     water.grid = grid_over(model, water.radius, water.radius, cells_off_chip(model));
 }
 
@@ -188,15 +188,15 @@ void DeviceModel<Real>::set_conserving(const Model& model) {
 template <class Real>
 void DeviceModel<Real>::upload_solids(const Model& model) {
     const auto solid = [this](int i) { return number_of_[i] - view_.fluid; };
-    std::vector<std::vector<Incidence>> spring_shares(view_.solids), cluster_shares(view_.solids);
+    std::vector<std::vector<Incidence>> spring_incidences(view_.solids), cluster_incidences(view_.solids);
     std::vector<SpringView<Real>> springs;
     for (const Spring& spring : model.springs) {
         const int index = static_cast<int>(springs.size());
         const int a = solid(spring.a), b = solid(spring.b);
         if (a < 0 || b < 0) throw InputError("backend cuda: a spring on a fluid particle; must be on solids");
         springs.push_back({a, b, static_cast<Real>(spring.rest_length), physics::SpringRule<Real>(spring)});
-        spring_shares[a].push_back({index, b});
-        spring_shares[b].push_back({index, a});
+        spring_incidences[a].push_back({index, b});
+        spring_incidences[b].push_back({index, a});
     }
     std::vector<MuscleView> muscles;
     for (const Muscle& muscle : model.muscles)
@@ -215,7 +215,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
         for (std::size_t m = 0; m < cluster.particles.size(); ++m) {
             const int s = solid(cluster.particles[m]);
             if (s < 0) throw InputError("backend cuda: a cluster with a fluid particle; must be of solids");
-            cluster_shares[s].push_back({index, static_cast<int>(members.size())});
+            cluster_incidences[s].push_back({index, static_cast<int>(members.size())});
             members.push_back(s);
             if (split) {
                 const Vector3<Real>& offset = splits[index].offset[m];
@@ -231,7 +231,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     std::vector<int> body;
     for (const int i : model.body.particles) body.push_back(solid(i));
 
-    const Lists spring_lists(spring_shares), cluster_lists(cluster_shares);
+    const Lists spring_lists(spring_incidences), cluster_lists(cluster_incidences);
     view_.springs = static_cast<int>(springs.size());
     view_.muscles = static_cast<int>(muscles.size());
     view_.clusters = static_cast<int>(clusters.size());
@@ -245,15 +245,15 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     view_.member = keep(member_, members);
     view_.offset = keep(offset_, offsets);
     view_.member_mass = keep(member_mass_, masses);
-    view_.spring_shares_begin = keep(spring_shares_begin_, spring_lists.begin);
-    view_.spring_share = keep(spring_share_, spring_lists.shares);
-    view_.cluster_shares_begin = keep(cluster_shares_begin_, cluster_lists.begin);
-    view_.cluster_share = keep(cluster_share_, cluster_lists.shares);
+    view_.spring_incidences_begin = keep(spring_incidences_begin_, spring_lists.begin);
+    view_.spring_incidence = keep(spring_incidence_, spring_lists.incidences);
+    view_.cluster_incidences_begin = keep(cluster_incidences_begin_, cluster_lists.begin);
+    view_.cluster_incidence = keep(cluster_incidence_, cluster_lists.incidences);
     view_.body_particle = keep(body_particle_, body);
 }
 
 template <class Real>
-GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, Real margin, int most_cells) const {
+GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, Real margin, int max_cells) const {
     std::array<Real, 3> low{}, high{};
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::numeric_limits<Real>::max();
@@ -275,7 +275,7 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
         high[axis] += margin;
     }
     cpu::CellGrid<Real> grid;
-    grid.cover(low, high, distance, most_cells);
+    grid.cover(low, high, distance, max_cells);
     const auto box = grid.box();
     GridView<Real> view{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -288,8 +288,8 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
     return view;
 }
 
-/// The tables of the fluid's and the solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions
-/// where these do.
+/// The tables of the fluid's and the solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of
+/// positions where these do.
 template <class Real>
 int DeviceModel<Real>::cells_on_chip(const Model& model) const {
     constexpr int chip = 223 << 10, elsewhere = 1 << 20;

@@ -12,8 +12,9 @@ namespace natator::cuda {
 template <class Real>
 class DeviceModel {
 public:
-    /// At most `most_planes` planes; a grid of at most so many cells as suit blocks, or, with `whole_gpu` and for what goes either
-    /// way, the whole GPU. Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
+    /// At most `max_planes` planes; a grid of at most so many cells as suit blocks, or, with `whole_gpu` and for what
+    /// goes either way, the whole GPU. Throws InputError for springs or clusters of fluid, std::bad_alloc without
+    /// memory.
     explicit DeviceModel(const Model& model, bool whole_gpu = false);
 
     const ModelView<Real>& view() const { return view_; }
@@ -34,23 +35,23 @@ private:
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
     void set_water(const Model& model);
-    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a periodic
-    /// axis over the tank.
-    GridView<Real> grid_over(const Model& model, Real distance, Real margin, int most_cells) const;
+    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a
+    /// periodic axis over the tank.
+    GridView<Real> grid_over(const Model& model, Real distance, Real margin, int max_cells) const;
     int cells_on_chip(const Model& model) const;
 
     ModelView<Real> view_{};
     std::vector<int> number_of_, particle_of_;
     DeviceBuffer<Real> inverse_mass_, member_mass_, volume_;
-    DeviceBuffer<GhostMap<Real>> ghost_map_;
+    DeviceBuffer<GhostTransform<Real>> ghost_transform_;
     DeviceBuffer<std::uint32_t> phase_;
     DeviceBuffer<Vec3<Real>> rest_position_, offset_;
     DeviceBuffer<SpringView<Real>> spring_;
     DeviceBuffer<MuscleView> muscle_;
     DeviceBuffer<ClusterView<Real>> cluster_;
-    DeviceBuffer<int> member_, spring_shares_begin_, cluster_shares_begin_, body_particle_, free_body_begin_,
+    DeviceBuffer<int> member_, spring_incidences_begin_, cluster_incidences_begin_, body_particle_, free_body_begin_,
         free_body_particle_;
-    DeviceBuffer<Incidence> spring_share_, cluster_share_;
+    DeviceBuffer<Incidence> spring_incidence_, cluster_incidence_;
 };
 
 }  // namespace natator::cuda

@@ -13,7 +13,7 @@ public:
     Event& operator=(const Event&) = delete;
 
     void record(cudaStream_t stream = nullptr) const { check(cudaEventRecord(event_, stream), "event"); }
-    /// Both must have passed.
+    /// Seconds from another event to this one; both must have passed.
     double seconds_since(const Event& earlier) const {
         float milliseconds = 0;
         check(cudaEventElapsedTime(&milliseconds, earlier.event_, event_), "event");

@@ -5,9 +5,10 @@
 
 namespace natator::cuda {
 
-/// What one particle comes to by the laws of physics/laws.h.
+/// Measures of one particle for the laws of physics/laws.h.
 template <class Real>
-__device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int number, const Vec4<Real>& x, const Vec3<Real>& v) {
+__device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int number, const Vec4<Real>& x,
+                                            const Vec3<Real>& v) {
     physics::LawMeasures measures;
     if (!(x.w > 0)) return measures;
     const Vec3<Real>& gravity = number < model.fluid ? model.bounded_fluid_gravity : model.bounded_gravity;
@@ -20,7 +21,7 @@ __device__ physics::LawMeasures measures_of(const ModelView<Real>& model, int nu
     return measures;
 }
 
-/// How far a particle of the body is from its first one.
+/// Distance of a particle of the body from the body's first one.
 template <class Real, class Team>
 __device__ physics::LawMeasures reach_of(const ModelView<Real>& model, const Team& team, int b) {
     const auto place = [&](int k) { return xyz(team.position()[team.slot_of_solid()[model.body_particle[k]]]); };

@@ -4,7 +4,7 @@
 
 #include "natator/solver.h"
 #include "physics/background_pressure.h"
-#include "physics/border.h"
+#include "physics/boundary.h"
 #include "physics/dfsph.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"
@@ -26,7 +26,7 @@ struct GridView {
 
     static constexpr int reach_x = 4;
 
-    /// Of a table that has two counts in each, one of the fluid and one of the solids for every cell; full chunks of four.
+    /// Size of a table with two counts a word, of the fluid and of the solids, for every cell; full chunks of four.
     __host__ __device__ int words() const { return (cells + 3) / 4 * 4; }
 
     __device__ int coordinate(Real value, int axis) const {
@@ -38,15 +38,15 @@ struct GridView {
     __device__ int cell(const Vec3<Real>& x) const {
         return (coordinate(x.z, 2) * count[1] + coordinate(x.y, 1)) * count[0] + coordinate(x.x, 0);
     }
-    /// How far a value is from the row of cells `step` beside its own, -1, 0 or 1.
+    /// Distance of a value from the row of cells `step` beside its own, -1, 0 or 1.
     __device__ Real distance_to_row(Real value, int axis, int step) const {
         if (step == 0) return 0;
         const Real in_cell = (value - low[axis]) * inverse_size[axis] - static_cast<Real>(coordinate(value, axis));
         return physics::positive_part(step > 0 ? 1 - in_cell : in_cell) * size[axis];
     }
 
-    /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to the
-    /// sphere saves a third of the candidates and costs more: runs of the lanes then differ.
+    /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to
+    /// the sphere saves a third of the candidates and costs more: runs of the lanes then differ.
     template <class Visit>
     __device__ void for_each_run(const Vec3<Real>& x, const Visit& visit) const {
         const int cx = coordinate(x.x, 0), cy = coordinate(x.y, 1), cz = coordinate(x.z, 2);
@@ -99,24 +99,25 @@ struct Incidence {
     int other;  ///< spring: solid id of the other end; cluster: index of the member
 };
 
-inline constexpr int most_planes = 16;
+inline constexpr int max_planes = 16;
 
-/// x -> turn x + shift: through one or more borders, one behind the other.
+/// x -> H x + shift: takes a place to that of its ghost through one or more boundaries. H is a product of reflections,
+/// and turns vectors into those of the ghost.
 template <class Real>
-struct GhostMap {
-    Vec4<Real> row[3];  ///< of the turn; w: of the shift
+struct GhostTransform {
+    Vec4<Real> row[3];  ///< of H; w: of the shift
 };
 
-inline constexpr int max_borders = 6, max_borders_at_once = 3;
-inline constexpr int max_slot_bits = 26;   ///< the rest of 32 bits is a set of borders
+inline constexpr int max_boundaries = 6;
+inline constexpr int max_slot_bits = 26;  ///< the rest of 32 bits is a set of boundaries
 
-/// The water of scheme `conserving`. What is beyond its borders is the ghost of what is before them. A ghost is known by its
-/// particle and the set of borders that it went through, in their order: bit k for border k.
+/// The water of scheme `conserving`. A ghost is known by its particle and the set of boundaries that it went through,
+/// in their order: bit k for boundary k.
 template <class Real>
 struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
-    Real density;            ///< mass/length^3 at rest
-    Real fastest_expansion;  ///< 1/s, see physics::velocity_excess
+    Real density;                                           ///< mass/length^3 at rest
+    Real max_expansion_rate;                                ///< 1/s, see physics::velocity_excess
     Real effect_radius, cohesion_strength, cohesion_slope;  ///< of physics/water_effects.h
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
@@ -124,11 +125,11 @@ struct WaterModel {
     const Real* volume;          ///< by particle
     Vec3<Real> weight_on_walls;  ///< gravity of the fluid along axes that have ends, length/s^2
     physics::CarriedWeight<Real> carried;
-    int seams, borders;
-    physics::Seam<Real> seam[2];
-    physics::Border<Real> border[max_borders];  ///< see borders_of
-    const GhostMap<Real>* ghost_map;             ///< by set of borders
-    int max_copies;                     ///< of a particle: itself and its ghosts
+    int periodic_axes, boundaries;
+    physics::PeriodicAxis<Real> periodic_axis[2];
+    physics::Boundary<Real> boundary[max_boundaries];  ///< see boundaries_of
+    const GhostTransform<Real>* ghost_transform;       ///< by set of boundaries
+    int max_copies;                                    ///< of a particle: itself and its ghosts
 };
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
@@ -144,10 +145,10 @@ struct ModelView {
     bool local_relaxation;
     Vec3<Real> gravity, fluid_gravity;
     Vec3<Real> bounded_gravity, bounded_fluid_gravity;  ///< gravity_on_walls, and what buoyancy leaves of it
-    int iterations, solid_iterations, most_neighbours;
+    int iterations, solid_iterations, max_neighbours;
 
     // Off in the thesis, see physics/effects.h.
-    Real restitution, touching_distance, slowest_impact;  ///< the last per substep length
+    Real restitution, touching_distance, min_impact_speed;  ///< the last per substep length
     Real dissipation, cohesion_strength, cohesion_slope, gradient_estimate;
     Real adhesion, sleep_threshold, surface_tension, vorticity, free_surface_drag, shock_propagation;
     Vec3<Real> up;  ///< against gravity
@@ -158,7 +159,7 @@ struct ModelView {
 
     GridView<Real> grid;
     int planes;
-    DevicePlane<Real> plane[most_planes];
+    DevicePlane<Real> plane[max_planes];
 
     const Real* inverse_mass;         ///< by particle
     const std::uint32_t* phase;       ///< by particle
@@ -168,13 +169,13 @@ struct ModelView {
     const SpringView<Real>* spring;
     const MuscleView* muscle;
     const ClusterView<Real>* cluster;
-    const int* member;               ///< solid ids, cluster by cluster
-    const Vec3<Real>* offset;        ///< rest position minus the mean of the rest positions, by member
-    const Real* member_mass;         ///< by member, see cpu::SplitCluster; null in scheme flex
-    const int* spring_shares_begin;  ///< by solid, one more at the end
-    const Incidence* spring_share;
-    const int* cluster_shares_begin;  ///< by solid, one more at the end
-    const Incidence* cluster_share;
+    const int* member;                   ///< solid ids, cluster by cluster
+    const Vec3<Real>* offset;            ///< rest position minus the mean of the rest positions, by member
+    const Real* member_mass;             ///< by member, see cpu::SplitCluster; null in scheme flex
+    const int* spring_incidences_begin;  ///< by solid, one more at the end
+    const Incidence* spring_incidence;
+    const int* cluster_incidences_begin;  ///< by solid, one more at the end
+    const Incidence* cluster_incidence;
 
     int free_bodies;
     const int* free_body_begin;     ///< one more at the end

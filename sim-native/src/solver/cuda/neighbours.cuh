@@ -11,10 +11,10 @@ __device__ bool needs_cells(const ModelView<Real>& model) {
 }
 
 template <class Real>
-__device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass, bool fluid,
-                                     Real h) {
+__device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass,
+                                         bool fluid, Real h) {
     return physics::predicted_velocity(v, inverse_mass, fluid ? model.fluid_gravity : model.gravity, h,
-                                   model.plan.clamp_speed, model.max_speed);
+                                       model.plan.clamp_speed, model.max_speed);
 }
 
 /// Nothing is in any cell. Barriers follow before they are counted.
@@ -113,8 +113,8 @@ __device__ void scan_cells_on_chip(const ModelView<Real>& model, const Team& tea
     __syncthreads();
 }
 
-/// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the table. Ends
-/// with a barrier.
+/// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the
+/// table. Ends with a barrier.
 template <class Real, class Team>
 __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
@@ -141,8 +141,8 @@ __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     team.barrier();
 }
 
-/// The slot of the particle whose key is at place k: by how many of its cell come before it, which is the same whatever order the
-/// atomics came in.
+/// The slot of the particle whose key is at place k: by how many of its cell come before it, which is the same whatever
+/// order the atomics came in.
 template <class Real, class Team>
 __device__ int slot_of_key(const ModelView<Real>& model, const Team& team, int k) {
     if (!needs_cells(model)) return k;
@@ -190,11 +190,11 @@ __device__ void note_surroundings(const ModelView<Real>& model, const Team& team
         team.contact_count()[s] = 0;
 }
 
-/// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new place. Ends with
-/// a barrier.
+/// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new
+/// place. Ends with a barrier.
 template <class Real, class Team>
 __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
-    if (team.thread() == 0) team.shared().touched = team.shared().near = 0;
+    if (team.thread() == 0) team.shared().contact_slot_count = team.shared().near = 0;
     if (model.plan.contacts && team.thread() >= team.size() - 32)  // which has least to do
         bound_solids(model, team, team.unsorted_position());
     scatter_keys(model, team);
@@ -244,7 +244,8 @@ __device__ void for_each_candidate(const ModelView<Real>& model, const Team& tea
                                    const Visit& visit) {
     model.grid.for_each_run(x, [&](const CellRun& cells) {
         const SlotRun run = slots_in(model, team, solids, cells);
-        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, x, team.base()[other]));
+        for (int other = run.begin; other < run.end; ++other)
+            visit(other, is_near(model, x, team.predicted_position()[other]));
     });
 }
 
@@ -264,7 +265,7 @@ __device__ bool touches_fluid(const ModelView<Real>& model, int s) {
 /// Calls visit(k, slot) for what slot s is in contact with, in the order of its list; returns how many there are.
 template <class Real, class Team, class Visit>
 __device__ int search_contacts(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
-    const Vec3<Real> x = xyz(team.base()[s]);
+    const Vec3<Real> x = xyz(team.predicted_position()[s]);
     const int i = team.number()[s];
     int n = 0;
     const auto search = [&](bool solids) {
@@ -279,11 +280,11 @@ __device__ int search_contacts(const ModelView<Real>& model, const Team& team, i
     return n;
 }
 
-/// Calls visit(k, slot) for the slots near x that are wanted(slot), of the fluid first, then of the solids, in the order of their
-/// cells; returns how many there are. By a warp, each of them visited by one lane.
+/// Calls visit(k, slot) for the slots near x that are wanted(slot), of the fluid first, then of the solids, in the
+/// order of their cells; returns how many there are. By a warp, each of them visited by one lane.
 template <class Real, class Team, class Wanted, class Visit>
-__device__ int search_by_warp(const ModelView<Real>& model, const Team& team, const Vec3<Real>& x, bool in_fluid, bool in_solids,
-                              const Wanted& wanted, const Visit& visit) {
+__device__ int search_by_warp(const ModelView<Real>& model, const Team& team, const Vec3<Real>& x, bool in_fluid,
+                              bool in_solids, const Wanted& wanted, const Visit& visit) {
     constexpr unsigned all_lanes = 0xffffffff;
     constexpr int runs = GridView<Real>::runs;
     const int lane = threadIdx.x % 32;
@@ -298,7 +299,8 @@ __device__ int search_by_warp(const ModelView<Real>& model, const Team& team, co
         if (lane >= step) end += before;
     }
     const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
-    constexpr int at_once = Team::shares_slots ? 3 : 1;  // fetched before the first is looked at, where latency is what counts
+    constexpr int at_once =
+        Team::shares_slots ? 3 : 1;  // fetched before the first is looked at, where latency is what counts
     int n = 0;
     for (int first = 0; first < count; first += 32 * at_once) {
         int other[at_once];
@@ -310,7 +312,7 @@ __device__ int search_by_warp(const ModelView<Real>& model, const Team& team, co
             for (int step = 16; step > 0; step /= 2)
                 if (__shfl_sync(all_lanes, end, before + step - 1) <= k) before += step;
             other[u] = __shfl_sync(all_lanes, run.end - end, before) + k;
-            near[u] = k < count && is_near(model, x, team.base()[k < count ? other[u] : 0]);
+            near[u] = k < count && is_near(model, x, team.predicted_position()[k < count ? other[u] : 0]);
         }
 #pragma unroll
         for (int u = 0; u < at_once; ++u) {
@@ -323,12 +325,14 @@ __device__ int search_by_warp(const ModelView<Real>& model, const Team& team, co
     return n;
 }
 
-/// search_contacts by a warp. What a thread finds one after another takes a solid, which is near many, longer than all else takes.
+/// search_contacts by a warp. What a thread finds one after another takes a solid, which is near many, longer than all
+/// else takes.
 template <class Real, class Team, class Visit>
 __device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
     const int i = team.number()[s];
-    return search_by_warp(model, team, xyz(team.base()[s]), touches_fluid(model, s), true,
-                          [&](int other) { return may_touch(model, team, i, other); }, visit);
+    return search_by_warp(
+        model, team, xyz(team.predicted_position()[s]), touches_fluid(model, s), true,
+        [&](int other) { return may_touch(model, team, i, other); }, visit);
 }
 
 /// What lists the contacts of a slot.
@@ -340,17 +344,17 @@ __device__ auto contact_lister(const ModelView<Real>& model, const StateTeam<R, 
     return [=](int k, int other) { list[k * stride] = static_cast<std::uint16_t>(other); };
 }
 
-/// Its place among the slots that have contacts.
+/// Adds slot s to the slots that have contacts, and returns its place among them.
 template <class Team>
-__device__ int note_touched(const Team& team, int s) {
-    const int place = atomicAdd(&team.shared().touched, 1);
-    team.touched()[place] = static_cast<typename Team::Index>(s);
+__device__ int add_contact_slot(const Team& team, int s) {
+    const int place = atomicAdd(&team.shared().contact_slot_count, 1);
+    team.contact_slots()[place] = static_cast<typename Team::Index>(s);
     return place;
 }
 template <class Team>
 __device__ void note_contacts(const Team& team, int s, int contacts) {
     team.contact_count()[s] = static_cast<typename Team::Index>(contacts);
-    if (contacts > 0) note_touched(team, s);
+    if (contacts > 0) add_contact_slot(team, s);
 }
 
 /// Lists the contacts of a slot that may have some, by a warp.
@@ -363,7 +367,7 @@ __device__ void find_contacts_by_warp(const ModelView<Real>& model, const Team& 
 template <class Real, class Team>
 __device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Team& team, int s) {
     if (model.plan.contacts) find_contacts_by_warp(model, team, s);
-    if (threadIdx.x % 32 == 0) note_near_planes(model, team, s, team.base()[s]);
+    if (threadIdx.x % 32 == 0) note_near_planes(model, team, s, team.predicted_position()[s]);
 }
 
 /// Entry k of the list of fluid neighbours of slot s.
@@ -379,7 +383,7 @@ __device__ std::uint16_t& list_entry(const ModelView<Real>& model, const Team& t
 template <class Real, class Team>
 __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, int s, const Vec3<Real>& x) {
     std::uint16_t* const staging = team.staging() + threadIdx.x;
-    const int staged = min(team.staged(), model.most_neighbours / 8 * 8);
+    const int staged = min(team.staged(), model.max_neighbours / 8 * 8);
     const int i = model.plan.uniform_fluid ? 0 : team.number()[s];
     const auto felt = [&](int other) {
         return model.plan.uniform_fluid || collides(model, i, static_cast<int>(team.number()[other]));
@@ -399,7 +403,7 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
     if (n > staged) {
         n = 0;
         for_each_candidate(model, team, false, x, [&](int other, bool near) {
-            if (!near || n >= model.most_neighbours || !felt(other)) return;
+            if (!near || n >= model.max_neighbours || !felt(other)) return;
             list_entry(model, team, s, n) = static_cast<std::uint16_t>(other);
             ++n;
         });
@@ -408,7 +412,8 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
         for (int k = n; k % 8 != 0; ++k) staging[k * Team::threads] = beyond;
         for (int k = 0; k < n; k += 8) {
             const auto two = [&](int e) {
-                return staging[(k + e) * Team::threads] | static_cast<unsigned>(staging[(k + e + 1) * Team::threads]) << 16;
+                return staging[(k + e) * Team::threads] | static_cast<unsigned>(staging[(k + e + 1) * Team::threads])
+                                                              << 16;
             };
             team.neighbour()[static_cast<std::size_t>(k / 8) * model.fluid + s] = {two(0), two(2), two(4), two(6)};
         }
@@ -416,21 +421,20 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
     team.neighbour_count()[s] = static_cast<std::uint16_t>(n);
 }
 
-/// Lists contacts and planes of the solids of a unit: by a warp for one, or a thread for each of 32.
+/// Lists contacts and planes of the solids of a task: by a warp for one, or a thread for each of 32.
 template <class Real, class Team>
-__device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Team& team, int unit) {
-    if (team.shares_solids()) return find_neighbours_of_solid(model, team, model.fluid + unit);
-    const int s = model.fluid + unit * 32 + threadIdx.x % 32;
+__device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Team& team, int task) {
+    if (team.shares_solids()) return find_neighbours_of_solid(model, team, model.fluid + task);
+    const int s = model.fluid + task * 32 + threadIdx.x % 32;
     if (s >= model.particles) return;
-    if (model.plan.contacts)
-        note_contacts(team, s, search_contacts(model, team, s, contact_lister(model, team, s)));
-    note_near_planes(model, team, s, team.base()[s]);
+    if (model.plan.contacts) note_contacts(team, s, search_contacts(model, team, s, contact_lister(model, team, s)));
+    note_near_planes(model, team, s, team.predicted_position()[s]);
 }
 
 /// Lists contacts and planes of a fluid slot.
 template <class Real, class Team>
 __device__ void find_contacts_of_fluid(const ModelView<Real>& model, const Team& team, int s) {
-    const Vec4<Real> here = team.base()[s];
+    const Vec4<Real> here = team.predicted_position()[s];
     if (model.plan.contacts) {
         const bool searched = near_solids(team, xyz(here));
         note_contacts(team, s, searched ? search_contacts(model, team, s, contact_lister(model, team, s)) : 0);
@@ -438,24 +442,24 @@ __device__ void find_contacts_of_fluid(const ModelView<Real>& model, const Team&
     note_near_planes(model, team, s, here);
 }
 
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which take
-/// longest, then the contacts of the fluid near them. Ends with a barrier.
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which
+/// take longest, then the contacts of the fluid near them. Ends with a barrier.
 template <class Real, class Team>
 __device__ void find_neighbours(const ModelView<Real>& model, Team& team) {
     const int of_solids = team.shares_solids() ? model.solids : (model.solids + 31) / 32;
-    const int of_fluid = fluid_units(model);
-    for_each_unit(team, of_solids + of_fluid, of_fluid, [&](int unit) {
-        if (unit < of_solids) return find_neighbours_of_solids(model, team, unit);
-        const bool contacts = unit < of_solids + of_fluid;
-        const int s = fluid_slot(unit - of_solids - (contacts ? 0 : of_fluid), of_fluid);
+    const int of_fluid = fluid_tasks(model);
+    for_each_warp_task(team, of_solids + of_fluid, of_fluid, [&](int task) {
+        if (task < of_solids) return find_neighbours_of_solids(model, team, task);
+        const bool contacts = task < of_solids + of_fluid;
+        const int s = fluid_slot(task - of_solids - (contacts ? 0 : of_fluid), of_fluid);
         if (s >= model.fluid) return;
         if (contacts) return find_contacts_of_fluid(model, team, s);
-        list_fluid_neighbours(model, team, s, xyz(team.base()[s]));
+        list_fluid_neighbours(model, team, s, xyz(team.predicted_position()[s]));
     });
     team.barrier();
     if constexpr (Team::of_several_blocks) return;
-    // `next` was room for the search; its far slot is what lists end with.
-    if (team.thread() == 0) team.next()[model.particles] = far_away<Real>();
+    // `scratch_position` was room for the search; its far slot is what lists end with.
+    if (team.thread() == 0) team.scratch_position()[model.particles] = far_away<Real>();
     team.barrier();
 }
 

@@ -27,7 +27,8 @@ struct ChipSpring {
     physics::SpringRule<Real> rule;
 };
 
-/// Where an observer's view of a State is written; null where nobody looks. By slot, with the particles' numbers.
+/// Arrays that an observer's view of a State is written to; null without an observer. By slot, with the particles'
+/// numbers.
 template <class Real>
 struct Trace {
     Vec4<Real>* predicted = nullptr;  ///< [substep * particles + slot]
@@ -39,8 +40,8 @@ inline constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slo
 inline constexpr int slots_of_warp = 32 / pair_lanes;
 inline constexpr int slot_lanes = 4;  ///< threads that share a slot of the fluid, see shared_slots.cuh
 inline constexpr int shared_slots_of_warp = 32 / slot_lanes;
-inline constexpr int max_touched_on_chip = 32;  ///< slots
-inline constexpr int max_listed_on_chip = 32;  ///< neighbours of a slot, or contacts
+inline constexpr int max_contact_slots_on_chip = 32;  ///< slots
+inline constexpr int max_listed_on_chip = 32;         ///< neighbours of a slot, or contacts
 
 /// Slots one behind the other.
 struct SlotRun {
@@ -63,7 +64,7 @@ struct Stopwatch {
     }
 };
 
-/// Where in its memory a team's arrays begin, in bytes.
+/// Offsets of a team's arrays in its memory, bytes.
 struct Layout {
 #define NATATOR_OFFSET(type, name, count, place) unsigned name;
     NATATOR_TEAM_ARRAYS(NATATOR_OFFSET)
@@ -77,24 +78,24 @@ struct Layout {
 /// Numbers that all threads share which work on a State.
 template <class Real>
 struct Shared {
-    int touched;                         ///< slots that have contacts
+    int contact_slot_count;              ///< slots that have contacts
     Real solids_low[3], solids_high[3];  ///< box around the solids
 };
 
-/// The same of a team.
+/// Values that the threads of a team share.
 template <class Real>
 struct SharedByTeam : Shared<Real> {
-    int near;                             ///< slots of the fluid that may have contacts, where threads share slots
-    int flags[2];                         ///< of GridTeam::any
+    int near;                            ///< slots of the fluid that may have contacts, where threads share slots
+    int flags[2];                        ///< of GridTeam::any
     int block_sums[max_blocks_of_team];  ///< of exclusive_scan
-    unsigned ticket;                      ///< that the team works on
+    unsigned ticket;                     ///< that the team works on
     Stopwatch watch;
 };
 
 /// Numbers that the threads of one of a team's blocks share, on the chip.
 struct SharedByBlock {
-    int next_unit[2];        ///< of work that warps take as they get free, see for_each_unit
-    int sums[32];            ///< of sum_before
+    int next_task[2];  ///< of work that warps take as they get free, see for_each_warp_task
+    int sums[32];      ///< of sum_before
 };
 
 /// A team and all that it works on while it advances one State: a block that has the State on its chip, or several
@@ -116,16 +117,19 @@ public:
         if constexpr (StateTeam::of_several_blocks) this->begin(arrivals, shared().flags);
     }
 
-    /// Has each solid several threads? Solids take longest, and several blocks would wait for them; one has enough to do
-    /// meanwhile.
+    /// Has each solid several threads? Solids take longest, and several blocks would wait for them; one has enough to
+    /// do meanwhile.
     __device__ static constexpr bool shares_solids() { return StateTeam::blocks() > 1; }
 
     /// Has one block the solids, and the others the fluid? It is the last.
     __device__ bool splits_solids() const { return shares_slots || (!on_chip && at_.splits_solids); }
     __device__ bool has_solids() const { return splits_solids() && StateTeam::block() == StateTeam::blocks() - 1; }
 
-    // The threads that have springs and their lengths: of the block that has the solids, or all; other blocks call none of these.
-    __device__ int solid_thread() const { return splits_solids() ? static_cast<int>(threadIdx.x) : StateTeam::thread(); }
+    // The threads that have springs and their lengths: of the block that has the solids, or all; other blocks call none
+    // of these.
+    __device__ int solid_thread() const {
+        return splits_solids() ? static_cast<int>(threadIdx.x) : StateTeam::thread();
+    }
     __device__ int solid_threads() const { return splits_solids() ? StateTeam::threads : StateTeam::size(); }
     __device__ void solid_barrier() const {
         if (splits_solids())
@@ -144,23 +148,23 @@ public:
     __device__ Word* cell_ends() const { return shares_slots ? chip_table() : table(); }  ///< once slots are numbered
     __device__ int slots_of_block() const { return at_.slots_of_block; }
     __device__ int first_slot() const { return StateTeam::block() * at_.slots_of_block; }  ///< of this block
-    __device__ Word* keys() const { return reinterpret_cast<Word*>(next()); }  ///< while slots are numbered
+    __device__ Word* keys() const { return reinterpret_cast<Word*>(scratch_position()); }  ///< while slots are numbered
     /// While pairs are searched, entry k of a thread of this block at [k * threads + its number in the block].
-    __device__ Index* staging() const { return on_chip ? reinterpret_cast<Index*>(next()) : own_staging(); }
+    __device__ Index* staging() const { return on_chip ? reinterpret_cast<Index*>(scratch_position()) : own_staging(); }
     __device__ SharedByTeam<Real>& shared() const { return *shared_by_team(); }
     __device__ SharedByBlock& of_block() const { return *shared_by_block(); }
     __device__ void book(Stage stage) const { shared().watch.book(stage, this->thread()); }
 
     // What a substep ends with; w of the position is its inverse mass.
-    __device__ Vec4<Real>* new_velocity() const { return next_velocity(); }
+    __device__ Vec4<Real>* new_velocity() const { return scratch_velocity(); }
     __device__ Vec4<Real>* end_position() const { return position(); }
-    __device__ Vec4<Real>* base() const { return position(); }  ///< predicted, while pairs are searched
+    __device__ Vec4<Real>* predicted_position() const { return position(); }  ///< while pairs are searched
 
     __device__ int staged() const { return at_.staged; }
 
     Vec4<Real>* velocity = nullptr;  ///< of the State
     Real h = 0;                      ///< substep, s
-    int phase = 0;                   ///< of for_each_unit
+    int phase = 0;                   ///< of for_each_warp_task
 
 private:
     __device__ char* block_chip() const { return chip_; }
@@ -172,42 +176,42 @@ private:
     char* scratch_;
 };
 
-/// Calls work(unit) for the units 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block of
-/// the team has every so many-th; of the others, which lie side by side in the tank, a row. Each of its warps begins with one
-/// of them and takes more as it gets free. Every thread of the first `blocks` blocks calls it, of all if none are named; a
-/// barrier must lie between two calls.
+/// Calls work(task) for the tasks 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block
+/// of the team has every so many-th; of the others, which lie side by side in the tank, a row. Each of its warps begins
+/// with one of them and takes more as it gets free. Every thread of the first `blocks` blocks calls it, of all if none
+/// are named; a barrier must lie between two calls.
 template <class Team, class Work>
-__device__ void for_each_unit(Team& team, int blocks, int few, int many, const Work& work) {
+__device__ void for_each_warp_task(Team& team, int blocks, int few, int many, const Work& work) {
     const int own_few = (few - team.block() + blocks - 1) / blocks;
     const int row = (many + blocks - 1) / blocks;
     const int skipped = team.block() * row, own = own_few + max(min(row, many - skipped), 0);
-    int* const next_unit = team.of_block().next_unit;
+    int* const next_task = team.of_block().next_task;
     const int turn = team.phase & 1;
     team.phase ^= 1;
-    if (threadIdx.x == 0) next_unit[turn ^ 1] = 0;  // for the next call; nobody uses it any more
-    for (int unit = threadIdx.x / 32; unit < own;) {
-        work(unit < own_few ? unit * blocks + team.block() : few + skipped + unit - own_few);
+    if (threadIdx.x == 0) next_task[turn ^ 1] = 0;  // for the next call; nobody uses it any more
+    for (int task = threadIdx.x / 32; task < own;) {
+        work(task < own_few ? task * blocks + team.block() : few + skipped + task - own_few);
         if (own <= Team::warps) return;
-        if (threadIdx.x % 32 == 0) unit = Team::warps + atomicAdd(&next_unit[turn], 1);
-        unit = __shfl_sync(0xffffffff, unit, 0);
+        if (threadIdx.x % 32 == 0) task = Team::warps + atomicAdd(&next_task[turn], 1);
+        task = __shfl_sync(0xffffffff, task, 0);
     }
 }
 
 template <class Team, class Work>
-__device__ void for_each_unit(Team& team, int few, int many, const Work& work) {
-    for_each_unit(team, team.blocks(), few, many, work);
+__device__ void for_each_warp_task(Team& team, int few, int many, const Work& work) {
+    for_each_warp_task(team, team.blocks(), few, many, work);
 }
 
-/// Units of 32 slots that the fluid makes.
+/// Tasks of 32 slots that the fluid makes.
 template <class Real>
-__host__ __device__ int fluid_units(const ModelView<Real>& model) {
+__host__ __device__ int fluid_tasks(const ModelView<Real>& model) {
     return (model.fluid + 31) / 32;
 }
 
-/// This lane's slot in unit k of the fluid's, which go from the last slots to the first: 3 % faster for batches on an H100
-/// than the other way.
-__device__ inline int fluid_slot(int unit, int units) {
-    return (units - 1 - unit) * 32 + static_cast<int>(threadIdx.x) % 32;
+/// This lane's slot in task k of the fluid's, which go from the last slots to the first: 3 % faster for batches on an
+/// H100 than the other way.
+__device__ inline int fluid_slot(int task, int tasks) {
+    return (tasks - 1 - task) * 32 + static_cast<int>(threadIdx.x) % 32;
 }
 
 /// The sum over a warp, the same in all of its threads.
@@ -282,7 +286,8 @@ __device__ void exclusive_scan(const Team& team, std::uint32_t* table, int count
     if constexpr (Team::of_several_blocks) {
         team.barrier();
         unsigned of_blocks = 0;
-        for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32) of_blocks += static_cast<unsigned>(block_sums[b]);
+        for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32)
+            of_blocks += static_cast<unsigned>(block_sums[b]);
         before += sum_of_warp(of_blocks);
     }
     for (int i = begin; i < end; ++i) {

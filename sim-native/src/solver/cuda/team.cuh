@@ -4,11 +4,12 @@ namespace natator::cuda {
 
 inline constexpr int max_blocks_of_team = 144;
 
-/// The threads that advance a State: those of a block that has it on its chip, of several blocks that have it in device memory, or
-/// of so many that several threads share each slot of the fluid.
+/// The threads that advance a State: those of a block that has it on its chip, of several blocks that have it in device
+/// memory, or of so many that several threads share each slot of the fluid.
 enum class TeamKind { block, blocks, many_blocks };
 
-/// Of a block of such a team. Where blocks have little to do, fewer wait for each other, and each has more registers.
+/// Number of threads of a block in a team of several blocks. Where blocks have little to do, fewer wait for each other,
+/// and each has more registers.
 constexpr int threads_of(TeamKind kind) {
     return kind == TeamKind::many_blocks ? 512 : 1024;
 }
@@ -28,15 +29,15 @@ struct BlockTeam {
     __device__ static bool any(bool value) { return __syncthreads_or(value); }
 };
 
-/// How many blocks of a team have come so far, where others wait for them.
+/// Counts blocks of a team that have reached a point where others wait for them.
 class Arrivals {
 public:
     __device__ void begin(unsigned* count) { count_ = count; }
-    /// This block has: what its threads wrote before a barrier of the block is seen by all who wait.
+    /// Says that this block has arrived: what its threads wrote before a barrier of the block is seen by all who wait.
     __device__ void add() const {
         if (threadIdx.x == 0) asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(count_) : "memory");
     }
-    /// So many more are waited for from now on.
+    /// Raises the count that is waited for.
     __device__ void expect(int blocks) const { expected_ += static_cast<unsigned>(blocks); }
     /// A barrier of the block, too.
     __device__ void wait() const {
@@ -54,8 +55,8 @@ private:
 };
 inline constexpr int arrivals_of_team = 64;  ///< numbers of a team's Arrivals, on cache lines of their own
 
-/// The threads of several blocks, which are all on the device at a time: a row of the grid. The warps of the blocks are numbered
-/// in turn, so that little work is spread over all of them.
+/// The threads of several blocks, which are all on the device at a time: a row of the grid. The warps of the blocks are
+/// numbered in turn, so that little work is spread over all of them.
 template <TeamKind kind>
 class GridTeam {
 public:
@@ -85,7 +86,8 @@ public:
         arrive();
         if (blocks() > 1) wait();
     }
-    // The same in halves, for a block that goes on meanwhile. A wait without an arrival is for what has been waited for already, too.
+    // The same in halves, for a block that goes on meanwhile. A wait without an arrival is for what has been waited for
+    // already, too.
     __device__ void arrive() const {
         __syncthreads();
         if (blocks() == 1) return;

@@ -56,6 +56,26 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
         impulses_[i] = (given[i] + kept * impulses_[i]) / (1 + kept);
     }
     time_ = time;
+    step_ = h;
+}
+
+template <class Real>
+WaterField Coupling<Real>::field() const {
+    const Box& box = *model_.water_box;
+    WaterField field;
+    field.cells = box.cells;
+    field.cell = box.cell;
+    field.corner = box.corner;
+    field.velocity.resize(box.cells.cast<std::size_t>().prod(), Eigen::Vector3f::Zero());
+    field.density.resize(field.velocity.size(), 1);
+    if (!water_ || step_ == 0) return field;
+    const auto per_second = static_cast<float>(box.cell / step_);
+    std::size_t i = 0;
+    for (const Eigen::Vector4f& cell : water_->cells()) {
+        field.density[i] = cell[0];
+        field.velocity[i++] = per_second * cell.tail<3>();
+    }
+    return field;
 }
 
 template class Coupling<float>;

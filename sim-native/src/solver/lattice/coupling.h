@@ -9,10 +9,11 @@
 
 namespace natator::lattice {
 
-/// The water of a Model of scheme `lattice` and the particles in it, substep by substep: a substep is a step of the water. What the water
-/// gives a particle comes to it as a running mean, half of it at once, or less of a particle smaller than two cells or lighter than its water:
-/// all at once, particles of two cells swing ever more from step to step (free particles, measured: 1.02 times). Nothing of it is lost. The water is at rest
-/// at first and wherever a State's time does not go on from where the last one ended.
+/// The water of a Model of scheme `lattice` and the particles in it, substep by substep: a substep is a step of the
+/// water. What the water gives a particle comes to it as a running mean, half of it at once, or less of a particle
+/// smaller than two cells or lighter than its water: all at once, particles of two cells swing ever more from step to
+/// step (free particles, measured: 1.02 times). Nothing of it is lost. The water is at rest at first and wherever a
+/// State's time does not go on from where the last one ended.
 template <class Real>
 class Coupling {
 public:
@@ -23,8 +24,10 @@ public:
     void push(State<Real>& state, double h);
     /// The water's step, once the particles have made theirs to `time`, s.
     void follow(const State<Real>& state, double h, double time);
-    /// What is at x comes to x - by, length: a whole number of cells. The State's particles are moved by who calls this.
+    /// Moves all water by -by, length: a whole number of cells. The caller moves the State's particles.
     void shift(const Eigen::Vector3d& by);
+    /// All cells of the water; at rest before the first step.
+    WaterField field() const;
     /// The greatest speed of a particle in a substep so far, cells.
     double fastest() const { return fastest_; }
     int fastest_particle() const { return fastest_particle_; }
@@ -41,6 +44,7 @@ private:
     std::vector<Push> pushes_;
     std::vector<Eigen::Vector3d> impulses_, places_, velocities_;
     double time_ = 0;
+    double step_ = 0;  ///< the last one, s
     double fastest_ = 0;
     int fastest_particle_ = 0;
 };

@@ -25,12 +25,13 @@ public:
     void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
     void shift(const Eigen::Vector3i& by) override;
     Cell cell(const Eigen::Vector3i& at) const override;
+    std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
 
 private:
     using Array = cpu::AlignedVector<float>;
     using Populations = std::array<float, physics::lattice_populations>;
-    struct Held {
+    struct BodyCell {
         long cell;
         int cube;
         float xi[3];
@@ -41,13 +42,13 @@ private:
     long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
     View view();
     void hold(const std::vector<Cube>& cubes);
-    void tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
-    void hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
+    void update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
+    void transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
     void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void remember();
     void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
     const Populations& after_collision(long cell, const physics::LatticeRates& rates);
-    static void add(const Held& held, double x, double y, double z, std::vector<Push>& pushes);
+    static void add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int cells_[3], stride_;
     Array now_[moments], next_[moments], change_[3];
@@ -57,12 +58,12 @@ private:
         long cell;
         int x, y, z;
     };
-    std::vector<Owned> owned_;  ///< those cells
-    std::vector<int> chosen_;  ///< by cell, of this one: place in held_, -1: none
-    std::vector<float> out_;   ///< by place in held_
-    std::vector<Held> held_;   ///< cells in bodies, by cube
+    std::vector<Owned> owned_;    ///< those cells
+    std::vector<int> chosen_;     ///< by cell, of this one: place in held_, -1: none
+    std::vector<float> out_;      ///< by place in held_
+    std::vector<BodyCell> held_;  ///< cells in bodies, by cube
     bool periodic_[3];
-    std::vector<int> made_of_;      ///< by cell: place in made_, -1: none
+    std::vector<int> made_of_;  ///< by cell: place in made_, -1: none
     std::vector<Populations> made_;
     std::vector<long> made_cells_;
     std::vector<Array> rooms_;
@@ -71,7 +72,10 @@ private:
 };
 
 CpuWater::CpuWater(const Box& box, int threads)
-    : Water(box), cells_{box.cells.x(), box.cells.y(), box.cells.z()}, stride_(padded(cells_[0]) + 2 * margin), team_(threads) {
+    : Water(box),
+      cells_{box.cells.x(), box.cells.y(), box.cells.z()},
+      stride_(padded(cells_[0]) + 2 * margin),
+      team_(threads) {
     const auto size = static_cast<std::size_t>(stride_) * cells_[1] * cells_[2] + margin;
     for (Array& array : now_) array.assign(size, 0);
     for (Array& array : next_) array.assign(size, 0);
@@ -95,9 +99,10 @@ View CpuWater::view() {
     return view;
 }
 
-/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near ones the first.
+/// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near
+/// ones the first.
 void CpuWater::hold(const std::vector<Cube>& cubes) {
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         for (Array& change : change_) change[held.cell] = 0;
         row_changes_[static_cast<std::size_t>(held.cell / stride_)] = 0;
         chosen_[held.cell] = -1;
@@ -121,13 +126,19 @@ void CpuWater::hold(const std::vector<Cube>& cubes) {
                     } else if (out_[chosen_[at]] <= in.out) {
                         continue;
                     }
-                    held_[chosen_[at]] = {at, static_cast<int>(p), {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cube, in.xi), inside[0], inside[1], inside[2]};
+                    held_[chosen_[at]] = {at,
+                                          static_cast<int>(p),
+                                          {in.xi[0], in.xi[1], in.xi[2]},
+                                          velocity_in(cube, in.xi),
+                                          inside[0],
+                                          inside[1],
+                                          inside[2]};
                     out_[chosen_[at]] = in.out;
                 }
     }
 }
 
-void CpuWater::add(const Held& held, double x, double y, double z, std::vector<Push>& pushes) {
+void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes) {
     Push& push = pushes[held.cube];
     const double j[3] = {x, y, z};
     for (int a = 0; a < 3; ++a) {
@@ -136,21 +147,24 @@ void CpuWater::add(const Held& held, double x, double y, double z, std::vector<P
     }
 }
 
-/// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to the water beside them.
-void CpuWater::tell(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
-    for (const Held& held : held_) {
+/// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to
+/// the water beside them.
+void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
+    for (const BodyCell& held : held_) {
         const long at = held.cell;
         now_[0][at] += divergence_of(cubes[held.cube]);
         const float density = 1 + now_[0][at];
-        const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density, held.velocity.z - now_[3][at] / density};
+        const float by[3] = {held.velocity.x - now_[1][at] / density, held.velocity.y - now_[2][at] / density,
+                             held.velocity.z - now_[3][at] / density};
         for (int a = 0; a < 3; ++a) change_[a][at] = by[a];
         row_changes_[static_cast<std::size_t>(at / stride_)] = 1;
-        if (begun_ && owner_[at] < 0) hand_over(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
+        if (begun_ && owner_[at] < 0)
+            transfer_surplus(held, {-density * by[0], -density * by[1], -density * by[2]}, pushes);
     }
 }
 
 /// Gives a covered cell's surplus to the water beside it, or to the body where there is none.
-void CpuWater::hand_over(const Held& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
+void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
     const int here[3] = {held.x, held.y, held.z};
     long takers[physics::lattice_populations];
     float sum = 0;
@@ -162,7 +176,8 @@ void CpuWater::hand_over(const Held& held, const std::array<float, 3>& surplus, 
     }
     if (sum == 0) add(held, surplus[0], surplus[1], surplus[2], pushes);
     for (int i = 0; i < physics::lattice_populations; ++i)
-        for (int a = 0; a < 3 && takers[i] >= 0; ++a) now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
+        for (int a = 0; a < 3 && takers[i] >= 0; ++a)
+            now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
 }
 
 /// Cells that a body has left keep what they have more than it, which it was given.
@@ -175,12 +190,13 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
         int here[3];
         bool near = true;  // a body that has been put elsewhere is not pushed by what it left
         for (int a = 0; a < 3; ++a) {
-            here[a] = beside(cubes[p].x[a], at[a], cells_[a], periodic_[a]);
+            here[a] = nearest_copy(cubes[p].x[a], at[a], cells_[a], periodic_[a]);
             near = near && std::abs(static_cast<float>(here[a]) - cubes[p].x[a]) <= cubes[p].reach[a] + 1;
         }
         if (!near) continue;
         const PlaceInCube in = place_in(cubes[p], here[0], here[1], here[2]);
-        const Held left{one.cell, p, {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x, one.y, one.z};
+        const BodyCell left{one.cell, p,    {in.xi[0], in.xi[1], in.xi[2]}, velocity_in(cubes[p], in.xi), one.x,
+                            one.y,    one.z};
         const float density = 1 + now_[0][one.cell];
         add(left, density * left.velocity.x - now_[1][one.cell], density * left.velocity.y - now_[2][one.cell],
             density * left.velocity.z - now_[3][one.cell], pushes);
@@ -189,7 +205,7 @@ void CpuWater::release(const std::vector<Cube>& cubes, std::vector<Push>& pushes
 
 void CpuWater::remember() {
     owned_.clear();
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         owner_[held.cell] = held.cube;
         owned_.push_back({held.cell, held.x, held.y, held.z});
     }
@@ -199,7 +215,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     pushes.assign(cubes.size(), {});
     hold(cubes);
     release(cubes, pushes);
-    tell(cubes, pushes);
+    update_bodies(cubes, pushes);
     remember();
     begun_ = true;
 
@@ -226,15 +242,15 @@ const CpuWater::Populations& CpuWater::after_collision(long cell, const physics:
         float m[moments];
         for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
         const float density = 1 + m[0];
-        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell], m[3] / density + change_[2][cell], rates,
-                         [&](int i, float value) { f[i] = value; });
+        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell],
+                         m[3] / density + change_[2][cell], rates, [&](int i, float value) { f[i] = value; });
     }
     return made_[made_of_[cell]];
 }
 
-/// What streams between cells of bodies and of water in this step pushes the bodies.
+/// Pushes bodies by what streams between their cells and cells of water in this step.
 void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes) {
-    for (const Held& held : held_) {
+    for (const BodyCell& held : held_) {
         double j[3] = {};
         const int here[3] = {held.x, held.y, held.z};
         const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};
@@ -248,7 +264,8 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
             if (chosen_[source] >= 0) continue;
             const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
             const float out = after_collision(held.cell, rates)[opposite] - physics::moving_population(opposite, u);
-            for (int a = 0; a < 3; ++a) j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
+            for (int a = 0; a < 3; ++a)
+                j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
             any = true;
         }
         if (any) add(held, j[0], j[1], j[2], pushes);
@@ -260,7 +277,9 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
 
 void CpuWater::shift(const Eigen::Vector3i& by) {
     const Eigen::Vector3i size = box_.cells;
-    const auto inside = [&](const Eigen::Vector3i& c) { return (c.array() >= 0).all() && (c.array() < size.array()).all(); };
+    const auto inside = [&](const Eigen::Vector3i& c) {
+        return (c.array() >= 0).all() && (c.array() < size.array()).all();
+    };
     for (Array& array : now_) {
         const Array old = array;
         for (int z = 0; z < cells_[2]; ++z)
@@ -286,6 +305,19 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
 Cell CpuWater::cell(const Eigen::Vector3i& at) const {
     const long i = place(at.x(), at.y(), at.z());
     return {now_[0][i], Eigen::Vector3d(now_[1][i], now_[2][i], now_[3][i]) / (1 + now_[0][i])};
+}
+
+std::vector<Eigen::Vector4f> CpuWater::cells() const {
+    std::vector<Eigen::Vector4f> all;
+    all.reserve(box_.cells.cast<std::size_t>().prod());
+    for (int z = 0; z < box_.cells.z(); ++z)
+        for (int y = 0; y < box_.cells.y(); ++y)
+            for (int x = 0; x < box_.cells.x(); ++x) {
+                const long i = place(x, y, z);
+                const float density = 1 + now_[0][i];
+                all.emplace_back(density, now_[1][i] / density, now_[2][i] / density, now_[3][i] / density);
+            }
+    return all;
 }
 
 void CpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {

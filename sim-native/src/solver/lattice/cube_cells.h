@@ -5,7 +5,8 @@
 
 namespace natator::lattice {
 
-/// Cells around a cube. Those beyond walls are left out; those beyond periodic ends count on, but for plane flow, of one cell.
+/// Cells around a cube. Those beyond walls are left out; those beyond periodic ends count on, but for plane flow, of
+/// one cell.
 struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
@@ -16,7 +17,8 @@ NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3], const
     for (int a = 0; a < 3; ++a) {
         const float low = cube.x[a] - cube.reach[a], high = cube.x[a] + cube.reach[a];
         const bool on = periodic[a] && cells[a] > 1;
-        const float least = on ? static_cast<float>(-cells[a]) : 0, most = static_cast<float>(on ? 2 * cells[a] : cells[a]) - 1;
+        const float least = on ? static_cast<float>(-cells[a]) : 0,
+                    most = static_cast<float>(on ? 2 * cells[a] : cells[a]) - 1;
         int first = static_cast<int>(low < least ? least : low > most ? most + 1 : low);
         int last = static_cast<int>(high < least ? least - 1 : high > most ? most : high);
         if (static_cast<float>(first) < low) ++first;
@@ -32,13 +34,14 @@ NATATOR_HD int wrapped(int at, int cells) {
 }
 
 /// A cell's number as it is nearest to x, where ends are periodic.
-NATATOR_HD int beside(float x, int at, int cells, bool periodic) {
+NATATOR_HD int nearest_copy(float x, int at, int cells, bool periodic) {
     if (!periodic || cells == 1) return at;
     const float half = 0.5f * static_cast<float>(cells), d = static_cast<float>(at) - x;
     return d > half ? at - cells : d < -half ? at + cells : at;
 }
 
-/// The cell that population i streams to from this one (physics/lattice.h), inside periodic ends. False if that is this one or beyond a wall.
+/// The cell that population i streams to from this one (physics/lattice.h), inside periodic ends. False if that is this
+/// one or beyond a wall.
 NATATOR_HD bool neighbour(int i, const int (&here)[3], const int (&cells)[3], const bool (&periodic)[3], int (&to)[3]) {
     const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
     bool inside = c[0] != 0 || c[1] != 0 || c[2] != 0;
@@ -70,7 +73,8 @@ struct PlaceInCube {
     float out;
 };
 NATATOR_HD PlaceInCube place_in(const Cube& cube, int x, int y, int z) {
-    const float d[3] = {static_cast<float>(x) - cube.x[0], static_cast<float>(y) - cube.x[1], static_cast<float>(z) - cube.x[2]};
+    const float d[3] = {static_cast<float>(x) - cube.x[0], static_cast<float>(y) - cube.x[1],
+                        static_cast<float>(z) - cube.x[2]};
     PlaceInCube place{};
     for (int a = 0; a < 3; ++a) {
         place.xi[a] = scalar_product(cube.to_rest + 3 * a, d);
@@ -85,7 +89,8 @@ struct Velocity3 {
 };
 NATATOR_HD Velocity3 velocity_in(const Cube& cube, const float (&xi)[3]) {
     const float* r = cube.rate;
-    return {cube.v[0] + r[0] * xi[0] + r[1] * xi[1] + r[2] * xi[2], cube.v[1] + r[3] * xi[0] + r[4] * xi[1] + r[5] * xi[2],
+    return {cube.v[0] + r[0] * xi[0] + r[1] * xi[1] + r[2] * xi[2],
+            cube.v[1] + r[3] * xi[0] + r[4] * xi[1] + r[5] * xi[2],
             cube.v[2] + r[6] * xi[0] + r[7] * xi[1] + r[8] * xi[2]};
 }
 /// Of the cube's motion, 1/step.

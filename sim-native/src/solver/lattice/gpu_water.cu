@@ -14,7 +14,7 @@ namespace {
 
 using namespace physics;
 
-constexpr int block = 128;           ///< threads
+constexpr int block = 128;  ///< threads
 constexpr unsigned warp = 32, all = ~0u;
 constexpr int cube_words = sizeof(Cube) / sizeof(float), push_numbers = sizeof(Push) / sizeof(double);
 static_assert(cube_words <= 32 && push_numbers <= 32, "a word each of a warp's threads");
@@ -34,7 +34,9 @@ struct Lattice {
     Face faces[3][2];
     bool periodic[3];
 
-    NATATOR_HD unsigned at(int x, int y, int z) const { return (static_cast<unsigned>(z) * cells[1] + y) * cells[0] + x; }
+    NATATOR_HD unsigned at(int x, int y, int z) const {
+        return (static_cast<unsigned>(z) * cells[1] + y) * cells[0] + x;
+    }
     NATATOR_HD int inside(int axis, int at) const { return periodic[axis] ? wrapped(at, cells[axis]) : at; }
     NATATOR_HD unsigned at_inside(int x, int y, int z) const { return at(inside(0, x), inside(1, y), inside(2, z)); }
     NATATOR_HD void place(unsigned at, int (&to)[3]) const {
@@ -45,8 +47,8 @@ struct Lattice {
     }
 };
 
-/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives its surplus to its neighbours, so much by
-/// weight; it takes from such.
+/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives its surplus to its
+/// neighbours, so much by weight; it takes from such.
 struct Handover {
     enum { none, gives, takes } role;
     float surplus[3];
@@ -61,7 +63,8 @@ struct Keys {
     /// None of a cell outside.
     NATATOR_HD Key* of(int x, int y, int z) const {
         const int a = x - around.low[0], b = y - around.low[1], c = z - around.low[2];
-        if (a < 0 || b < 0 || c < 0 || a >= around.count[0] || b >= around.count[1] || c >= around.count[2]) return nullptr;
+        if (a < 0 || b < 0 || c < 0 || a >= around.count[0] || b >= around.count[1] || c >= around.count[2])
+            return nullptr;
         return data + (static_cast<unsigned>(c) * around.count[1] + b) * around.count[0] + a;
     }
     NATATOR_HD Handover& handover(const Key& key) const { return handovers[&key - data]; }
@@ -75,17 +78,19 @@ __device__ int cube_of_warp(int cubes) {
     const int cube = static_cast<int>((blockIdx.x * block + threadIdx.x) / warp);
     return cube < cubes ? cube : -1;
 }
-/// Does something with each cell around a cube, and so many beyond, by a warp's threads in turn: work(x, y, z, key), which count on beyond
-/// periodic ends.
+/// Does something with each cell around a cube, and so many beyond, by a warp's threads in turn: work(x, y, z, key),
+/// which count on beyond periodic ends.
 template <class Work>
-__device__ void each_cell_around(const Lattice& lattice, const Keys& keys, const Cube& cube, float more, const Work& work) {
+__device__ void each_cell_around(const Lattice& lattice, const Keys& keys, const Cube& cube, float more,
+                                 const Work& work) {
     Cube wide = cube;
     for (float& reach : wide.reach) reach += more;
     const CellRange range = cells_around(wide, lattice.cells, lattice.periodic);
     const unsigned size = range.size();
     for (unsigned k = threadIdx.x % warp; k < size; k += warp) {
         const unsigned row = k / range.count[0], plane = row / range.count[1];
-        const int x = range.low[0] + static_cast<int>(k - row * range.count[0]), y = range.low[1] + static_cast<int>(row - plane * range.count[1]),
+        const int x = range.low[0] + static_cast<int>(k - row * range.count[0]),
+                  y = range.low[1] + static_cast<int>(row - plane * range.count[1]),
                   z = range.low[2] + static_cast<int>(plane);
         Key* const key = keys.of(lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z));
         if (key) work(x, y, z, *key);
@@ -118,7 +123,8 @@ __device__ void load_moments(const float* populations, long count, unsigned at, 
 }
 
 /// What cells that bodies come to cover have more than those is to go to the water beside them.
-__global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count, const Owners* owners) {
+__global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count,
+                      const Owners* owners) {
     const int p = cube_of_warp(count);
     if (p < 0) return;
     const Cube& cube = cubes[p];
@@ -141,7 +147,9 @@ __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ popu
         load_moments(populations, lattice.count, at, m);
         const Velocity3 told = velocity_in(cube, place_in(cube, x, y, z).xi);
         const float density = 1 + m[0] + divergence_of(cube);
-        keys.handover(key) = {Handover::gives, {(m[1] - density * told.x) / sum, (m[2] - density * told.y) / sum, (m[3] - density * told.z) / sum}};
+        keys.handover(key) = {
+            Handover::gives,
+            {(m[1] - density * told.x) / sum, (m[2] - density * told.y) / sum, (m[3] - density * told.z) / sum}};
     });
 }
 
@@ -184,9 +192,10 @@ public:
 
 private:
     long count_;
-    float* back_;            ///< the cell itself
-    long by_[3][2];          ///< along each axis down and up: to the cell there, or to the mirrored population of the cell here
-    unsigned bounces_ = 0;   ///< bits: ends
+    float* back_;  ///< the cell itself
+    /// along each axis down and up: to the cell there, or to the mirrored population of the cell here
+    long by_[3][2];
+    unsigned bounces_ = 0;  ///< bits: ends
 };
 
 struct Put {
@@ -199,9 +208,9 @@ struct Put {
 };
 
 /// Collides and streams: a thread a cell.
-__global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeRates rates, const float* __restrict__ from,
-                                                       float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes,
-                                                       Owners* __restrict__ owners) {
+__global__ void __launch_bounds__(block)
+    advance_cells(Lattice lattice, LatticeRates rates, const float* __restrict__ from, float* __restrict__ to,
+                  Keys keys, const Cube* __restrict__ cubes, Owners* __restrict__ owners) {
     const unsigned cell = blockIdx.x * block + threadIdx.x;
     if (cell >= lattice.count) return;
     float m[lattice_moments];
@@ -217,7 +226,8 @@ __global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeR
         owners[cell] = {held ? cube_of(of_cell) : -1, owners[cell].now};
         if (held) {
             const Cube& cube = cubes[cube_of(of_cell)];
-            for (int a = 0; a < 3; ++a) place[a] = beside(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
+            for (int a = 0; a < 3; ++a)
+                place[a] = nearest_copy(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
             told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
             m[0] += divergence_of(cube);
         } else if (Handover& own = keys.handover(*key); own.role == Handover::takes) {
@@ -232,7 +242,8 @@ __global__ void __launch_bounds__(block) advance_cells(Lattice lattice, LatticeR
         }
     }
     const float inverse = 1.0f / (m[0] + 1.0f);
-    const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse, uz = held ? told.z : m[3] * inverse;
+    const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse,
+                uz = held ? told.z : m[3] * inverse;
     collide(m, ux, uy, uz, rates, Put{ways});
 }
 
@@ -247,7 +258,8 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
     each_cell_around(lattice, keys, cube, 1, [&](int x, int y, int z, Key& key) {
         const unsigned at = lattice.at_inside(x, y, z);
         const Owners own = owners[at];
-        const bool holds = own.now == p, comes = holds && begun && own.before < 0, leaves = own.now < 0 && own.before == p;
+        const bool holds = own.now == p, comes = holds && begun && own.before < 0,
+                   leaves = own.now < 0 && own.before == p;
         if (!holds && !leaves) return;
         const PlaceInCube in = place_in(cube, x, y, z);
         const Velocity3 told = velocity_in(cube, in.xi);
@@ -266,7 +278,8 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
                 if (!neighbour(opposite, here, lattice.cells, lattice.periodic, from)) continue;
                 const unsigned source = lattice.at(from[0], from[1], from[2]);
                 if (owners[source].now >= 0) continue;
-                const float in_ = after[i * cells + at] - moving_population(i, u), out = after[opposite * cells + source] - moving_population(opposite, u);
+                const float in_ = after[i * cells + at] - moving_population(i, u),
+                            out = after[opposite * cells + source] - moving_population(opposite, u);
                 for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out, static_cast<float>(c[a]), u[a]);
             }
         }
@@ -291,9 +304,9 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
     if (lane < push_numbers) to_host[p * push_numbers + lane] = own;
 }
 
-__global__ void __launch_bounds__(block) shift_cells(Lattice lattice, const float* __restrict__ from, float* __restrict__ to,
-                                                     const Owners* __restrict__ owners_from,
-                                                     Owners* __restrict__ owners_to, int x, int y, int z) {
+__global__ void __launch_bounds__(block)
+    shift_cells(Lattice lattice, const float* __restrict__ from, float* __restrict__ to,
+                const Owners* __restrict__ owners_from, Owners* __restrict__ owners_to, int x, int y, int z) {
     const unsigned cell = blockIdx.x * block + threadIdx.x;
     if (cell >= lattice.count) return;
     int place[3];
@@ -310,7 +323,19 @@ __global__ void __launch_bounds__(block) shift_cells(Lattice lattice, const floa
     owners_to[cell] = inside ? owners_from[source] : Owners{-1, -1};
 }
 
-/// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is found by kernels.
+/// Density over that at rest and velocity, cells/step, of each cell.
+__global__ void __launch_bounds__(block)
+    read_cells(Lattice lattice, const float* __restrict__ populations, float4* to) {
+    const unsigned cell = blockIdx.x * block + threadIdx.x;
+    if (cell >= lattice.count) return;
+    float m[lattice_moments];
+    load_moments(populations, lattice.count, cell, m);
+    const float density = 1 + m[0];
+    to[cell] = {density, m[1] / density, m[2] / density, m[3] / density};
+}
+
+/// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is
+/// found by kernels.
 class GpuWater : public Water {
 public:
     GpuWater(const Box& box, int device);
@@ -318,6 +343,7 @@ public:
     void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
     void shift(const Eigen::Vector3i& by) override;
     Cell cell(const Eigen::Vector3i& at) const override;
+    std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
 
 private:
@@ -338,15 +364,15 @@ private:
     Lattice lattice_;
     cuda::Stream stream_;
     cuda::DeviceBuffer<float> populations_[2];
-    cuda::DeviceBuffer<Owners> owners_[2];  ///< the second is for shifts
-    cuda::DeviceBuffer<Key> keys_;                 ///< nobody's between steps
-    cuda::DeviceBuffer<Handover> handovers_;       ///< by key; none between steps
+    cuda::DeviceBuffer<Owners> owners_[2];    ///< the second is for shifts
+    cuda::DeviceBuffer<Key> keys_;            ///< nobody's between steps
+    cuda::DeviceBuffer<Handover> handovers_;  ///< by key; none between steps
     cuda::DeviceBuffer<Cube> cubes_;
     cuda::HostBuffer<Cube> cubes_on_host_;
     cuda::HostBuffer<Push> pushes_;
     int now_ = 0;
-    bool begun_ = false;     ///< else the water in bodies begins with their velocity
-    CellRange around_{};     ///< the bodies of the last step
+    bool begun_ = false;  ///< else the water in bodies begins with their velocity
+    CellRange around_{};  ///< the bodies of the last step
 };
 
 GpuWater::GpuWater(const Box& box, int device) : Water(box), device_(device) {
@@ -395,7 +421,8 @@ Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
         keys_ = cuda::DeviceBuffer<Key>(std::min<std::size_t>(size + size / 2, lattice_.count));
         handovers_ = cuda::DeviceBuffer<Handover>(keys_.size());
         cuda::check(cudaMemsetAsync(keys_.data(), 0xff, keys_.size() * sizeof(Key), stream_.get()), "clear");
-        cuda::check(cudaMemsetAsync(handovers_.data(), 0, handovers_.size() * sizeof(Handover), stream_.get()), "clear");
+        cuda::check(cudaMemsetAsync(handovers_.data(), 0, handovers_.size() * sizeof(Handover), stream_.get()),
+                    "clear");
     }
     return {both, keys_.data(), handovers_.data()};
 }
@@ -413,16 +440,19 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     }
     if (count > 0) {
         std::ranges::copy(cubes, cubes_on_host_.data());
-        hold<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, reinterpret_cast<const float*>(cubes_on_host_.data()),
-                                                           cubes_.data(), count);
-        if (begun_) cover<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), cubes_.data(), count, owners_[0].data());
+        hold<<<blocks_of_warps, block, 0, stream_.get()>>>(
+            lattice_, keys, reinterpret_cast<const float*>(cubes_on_host_.data()), cubes_.data(), count);
+        if (begun_)
+            cover<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), cubes_.data(), count,
+                                                                owners_[0].data());
     }
     const LatticeRates rates = lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
-    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, now(), next(), keys, cubes_.data(),
-                                                                          owners_[0].data());
+    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, now(), next(), keys,
+                                                                          cubes_.data(), owners_[0].data());
     if (count > 0)
-        push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count, owners_[0].data(),
-                                                           begun_, reinterpret_cast<double*>(pushes_.data()));
+        push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count,
+                                                           owners_[0].data(), begun_,
+                                                           reinterpret_cast<double*>(pushes_.data()));
     cuda::check(cudaGetLastError(), "launch");
     now_ = 1 - now_;
     begun_ = true;
@@ -432,8 +462,8 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
 
 void GpuWater::shift(const Eigen::Vector3i& by) {
     choose();
-    shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), next(), owners_[0].data(), owners_[1].data(),
-                                                                        by.x(), by.y(), by.z());
+    shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), next(), owners_[0].data(),
+                                                                        owners_[1].data(), by.x(), by.y(), by.z());
     cuda::check(cudaGetLastError(), "launch");
     now_ = 1 - now_;
     std::swap(owners_[0], owners_[1]);
@@ -447,12 +477,26 @@ void GpuWater::shift(const Eigen::Vector3i& by) {
 Cell GpuWater::cell(const Eigen::Vector3i& place) const {
     choose();
     float f[lattice_populations], m[lattice_moments];
-    cuda::check(cudaMemcpy2DAsync(f, sizeof(float), at(place), lattice_.count * sizeof(float), sizeof(float), lattice_populations,
-                                  cudaMemcpyDeviceToHost, stream_.get()),
+    cuda::check(cudaMemcpy2DAsync(f, sizeof(float), at(place), lattice_.count * sizeof(float), sizeof(float),
+                                  lattice_populations, cudaMemcpyDeviceToHost, stream_.get()),
                 "download");
     wait();
     moments_of(f, m);
     return {m[0], Eigen::Vector3d(m[1], m[2], m[3]) / (1 + m[0])};
+}
+
+std::vector<Eigen::Vector4f> GpuWater::cells() const {
+    choose();
+    cuda::DeviceBuffer<float4> read(lattice_.count);
+    read_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), read.data());
+    cuda::check(cudaGetLastError(), "launch");
+    std::vector<Eigen::Vector4f> all(lattice_.count);
+    static_assert(sizeof(Eigen::Vector4f) == sizeof(float4));
+    cuda::check(
+        cudaMemcpyAsync(all.data(), read.data(), all.size() * sizeof(float4), cudaMemcpyDeviceToHost, stream_.get()),
+        "download");
+    wait();
+    return all;
 }
 
 void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
@@ -461,9 +505,10 @@ void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
     equilibrium(cell, m);
     const float inverse = 1 / (1 + m[0]);
     // All cumulants of a collision that keeps nothing are 0.
-    collide(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{}, [&](int i, float value) { f[i] = value; });
-    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), f, sizeof(float), sizeof(float), lattice_populations,
-                                  cudaMemcpyHostToDevice, stream_.get()),
+    collide(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{},
+            [&](int i, float value) { f[i] = value; });
+    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), f, sizeof(float), sizeof(float),
+                                  lattice_populations, cudaMemcpyHostToDevice, stream_.get()),
                 "upload");
     wait();
 }

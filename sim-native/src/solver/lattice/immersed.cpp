@@ -10,8 +10,8 @@ namespace natator::lattice {
 namespace {
 
 constexpr double min_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
-constexpr double overlap = 1.02;  ///< by this cubes that meet overlap, so that rounding leaves no gaps between them
-constexpr double spanned = 0.05;  ///< of the greatest eigenvalue, below which neighbours don't span an axis
+constexpr double overlap = 1.02;     ///< by this cubes that meet overlap, so that rounding leaves no gaps between them
+constexpr double spanned = 0.05;     ///< of the greatest eigenvalue, below which neighbours don't span an axis
 
 /// A gradient where neighbours span less than three axes, completed to a motion that is rigid across.
 Eigen::Matrix3d completed(Eigen::Matrix3d gradient, const Eigen::Matrix3d& missing, double half) {
@@ -38,9 +38,9 @@ void store(const Eigen::Matrix3d& from, float* to) {
 
 }  // namespace
 
-Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach_in_spacings,
-                   double larger)
-    : spacing_(spacing), larger_(larger), near_(rest.size()) {
+Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing,
+                   double reach_in_spacings, double extension)
+    : spacing_(spacing), extension_(extension), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
@@ -71,11 +71,11 @@ Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<i
     }
 }
 
-std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& velocities,
-                                  const Box& box, double step) const {
+std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places,
+                                  const std::vector<Eigen::Vector3d>& velocities, const Box& box, double step) const {
     std::vector<Cube> cubes(near_.size());
     const double per_step = step / box.cell;
-    const auto edge = static_cast<float>(overlap + 2 * larger_ * box.cell / spacing_);
+    const auto edge = static_cast<float>(overlap + 2 * extension_ * box.cell / spacing_);
     for (std::size_t p = 0; p < near_.size(); ++p) {
         Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
         for (const Neighbour& one : near_[p]) {
@@ -85,7 +85,8 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places, co
         shape = completed(shape, missing_[p], spacing_ / 2) / box.cell;
         Eigen::Vector3d middle = (places[p] - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
         for (int a = 0; a < 3; ++a)
-            if (box.faces[a][0] == Face::periodic && box.cells[a] > 1) middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
+            if (box.faces[a][0] == Face::periodic && box.cells[a] > 1)
+                middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
         Cube& cube = cubes[p];
         const bool crushed = !(shape.determinant() > min_volume * std::pow(spacing_ / 2 / box.cell, 3));
         if (!crushed) store(shape.inverse(), cube.to_rest);
@@ -106,7 +107,8 @@ std::vector<Eigen::Vector3d> Immersed::impulses(const std::vector<Push>& pushes,
     for (std::size_t p = 0; p < near_.size(); ++p) {
         const Push& push = pushes[p];
         impulses[p] += unit * Eigen::Vector3d(push.j[0], push.j[1], push.j[2]);
-        const Eigen::Matrix3d moment = unit * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(push.moment);
+        const Eigen::Matrix3d moment =
+            unit * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(push.moment);
         for (const Neighbour& one : near_[p]) {
             const Eigen::Vector3d given = moment * one.weight;
             impulses[one.particle] += given;

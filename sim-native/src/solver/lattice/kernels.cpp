@@ -1,4 +1,5 @@
-// Compiled once per instruction set, like ../cpu/fluid_kernels.cpp and by the same rules. physics/lattice.h has the formulas.
+// Compiled once per instruction set, like ../cpu/fluid_kernels.cpp and by the same rules. physics/lattice.h has the
+// formulas.
 #include "kernels.h"
 
 namespace natator::lattice::NATATOR_ISA {
@@ -55,7 +56,8 @@ void Planes::collide_plane(int z) const {
                 uy += load_unaligned(view_.change[1] + row + x);
                 uz += load_unaligned(view_.change[2] + row + x);
             }
-            collide(m, ux, uy, uz, rates_, [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
+            collide(m, ux, uy, uz, rates_,
+                    [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
         }
     }
 }

@@ -9,15 +9,15 @@ constexpr int margin = 16;  ///< cells before and behind a row
 
 /// Arrays of a lattice in memory: rows of cells along x, then along y, then along z.
 struct View {
-    int nx, ny, nz, stride;                ///< stride: of rows, numbers
-    bool bounces[3][2], mirrors[3][2];     ///< at the ends along x, y, z; neither: periodic
+    int nx, ny, nz, stride;             ///< stride: of rows, numbers
+    bool bounces[3][2], mirrors[3][2];  ///< at the ends along x, y, z; neither: periodic
     const float* now[physics::lattice_moments];
     float* next[physics::lattice_moments];
     const float* change[3];            ///< of the velocity, cells/step
     const unsigned char* row_changes;  ///< by row: whether there is any
 };
 
-/// In one instruction set; of float alone.
+/// Kernels of the lattice in one instruction set, in float.
 template <class Real>
 struct Kernels {
     /// A step of the planes [begin, end) along z. `room`: 3 x 27 x ny x stride numbers and 16 more.

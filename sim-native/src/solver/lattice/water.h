@@ -21,29 +21,34 @@ void equilibrium(const Cell& cell, float (&to)[17]);
 
 /// Water on a D3Q27 lattice, with bodies whose cells are told their velocity (physics/lattice.h).
 ///
-/// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's velocity. What
-/// streams in and out between its cells and the others pushes the body, which keeps its own mass and momentum (by velocities against
-/// the body's: Wen, Zhang, Tu, Wang, Fang 2014). What a cell has more than the body when it comes to lie in it goes to the water beside
-/// it; cells that the body leaves go on as water with its velocity: there are no fresh cells. No cell can give more than it holds, so a body needs no implicit
-/// coupling, whatever its density. (Direct forcing in the whole volume: Fadlun, Verzicco, Orlandi, Mohd-Yusof 2000; Uhlmann 2005.)
+/// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's
+/// velocity. What streams in and out between its cells and the others pushes the body, which keeps its own mass and
+/// momentum (by velocities against the body's: Wen, Zhang, Tu, Wang, Fang 2014). What a cell has more than the body
+/// when it comes to lie in it goes to the water beside it; cells that the body leaves go on as water with its velocity:
+/// there are no fresh cells. No cell can give more than it holds, so a body needs no implicit coupling, whatever its
+/// density. (Direct forcing in the whole volume: Fadlun, Verzicco, Orlandi, Mohd-Yusof 2000; Uhlmann 2005.)
 ///
-/// A body may widen as it bends, which the water in it must not resist: the divergence of its motion is added to the density of
-/// its cells (Gazzola, Chatelain, van Rees, Koumoutsakos 2011, section 2).
+/// A body may widen as it bends, which the water in it must not resist: the divergence of its motion is added to the
+/// density of its cells (Gazzola, Chatelain, van Rees, Koumoutsakos 2011, section 2).
 class Water {
 public:
     /// At rest.
     static std::unique_ptr<Water> on_cpu(const Box& box, int threads);
-    /// Throws NoDevice without that GPU or if this library was built without CUDA, std::bad_alloc if its memory is too small.
+    /// Throws NoDevice without that GPU or if this library was built without CUDA, std::bad_alloc if its memory is too
+    /// small.
     static std::unique_ptr<Water> on_gpu(const Box& box, int device);
     virtual ~Water() = default;
 
     const Box& box() const { return box_; }
-    /// Goes on by `step`, s, with the bodies where `cubes` says; `pushes`: what it gave each. The same bits for any number of threads.
+    /// Goes on by `step`, s, with the bodies where `cubes` says; `pushes`: what it gave each. The same bits for any
+    /// number of threads.
     virtual void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) = 0;
-    /// What is at cell i comes to i - by; what comes in is at rest.
+    /// Moves the water of each cell i to i - by; water that comes in is at rest.
     virtual void shift(const Eigen::Vector3i& by) = 0;
 
     virtual Cell cell(const Eigen::Vector3i& at) const = 0;
+    /// Density over that at rest and velocity, cells/step, of all cells, x first, then y, then z.
+    virtual std::vector<Eigen::Vector4f> cells() const = 0;
     virtual void set_cell(const Eigen::Vector3i& at, const Cell& cell) = 0;
 
 protected:

@@ -1,3 +1,3 @@
 #pragma once
-#include "natator/solver.h"
 #include "base/up.h"
+#include "natator/solver.h"

@@ -10,16 +10,16 @@ void Substep<Real>::damp_contacts() {
     const auto touch = [this](int i, int j) {
         return norm(vec3(ws_.unsorted_position[i]) - vec3(ws_.unsorted_position[j])) < constants_.solid_rest_distance;
     };
-    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
-        const int i = ws_.particle_of[ws_.touched[k]];
-        int& count = overlaps_[ws_.touched[k]];
+    for (std::size_t k = 0; k < ws_.contact_slots.size(); ++k) {
+        const int i = ws_.particle_of[ws_.contact_slots[k]];
+        int& count = overlaps_[ws_.contact_slots[k]];
         count = 0;
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c)
             count += touch(i, ws_.particle_of[ws_.contact[c]]);
         velocity_change_[i] = {};
     }
-    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
-        const int slot = ws_.touched[k];
+    for (std::size_t k = 0; k < ws_.contact_slots.size(); ++k) {
+        const int slot = ws_.contact_slots[k];
         const int i = ws_.particle_of[slot];
         const Real n = static_cast<Real>(overlaps_[slot]);
         if (model_.scheme == Scheme::flex) {
@@ -36,7 +36,7 @@ void Substep<Real>::damp_contacts() {
                 share * physics::dissipated_by_pair(both, step) * (new_velocity_[j] - new_velocity_[i]);
         }
     }
-    for (const int slot : ws_.touched) {
+    for (const int slot : ws_.contact_slots) {
         const int i = ws_.particle_of[slot];
         new_velocity_[i] += velocity_change_[i];
     }

@@ -45,8 +45,7 @@ void Substep<Real>::add_vorticity_confinement() {
         for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>& difference, Real r, Real q) {
             towards_stronger -= physics::gradient_part(norm(curl_[other]) - magnitude, difference, r, q);
         });
-        velocity_change_[ws_.particle_of[slot]] +=
-            physics::confinement(towards_stronger, curl_[slot], h_ * strength);
+        velocity_change_[ws_.particle_of[slot]] += physics::confinement(towards_stronger, curl_[slot], h_ * strength);
     }
 }
 

@@ -9,7 +9,7 @@ namespace natator::cpu {
 /// Acts along the normal only.
 template <class Real>
 void Substep<Real>::apply_adhesion() {
-    const Real most = static_cast<Real>(model_.parameters.adhesion) * h_ * h_;
+    const Real limit = static_cast<Real>(model_.parameters.adhesion) * h_ * h_;
     const Real touching = constants_.collision_distance + Real(physics::touching_tolerance) * constants_.radius;
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
         const Vec3<Real> normal = vec3<Real>(model_.planes[plane].normal.template cast<Real>());
@@ -20,7 +20,7 @@ void Substep<Real>::apply_adhesion() {
             const Vec3<Real> x = position_of_slot(slot);
             const Real left = dot(normal, x) + offset - constants_.collision_distance;
             if (!(left > 0)) continue;
-            const Real back = physics::taken_back(left, most);
+            const Real back = physics::taken_back(left, limit);
             ws_.position.set(slot, x - back * normal);
             new_velocity_[i] -= back / h_ * normal;
         }
@@ -39,8 +39,8 @@ void Substep<Real>::apply_restitution() {
             const int slot = block * lanes + std::countr_zero(rest);
             if (dot(normal, position_of_slot(slot)) + plane.offset > touching) continue;
             const int i = ws_.particle_of[slot];
-            const Real missing = physics::rebound_speed(normal, vec3(ws_.unsorted_velocity[i]), new_velocity_[i],
-                                                        restitution, slowest);
+            const Real missing =
+                physics::rebound_speed(normal, vec3(ws_.unsorted_velocity[i]), new_velocity_[i], restitution, slowest);
             if (missing > 0) new_velocity_[i] += missing * normal;
         }
     });

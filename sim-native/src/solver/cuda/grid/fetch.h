@@ -2,7 +2,7 @@
 
 namespace natator::cuda {
 
-/// What a pass over the pairs of the water reads at a neighbour's slot.
+/// Data that a pass over the pairs of the water reads at a neighbour's slot.
 enum class Fetch { velocities, impulses };
 
 }  // namespace natator::cuda

@@ -44,7 +44,7 @@ void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
 
 template <class Real>
 GridMemory<Real>::GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states,
-                               const LargeOptions& options, cudaStream_t stream)
+                             const GridOptions& options, cudaStream_t stream)
     : model_(model),
       device_model_(device_model),
       view_(device_model.view()),
@@ -69,14 +69,20 @@ template <class Real>
 void GridMemory<Real>::allocate(bool keeps_forces) {
     const ModelView<Real>& size = view_;
     const Plan& plan = size.plan;
-    const bool turns = size.scheme != Scheme::flex;
+    const bool conserving = size.scheme != Scheme::flex;
     const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
     if (plan.contacts && plan.fluid) slots_.room.fluid_rows = std::min(size.fluid, fluid_around_a_solid * size.solids);
     // Water touches nothing: only its solids are in contacts.
-    const std::size_t touched = plan.water ? size.solids : all, not_in_water = plan.water ? 0 : all;
+    const std::size_t contact_slots = plan.water ? size.solids : all, not_in_water = plan.water ? 0 : all;
     const struct {
-        std::size_t next, unsorted, touched, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts;
-    } room{not_in_water, not_in_water, touched, not_in_water, std::size_t(2) * size.grid.cells, 0,
+        std::size_t scratch_position, unsorted, contact_slots, neighbour_counts, cells, neighbours, fluid_contacts,
+            solid_contacts;
+    } room{not_in_water,
+           not_in_water,
+           contact_slots,
+           not_in_water,
+           std::size_t(2) * size.grid.cells,
+           0,
            std::size_t(slots_.room.fluid_rows) * slots_.room.fluid,
            plan.contacts ? std::size_t(size.solids) * slots_.room.solid : 0};
     std::vector<std::pair<void**, std::size_t>> places;
@@ -86,7 +92,7 @@ void GridMemory<Real>::allocate(bool keeps_forces) {
         places.emplace_back(reinterpret_cast<void**>(&array), bytes);
         bytes += (count * sizeof *array + alignment - 1) / alignment * alignment;
     };
-#define NATATOR_GIVE(type, name, count, ...) give(slots_.at.name, count);
+#define NATATOR_GIVE(type, name, count, ...) give(slots_.arrays.name, count);
     NATATOR_STATE_ARRAYS(NATATOR_GIVE)
 #undef NATATOR_GIVE
 #define NATATOR_GIVE(type, name, count) give(slots_.water.name, count);
@@ -97,24 +103,24 @@ void GridMemory<Real>::allocate(bool keeps_forces) {
     for (const auto& [array, place] : places) *array = memory_.data() + place;
     if (plan.water) share_places();
     slots_.stride = bytes;
-    shared_ = DeviceBuffer<LargeShared<Real>>(states_);
-    slots_.at.shared = shared_.data();
+    shared_ = DeviceBuffer<GridShared<Real>>(states_);
+    slots_.arrays.shared = shared_.data();
     device_idle_ = DeviceBuffer<int>(idle_);
-    slots_.at.idle = device_idle_.data();
+    slots_.arrays.idle = device_idle_.data();
     scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), states_));
-    if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
+    if (plan.fluid) make_room_in_fluid(std::min(size.max_neighbours, usual_neighbours));
 }
 
-/// What the water needs for a part of a substep lies where something else does in another. Only solids are touched, whose slots come
-/// last.
+/// What the water needs for a part of a substep lies where something else does in another. Only solids have contacts,
+/// whose slots come last.
 template <class Real>
 void GridMemory<Real>::share_places() {
-    StateArrays<Real>& at = slots_.at;
+    StateArrays<Real>& arrays = slots_.arrays;
     WaterArrays<Real>& water = slots_.water;
-    at.unsorted_position = water.pushed;
-    at.unsorted_velocity = water.zeroth_order_correction = water.crowding;
-    at.next = water.parting;
-    at.contact_push -= view_.fluid;
+    arrays.unsorted_position = water.pushed;
+    arrays.unsorted_velocity = water.zeroth_order_correction = water.crowding;
+    arrays.scratch_position = water.separation;
+    arrays.contact_push -= view_.fluid;
 }
 
 /// Lists with so many rows, or none. Without the memory for them nothing has changed, but that the old ones are gone.
@@ -153,7 +159,7 @@ template <class Real>
 void GridMemory<Real>::make_room_in_fluid(int neighbours) {
     slots_.chunks = (neighbours + 3) / 4;
     slots_.list_chunks = static_cast<std::size_t>(blocks_for(view_.fluid, 32)) * 32 * slots_.chunks;
-    renew(chunk_room_, slots_.list_chunks * states_, slots_.at.neighbour);
+    renew(chunk_room_, slots_.list_chunks * states_, slots_.arrays.neighbour);
 }
 
 template <class Real>
@@ -163,7 +169,7 @@ void GridMemory<Real>::make_room(ListRoom needed) {
     if (view_.plan.water)
         list_water(needed.lists);
     else
-        make_room_in_fluid(std::min(needed.lists, view_.most_neighbours));
+        make_room_in_fluid(std::min(needed.lists, view_.max_neighbours));
 }
 
 template <class Real>
@@ -171,9 +177,9 @@ void GridMemory<Real>::keep_before() const {
     const auto keep = [&](const auto& to, const auto* from, std::size_t count) {
         copy_rows(to.data(), count * sizeof *from, from, slots_.stride, count, states_, stream_);
     };
-    keep(before_.position, slots_.at.state_position, view_.particles);
-    keep(before_.velocity, slots_.at.state_velocity, view_.particles);
-    keep(before_.fit, slots_.at.fit, view_.clusters);
+    keep(before_.position, slots_.arrays.state_position, view_.particles);
+    keep(before_.velocity, slots_.arrays.state_velocity, view_.particles);
+    keep(before_.fit, slots_.arrays.fit, view_.clusters);
 }
 
 template <class Real>
@@ -182,9 +188,9 @@ void GridMemory<Real>::restore_before(int k) const {
     const auto restore = [&](auto* to, const auto& from, std::size_t count) {
         copy_row(to, from.data() + k * count, count, stream_);
     };
-    restore(slots.at.state_position, before_.position, view_.particles);
-    restore(slots.at.state_velocity, before_.velocity, view_.particles);
-    restore(slots.at.fit, before_.fit, view_.clusters);
+    restore(slots.arrays.state_position, before_.position, view_.particles);
+    restore(slots.arrays.state_velocity, before_.velocity, view_.particles);
+    restore(slots.arrays.fit, before_.fit, view_.clusters);
 }
 
 template <class Real>
@@ -212,11 +218,11 @@ void GridMemory<Real>::upload(int k, const State<Real>& state) const {
     std::vector<int> slot_of_solid(view_.solids);
     for (std::size_t s = 0; s < slot_of_solid.size(); ++s) slot_of_solid[s] = view_.fluid + static_cast<int>(s);
     const Slots<Real> slots = slots_.state(k);
-    const StateArrays<Real>& at = slots.at;
-    copy_row(at.state_position, position.data(), particles, stream_);
-    copy_row(at.state_velocity, velocity.data(), particles, stream_);
-    copy_row(at.fit, fits.data(), fits.size(), stream_);
-    copy_row(at.slot_of_solid, slot_of_solid.data(), slot_of_solid.size(), stream_);
+    const StateArrays<Real>& arrays = slots.arrays;
+    copy_row(arrays.state_position, position.data(), particles, stream_);
+    copy_row(arrays.state_velocity, velocity.data(), particles, stream_);
+    copy_row(arrays.fit, fits.data(), fits.size(), stream_);
+    copy_row(arrays.slot_of_solid, slot_of_solid.data(), slot_of_solid.size(), stream_);
     wait();
 }
 
@@ -226,10 +232,10 @@ State<Real> GridMemory<Real>::download(int k, const State<Real>& like) const {
     std::vector<Vec4<Real>> position(particles), velocity(particles);
     std::vector<ClusterFit<Real>> fits(view_.clusters);
     const Slots<Real> slots = slots_.state(k);
-    const StateArrays<Real>& at = slots.at;
-    copy_row(position.data(), at.state_position, particles, stream_);
-    copy_row(velocity.data(), at.state_velocity, particles, stream_);
-    copy_row(fits.data(), at.fit, fits.size(), stream_);
+    const StateArrays<Real>& arrays = slots.arrays;
+    copy_row(position.data(), arrays.state_position, particles, stream_);
+    copy_row(velocity.data(), arrays.state_velocity, particles, stream_);
+    copy_row(fits.data(), arrays.fit, fits.size(), stream_);
     wait();
     State<Real> state = like;
     state.position = by_particle(device_model_, position.data(), velocity.data());

@@ -12,8 +12,8 @@ namespace natator::cuda {
 /// Whether the water's neighbours are listed.
 enum class WaterLists { always, where_they_fit, never };
 
-/// What a large State is to have.
-struct LargeOptions {
+/// Options of the memory for the States of a grid.
+struct GridOptions {
     ContactRoom room{32, 256};
     bool keeps_forces = false;  ///< the impulses on solids
     WaterLists lists = WaterLists::where_they_fit;
@@ -25,14 +25,14 @@ class GridMemory {
 public:
     /// `device_model` is the copy of `model`; both must outlive it. All copies are asked of `stream`. Throws
     /// std::bad_alloc without memory for so many States.
-    GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const LargeOptions& options,
-                cudaStream_t stream);
+    GridMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const GridOptions& options,
+               cudaStream_t stream);
 
-    /// Where everything lies: until the next make_room.
+    /// Pointers to all arrays; valid until the next make_room.
     const Slots<Real>& slots() const { return slots_; }
     void* scan_room() const { return scan_room_.data(); }
 
-    /// What lists have room for.
+    /// Room in the lists.
     ListRoom room() const { return view_.plan.water ? slots_.water_room : ListRoom{.lists = 4 * slots_.chunks}; }
     bool has_room(ListRoom needed) const {
         return (needed.lists <= room().lists || !has_lists()) && needed.copies <= room().copies;
@@ -72,7 +72,7 @@ private:
     cudaStream_t stream_;
     Slots<Real> slots_{};
     DeviceBuffer<char> memory_, scan_room_;
-    DeviceBuffer<LargeShared<Real>> shared_;
+    DeviceBuffer<GridShared<Real>> shared_;
     DeviceBuffer<uint4> chunk_room_;
     DeviceBuffer<std::uint64_t> key_room_;
     DeviceBuffer<Vec4<Real>> candidate_room_;

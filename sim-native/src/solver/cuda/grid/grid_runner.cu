@@ -20,9 +20,9 @@ struct GridRunner<Real>::Graph {
 namespace {
 
 /// What a stream was asked for while it captured.
-struct Captured {
+struct CapturedGraph {
     cudaGraph_t graph = nullptr;
-    ~Captured() {
+    ~CapturedGraph() {
         if (graph) cudaGraphDestroy(graph);
     }
 };
@@ -30,7 +30,7 @@ struct Captured {
 }  // namespace
 
 template <class Real>
-GridRunner<Real>::GridRunner(const Model& model, int states, const LargeOptions& options)
+GridRunner<Real>::GridRunner(const Model& model, int states, const GridOptions& options)
     : host_model_(model),
       device_model_(model, true),
       base_{.model = device_model_.view(),
@@ -108,8 +108,8 @@ void GridRunner<Real>::set_muscles(const Update& update) {
 }
 
 template <class Real>
-LargeLaunch<Real> GridRunner<Real>::launch_of(const Update& update, int substep) const {
-    LargeLaunch<Real> launch = base_;
+GridLaunch<Real> GridRunner<Real>::launch_of(const Update& update, int substep) const {
+    GridLaunch<Real> launch = base_;
     launch.slots.substep = substep;
     launch.slots.h = static_cast<Real>(update.time_step) / static_cast<Real>(update.substeps);
     launch.slots.rest_lengths = device_rest_lengths_.data() + std::size_t(substep + 1) * base_.model.springs;
@@ -120,13 +120,14 @@ LargeLaunch<Real> GridRunner<Real>::launch_of(const Update& update, int substep)
 /// The first substeps of an update, whose rest lengths are there.
 template <class Real>
 void GridRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
-                                        const Trace<Real>& trace) const {
-    check(cudaMemsetAsync(base_.slots.at.shared, 0xff, base_.states * sizeof(LargeShared<Real>), base_.stream), "clear");
+                                       const Trace<Real>& trace) const {
+    check(cudaMemsetAsync(base_.slots.arrays.shared, 0xff, base_.states * sizeof(GridShared<Real>), base_.stream),
+          "clear");
     if (base_.keeps_forces)
         clear_rows(base_.slots.water.impulse_on, base_.slots.stride, base_.model.solids, base_.states, base_.stream);
     if (clock) clock->mark(Stage::load);
     for (int k = 0; k < substeps; ++k) {
-        LargeLaunch<Real> substep = launch_of(update, k);
+        GridLaunch<Real> substep = launch_of(update, k);
         substep.clock = clock;
         substep.trace = trace;
         launch_substep(substep);
@@ -142,7 +143,7 @@ void GridRunner<Real>::launch(const Update& update, StageClock* clock, const Tra
     launch_substeps(update, update.substeps, clock, trace);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
-    copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
+    copy_row(end_.data(), base_.slots.arrays.shared, base_.states, base_.stream);
     if (clock) clock->mark(Stage::measure);
 }
 
@@ -150,7 +151,7 @@ template <class Real>
 cudaGraphExec_t GridRunner<Real>::graph_of(const Update& update) {
     std::unique_ptr<Graph>& known = graphs_[{update.time_step, update.substeps, update.settling}];
     if (known) return known->exec;
-    Captured captured;
+    CapturedGraph captured;
     check(cudaStreamBeginCapture(base_.stream, cudaStreamCaptureModeThreadLocal), "capture");
     try {
         launch(update, nullptr, {});
@@ -198,7 +199,7 @@ typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
 
 template <class Real>
 std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& update, StageProfile* profile,
-                                                                    const Trace<Real>& trace) {
+                                                                  const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
     for (;;) {
@@ -210,7 +211,8 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
             check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
         wait();
         if (had_room()) break;
-        for (int k = 0; k < base_.states; ++k) memory_.restore_before(k);  // and once more, with room for all neighbours
+        for (int k = 0; k < base_.states; ++k)
+            memory_.restore_before(k);  // and once more, with room for all neighbours
     }
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;
@@ -238,7 +240,7 @@ void GridRunner<Real>::go_to(int k, int substep, const Update& update) {
 template <class Real>
 std::vector<typename GridRunner<Real>::Place> GridRunner<Real>::places() {
     launch_measure(base_);
-    copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
+    copy_row(end_.data(), base_.slots.arrays.shared, base_.states, base_.stream);
     wait();
     std::vector<Place> places;
     for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z, laws_of(k)});
@@ -274,7 +276,7 @@ template <class Real>
 std::vector<Real> GridRunner<Real>::pressures(Real h) const {
     if (!base_.model.plan.water) return {};
     const DeviceBuffer<Real> pressures(std::size_t(base_.states) * base_.model.fluid);
-    LargeLaunch<Real> launch = base_;
+    GridLaunch<Real> launch = base_;
     launch.slots.h = h;
     launch_pressures(launch, pressures.data());
     wait();

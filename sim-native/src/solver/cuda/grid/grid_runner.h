@@ -22,7 +22,7 @@ template <class Real>
 class GridRunner {
 public:
     /// Throws std::bad_alloc without memory for so many States.
-    explicit GridRunner(const Model& model, int states = 1, const LargeOptions& options = {});
+    explicit GridRunner(const Model& model, int states = 1, const GridOptions& options = {});
     ~GridRunner();
     GridRunner(const GridRunner&) = delete;
     GridRunner& operator=(const GridRunner&) = delete;
@@ -31,7 +31,8 @@ public:
     int states() const { return base_.states; }
     bool keeps_forces() const { return base_.keeps_forces; }
 
-    /// What lists have room for, and makes it for at least so much. An update that finds more does so by itself, but is done twice then.
+    /// What lists have room for, and makes it for at least so much. An update that finds more does so by itself, but is
+    /// done twice then.
     ListRoom room() const { return memory_.room(); }
     void make_room(ListRoom room);
 
@@ -53,7 +54,7 @@ public:
         double tail_z = 0;                      ///< of its last slice
         double muscle_work = 0;                 ///< in the update, see Solver::muscle_work; none in scheme flex
         bool touches_plane = false;
-        physics::LawMeasures laws{};            ///< of particles by device number
+        physics::LawMeasures laws{};  ///< of particles by device number
     };
     /// States that updates leave as they are.
     void set_idle(const std::vector<bool>& idle) { memory_.set_idle(idle); }
@@ -82,15 +83,16 @@ public:
     std::vector<int> neighbour_counts() const;
     /// Of the fluid in the last substep, of length h (s), likewise, mass/(length s^2); empty in scheme flex.
     std::vector<Real> pressures(Real h) const;
-    /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless kept.
+    /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless
+    /// kept.
     std::vector<Vec4<Real>> impulses_on_solids() const;
-    /// What a launch takes that only reads, for all States, what a pass over the pairs of the water reads; the least of some,
-    /// s. For measurements, after an update.
+    /// What a launch takes that only reads, for all States, what a pass over the pairs of the water reads; the least of
+    /// some, s. For measurements, after an update.
     double fetch_seconds(Fetch what) const;
 
 private:
     bool had_room();
-    LargeLaunch<Real> launch_of(const Update& update, int substep) const;
+    GridLaunch<Real> launch_of(const Update& update, int substep) const;
     void launch_substeps(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
     void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
     cudaGraphExec_t graph_of(const Update& update);
@@ -103,14 +105,15 @@ private:
     const Model& host_model_;
     DeviceModel<Real> device_model_;
     Stream stream_;
-    LargeLaunch<Real> base_;
+    GridLaunch<Real> base_;
     GridMemory<Real> memory_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.
-    HostBuffer<Real> rest_lengths_;  ///< [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
-    HostBuffer<LargeShared<Real>> end_;  ///< by State
+    /// [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
+    HostBuffer<Real> rest_lengths_;
+    HostBuffer<GridShared<Real>> end_;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;
 };
 

@@ -18,8 +18,8 @@ __device__ bool left_out(const Slots<Real>& slots) {
     return states == Of::running && slots.failed();
 }
 
-// The kernels of a large State are these three: what they do is a device function. The y of the grid is the State's number.
-// Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
+// The kernels of the whole grid are these three: what they do is a device function. The y of the grid is the State's
+// number. Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
 
 /// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.
 template <auto work, Of which, int lanes, int block, int min_blocks, class Real, class... More>
@@ -33,9 +33,8 @@ __global__ void __launch_bounds__(block, min_blocks)
 
 /// The same by a grid of any size, in States that have some density far above rest.
 template <auto work, Of which, int lanes, int block, class Real>
-__global__ void __launch_bounds__(block)
-    for_each_crowded_slot(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
-                          int count) {
+__global__ void __launch_bounds__(block) for_each_crowded_slot(const __grid_constant__ ModelView<Real> model,
+                                                               const __grid_constant__ Slots<Real> states, int count) {
     const Slots<Real> slots = states.state(blockIdx.y);
     if (left_out<which>(slots) || !slots.shared().high) return;
     const int step = static_cast<int>(gridDim.x * blockDim.x) / lanes;

@@ -14,9 +14,9 @@ struct PairGradient {
     __device__ Vec3<Real> value() const { return xyz(kept); }
 };
 
-/// Eight bytes for twelve, as every pass of the water waits for them: three integers of 19 bits, and the binary exponent of
-/// the largest component in 7. Each is within 2^-18 of the largest component, and those of -G_ij are the opposite, which keeps
-/// the momentum.
+/// Eight bytes for twelve, as every pass of the water waits for them: three integers of 19 bits, and the binary
+/// exponent of the largest component in 7. Each is within 2^-18 of the largest component, and those of -G_ij are the
+/// opposite, which keeps the momentum.
 template <>
 struct PairGradient<float> {
     uint2 kept;
@@ -28,7 +28,7 @@ struct PairGradient<float> {
         const unsigned upper = static_cast<unsigned>(exponent) << 25;
         const float one = unit(upper), to_integer = __uint_as_float((254u << 23) - __float_as_uint(one));  // 1 / one
         const auto whole = [&](float component) {
-            return fminf(fmaxf(__fmaf_rn(component, to_integer, zero), zero - most), zero + most);
+            return fminf(fmaxf(__fmaf_rn(component, to_integer, zero), zero - max_integer), zero + max_integer);
         };
         const Vec3<float> integer{whole(gradient.x), whole(gradient.y), whole(gradient.z)};
         gradient = {(integer.x - zero) * one, (integer.y - zero) * one, (integer.z - zero) * one};
@@ -38,12 +38,14 @@ struct PairGradient<float> {
 
     __device__ Vec3<float> value() const {
         const float one = unit(kept.y);
-        return {component(kept.x, one), component(__funnelshift_r(kept.x, kept.y, 19), one), component(kept.y >> 6, one)};
+        return {component(kept.x, one), component(__funnelshift_r(kept.x, kept.y, 19), one),
+                component(kept.y >> 6, one)};
     }
 
 private:
-    static constexpr int most = (1 << 18) - 1;
-    static constexpr float zero = (1 << 23) + (1 << 18);  ///< what stands for 0: floats of 2^23 and more have no fraction
+    static constexpr int max_integer = (1 << 18) - 1;
+    /// what stands for 0: floats of 2^23 and more have no fraction
+    static constexpr float zero = (1 << 23) + (1 << 18);
     static constexpr int min_exponent = 40;  // of 2^-87
 
     /// What the integers count: 2^-17 of the power of two at or below the largest component. Of the upper word.

@@ -21,8 +21,8 @@ constexpr int sums_stride(int count) {
 
 using BlockScan = cub::BlockScan<int, scan_threads>;
 
-/// Replaces the values of one tile, from `first` on, by `before` and the sums of all before each in it. Returns the sum of
-/// all of them, to every thread. Arrays begin at multiples of 16 bytes.
+/// Replaces the values of one tile, from `first` on, by `before` and the sums of all before each in it. Returns the sum
+/// of all of them, to every thread. Arrays begin at multiples of 16 bytes.
 __device__ int scan_tile(BlockScan::TempStorage& storage, int* values, int count, int first, int before) {
     int items[scan_items];
     const int begin = first + static_cast<int>(threadIdx.x) * scan_items;
@@ -68,10 +68,12 @@ __global__ void __launch_bounds__(scan_threads) scan_tiles(int* values, int coun
 }
 
 /// Once these are scanned: adds to each tile what is before it.
-__global__ void __launch_bounds__(scan_threads) add_before(int* values, int count, std::size_t stride, const int* sums) {
+__global__ void __launch_bounds__(scan_threads)
+    add_before(int* values, int count, std::size_t stride, const int* sums) {
     const int before = sums[blockIdx.y * sums_stride(count) + blockIdx.x];
     const int begin = static_cast<int>(blockIdx.x) * tile, end = min(begin + tile, count);
-    for (int k = begin + static_cast<int>(threadIdx.x); k < end; k += scan_threads) array_of(values, stride)[k] += before;
+    for (int k = begin + static_cast<int>(threadIdx.x); k < end; k += scan_threads)
+        array_of(values, stride)[k] += before;
 }
 
 }  // namespace

@@ -15,19 +15,19 @@ inline int blocks_for(int count, int threads_of_block) {
     return (count + threads_of_block - 1) / threads_of_block;
 }
 
-/// What the stages of large States, side by side, are launched with.
+/// What the stages of States side by side on the grid are launched with.
 template <class Real>
-struct LargeLaunch {
+struct GridLaunch {
     ModelView<Real> model;
     Slots<Real> slots;
     int states;  ///< side by side
     void* scan_room;
     cudaStream_t stream;
-    Trace<Real> trace;        ///< null where nobody looks
+    Trace<Real> trace;            ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
     bool keeps_forces = false;    ///< sums the impulses of the water on solids
 
-    /// Of blocks for each State.
+    /// A grid with so many blocks for each State.
     dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
 
     /// Threads of a block, at most `block`, where so many are needed for a State: few where that is all, so that every
@@ -49,7 +49,8 @@ struct LargeLaunch {
     void each_particle() const {
         each_slot<work, 1, grid_threads, min_blocks>(model.particles);
     }
-    /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many slots there are.
+    /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many
+    /// slots there are.
     template <auto work, int lanes>
     void each_crowded_slot(int count) const {
         constexpr int filling = 2048;
@@ -61,8 +62,7 @@ struct LargeLaunch {
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.
     template <auto work, int block = grid_threads, int min_blocks = 0, class... More>
     void each_state(int blocks, More... more) const {
-        for_each_state<work, Of::running, block, min_blocks>
-            <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
+        for_each_state<work, Of::running, block, min_blocks><<<grid(blocks), block, 0, stream>>>(model, slots, more...);
     }
     /// Has a block so many bytes on its chip?
     static bool has_room_on_chip(unsigned bytes) {
@@ -100,13 +100,9 @@ struct LargeLaunch {
     }
 
     /// Sets a table of each State to 0.
-    void clear(int* table, int count) const {
-        clear_rows(table, slots.stride, count, states, stream);
-    }
+    void clear(int* table, int count) const { clear_rows(table, slots.stride, count, states, stream); }
     /// Replaces its counts by the sums of all before each.
-    void add_up(int* table, int count) const {
-        exclusive_scan(table, count, states, slots.stride, scan_room, stream);
-    }
+    void add_up(int* table, int count) const { exclusive_scan(table, count, states, slots.stride, scan_room, stream); }
 
     void mark(Stage stage) const {
         if (clock) clock->mark(stage);
@@ -115,55 +111,56 @@ struct LargeLaunch {
 
 /// Launches the stages of substep `slots.substep`.
 template <class Real>
-void launch_substep(const LargeLaunch<Real>& launch);
+void launch_substep(const GridLaunch<Real>& launch);
 template <class Real, Scheme scheme>
-void launch_substep_of(const LargeLaunch<Real>& launch);
-/// Of water, in scheme conserving.
+void launch_substep_of(const GridLaunch<Real>& launch);
+/// A substep of scheme conserving without lists of the water's neighbours.
 template <class Real>
-void launch_substep_without_lists(const LargeLaunch<Real>& launch);
+void launch_substep_without_lists(const GridLaunch<Real>& launch);
 
 template <class Real, Scheme scheme>
-void launch_predict(const LargeLaunch<Real>& launch);
+void launch_predict(const GridLaunch<Real>& launch);
 template <class Real>
-void launch_sort_into_cells(const LargeLaunch<Real>& launch);
+void launch_sort_into_cells(const GridLaunch<Real>& launch);
 template <class Real>
-void launch_find_neighbours(const LargeLaunch<Real>& launch);
+void launch_find_neighbours(const GridLaunch<Real>& launch);
 
-/// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
+/// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view
+/// if there is one.
 template <class Real>
-void record_positions(const LargeLaunch<Real>& launch, Vec4<Real>* to, int row);
+void record_positions(const GridLaunch<Real>& launch, Vec4<Real>* to, int row);
 
 /// Places of the body's particles as the State has them, in the order of Body::particles, by State.
 template <class Real>
-void launch_body_places(const LargeLaunch<Real>& launch, Vec4<Real>* places);
+void launch_body_places(const GridLaunch<Real>& launch, Vec4<Real>* places);
 /// Densities of the fluid and numbers of neighbours, by State and number, as the last substep left them.
 template <class Real>
-void launch_densities(const LargeLaunch<Real>& launch, Real* density);
+void launch_densities(const GridLaunch<Real>& launch, Real* density);
 template <class Real>
-void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
+void launch_neighbour_counts(const GridLaunch<Real>& launch, int* counts);
 /// Likewise of the fluid, for scheme conserving: sums of the last substep's pressure impulses.
 template <class Real>
-void launch_pressures(const LargeLaunch<Real>& launch, Real* pressures);
+void launch_pressures(const GridLaunch<Real>& launch, Real* pressures);
 
 /// Reads what a pass over the pairs of the water reads, and writes its sum by State and slot.
 template <class Real>
-void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums);
+void launch_fetch(const GridLaunch<Real>& launch, Fetch what, Real* sums);
 
 /// Adds the work of the muscles in the substep to that of the update, into what all share.
 template <class Real>
-void launch_work(const LargeLaunch<Real>& launch);
+void launch_work(const GridLaunch<Real>& launch);
 
 /// Mean x of the body, mean z of its tail, and whether it touches a plane, into what all share.
 template <class Real>
-void launch_measure(const LargeLaunch<Real>& launch);
+void launch_measure(const GridLaunch<Real>& launch);
 
 /// Sets all velocities of the State to 0.
 template <class Real>
-void launch_rest(const LargeLaunch<Real>& launch);
+void launch_rest(const GridLaunch<Real>& launch);
 
 /// Sets the slot far from all others.
 template <class Real>
-void launch_far_slot(const LargeLaunch<Real>& launch);
+void launch_far_slot(const GridLaunch<Real>& launch);
 
 /// The stages of a substep that schemes share, each a launch or several.
 template <Scheme scheme_of_step, class R>
@@ -171,7 +168,7 @@ struct LaunchStages {
     using Real = R;
     static constexpr Scheme scheme = scheme_of_step;
 
-    const LargeLaunch<Real>& launch;
+    const GridLaunch<Real>& launch;
     const ModelView<Real>& model = launch.model;
     const Slots<Real>& slots = launch.slots;
     int blocks = blocks_for(model.particles, grid_threads);
@@ -190,7 +187,7 @@ template <class Stages>
 struct AfterLaunch {
     Stages& stages;
     void operator()(Stage stage) const {
-        const LargeLaunch<typename Stages::Real>& launch = stages.launch;
+        const GridLaunch<typename Stages::Real>& launch = stages.launch;
         if (stage != Stage::iteration) launch.mark(stage);
         if (stage == Stage::cells) record_positions(launch, launch.trace.predicted, launch.slots.substep);
         if (stage == Stage::iteration)

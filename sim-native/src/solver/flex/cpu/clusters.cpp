@@ -27,8 +27,8 @@ void FlexStages<Real>::solve_clusters() {
         const Real stiffness = static_cast<Real>(model_.clusters[k].stiffness);
         for (std::size_t m = 0; m < members.size(); ++m) {
             const int slot = ws_.slot_of[members[m]];
-            add_correction(slot, goal_correction(stiffness, cluster_centre_[k], matrix, offsets[m],
-                                                 position_of_slot(slot)));
+            add_correction(slot,
+                           goal_correction(stiffness, cluster_centre_[k], matrix, offsets[m], position_of_slot(slot)));
         }
     }
 }

@@ -8,8 +8,8 @@ void FlexStages<Real>::compute_density() {
     if (plan_.solid_pressure) {
         std::fill(ws_.solid_density.begin(), ws_.solid_density.end(), Real(0));
         const Real weight = static_cast<Real>(model_.parameters.flex.solidPressure);
-        for (std::size_t k = 0; k < ws_.touched.size() && ws_.touched[k] < ws_.fluid; ++k) {
-            const int slot = ws_.touched[k];
+        for (std::size_t k = 0; k < ws_.contact_slots.size() && ws_.contact_slots[k] < ws_.fluid; ++k) {
+            const int slot = ws_.contact_slots[k];
             Real sum = 0;
             for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
                 const Real r = norm(position_of_slot(slot) - position_of_slot(ws_.contact[c]));

@@ -37,7 +37,7 @@ public:
     /// Behind an iteration.
     void measure_constraints(Residuals& residuals);
 
-    /// Its density constraint has no multiplier.
+    /// Empty: the density constraint of scheme `flex` has no multiplier.
     std::vector<Real> pressures() const { return {}; }
 
 private:
@@ -57,7 +57,7 @@ private:
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;
     using Substep<Real>::team_;
-    using Substep<Real>::shortest_part;
+    using Substep<Real>::min_part;
     using Substep<Real>::kernels_;
     using Substep<Real>::motion_kernels_;
     using Substep<Real>::fluid_view;

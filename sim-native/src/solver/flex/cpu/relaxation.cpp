@@ -2,8 +2,8 @@
 
 namespace natator::cpu {
 
-/// By the number of constraints of each particle: contacts with depth > 0, fluid neighbours with r < R, springs,
-/// clusters.
+/// Divides corrections by the number of constraints of each particle: contacts with depth > 0, fluid neighbours with r
+/// < R, springs, clusters.
 template <class Real>
 void FlexStages<Real>::relax_and_apply() {
     const bool local = model_.parameters.flex.relaxationMode == RelaxationMode::local;

@@ -23,10 +23,9 @@ void FlexStages<Real>::update_velocities() {
                                            .max_change = h_ * static_cast<Real>(p.max_acceleration),
                                            .clamp_speed = plan_.clamp_speed,
                                            .max_speed = constants_.max_speed};
-    this->on_all_threads(all, [&](const MotionView<Real>& slots) {
-        motion_kernels_->finish_velocity(slots, ws_.blocks(), rule);
-    });
-    team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
+    this->on_all_threads(
+        all, [&](const MotionView<Real>& slots) { motion_kernels_->finish_velocity(slots, ws_.blocks(), rule); });
+    team_->for_parts(ws_.particles, min_part * lanes, [this](int, int begin, int end) {
         for (int i = begin; i < end; ++i) this->new_velocity_[i] = ws_.velocity.at(ws_.slot_of[i]);
     });
 }

@@ -4,8 +4,8 @@
 
 namespace natator::cuda {
 
-/// A team takes tickets until there are none. A ticket's State may still be in the hands of another team, which then works
-/// on an earlier ticket: waiting cannot lock up.
+/// A team takes tickets until there are none. A ticket's State may still be in the hands of another team, which then
+/// works on an earlier ticket: waiting cannot lock up.
 template <class Real, TeamKind kind, bool effects>
 __global__ void __launch_bounds__(threads_of(kind), 1) advance(const __grid_constant__ BatchView<Real> batch) {
     extern __shared__ __align__(128) char chip[];
@@ -14,7 +14,7 @@ __global__ void __launch_bounds__(threads_of(kind), 1) advance(const __grid_cons
     Team team(batch.layout, chip, batch.scratch + scratch, batch.arrivals + arrivals_of_team * blockIdx.y);
     auto& shared = team.shared();
     if (team.thread() == 0) shared.watch.totals = batch.profile;
-    if (threadIdx.x == 0) team.of_block().next_unit[0] = team.of_block().next_unit[1] = 0;
+    if (threadIdx.x == 0) team.of_block().next_task[0] = team.of_block().next_task[1] = 0;
     clear_cells(batch.model, team);
     const unsigned all = static_cast<unsigned>(batch.states) * batch.updates;
     for (;;) {
@@ -23,7 +23,8 @@ __global__ void __launch_bounds__(threads_of(kind), 1) advance(const __grid_cons
         if (team.thread() == 0) {
             const unsigned ticket = atomicAdd(batch.next_ticket, 1u);
             shared.ticket = ticket;
-            while (ticket < all && *static_cast<volatile int*>(batch.updates_done + state_of(ticket)) < number_of(ticket))
+            while (ticket < all &&
+                   *static_cast<volatile int*>(batch.updates_done + state_of(ticket)) < number_of(ticket))
                 __nanosleep(100);
             __threadfence();
         }

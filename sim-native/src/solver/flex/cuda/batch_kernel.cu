@@ -1,12 +1,13 @@
-// A batch of States of one Model of scheme flex: a team per State, a whole update per turn, everything between two updates on
-// the device. Teams take (update, State) pairs from a queue, so that 150 States keep 132 multiprocessors busy.
+// A batch of States of one Model of scheme flex: a team per State, a whole update per turn, everything between two
+// updates on the device. Teams take (update, State) pairs from a queue, so that 150 States keep 132 multiprocessors
+// busy.
 #include "batch_kernel.cuh"
 
 #include <algorithm>
 
 #include "solver/cuda/device_buffer.h"
-#include "solver/cuda/layout.cuh"
 #include "solver/cuda/kernel_choice.h"
+#include "solver/cuda/layout.cuh"
 
 namespace natator::cuda {
 namespace {
@@ -16,7 +17,8 @@ const void* kernel(const ModelView<Real>& model, TeamKind kind) {
     return model.plan.effects() ? batch_kernel<Real, true>(kind) : batch_kernel<Real, false>(kind);
 }
 
-/// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip, or there is no kernel.
+/// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip, or there is no
+/// kernel.
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
     const void* const function = kernel(model, teams.kind);
@@ -30,18 +32,23 @@ int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
     // limit and its launch.
     check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, max_bytes), "shared memory");
     int count = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind), teams.layout.chip_bytes),
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind),
+                                                        teams.layout.chip_bytes),
           "occupancy");
     return count * device_attribute(cudaDevAttrMultiProcessorCount);
 }
 
-/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 in float, with 1267 to 47 027 particles.
+/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 in float, with 1267 to 47 027
+/// particles.
 double time_of(const Teams& teams, int particles) {
     const double of_block = static_cast<double>(particles) / teams.blocks;
     switch (teams.kind) {
-        case TeamKind::block: return 115 + 0.229 * particles;
-        case TeamKind::many_blocks: return 175 + 0.98 * of_block;
-        case TeamKind::blocks: break;
+        case TeamKind::block:
+            return 115 + 0.229 * particles;
+        case TeamKind::many_blocks:
+            return 175 + 0.98 * of_block;
+        case TeamKind::blocks:
+            break;
     }
     return teams.layout.splits_solids ? std::max(340.0, 205 + 0.327 * of_block) : 300 + 0.25 * of_block;
 }
@@ -68,7 +75,8 @@ Teams best_teams(const ModelView<Real>& model, int states) {
     consider(TeamKind::block, 1);
     consider(TeamKind::blocks, 1);
     // However many teams there are at a time, each has as many blocks as there are for it.
-    const int blocks = device_attribute(cudaDevAttrCooperativeLaunch) ? device_attribute(cudaDevAttrMultiProcessorCount) : 1;
+    const int blocks =
+        device_attribute(cudaDevAttrCooperativeLaunch) ? device_attribute(cudaDevAttrMultiProcessorCount) : 1;
     for (int count = 1, last = 0; count <= blocks / 2; ++count) {
         const int of_team = std::min(blocks / count, max_blocks_of_team);
         if (of_team == last) continue;

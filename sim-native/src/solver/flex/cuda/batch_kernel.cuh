@@ -6,14 +6,14 @@
 
 namespace natator::cuda {
 
-/// What a State carries from frame to frame beside its particles.
+/// Progress of a State from frame to frame, beside its particles.
 struct Progress {
     int stopped = -1;  ///< a value of StopReason, or -1 while it runs
     int frames = 0;
     int bad_particle = 0;  ///< of an unstable one: device number
     double bad_time = 0;   ///< start of the substep that made it; of a broken law the end of the frame
     physics::Law broken = physics::Law::finite;  ///< by an unstable one
-    double muscle_work = 0;  ///< see Solver::muscle_work; none in scheme flex
+    double muscle_work = 0;                      ///< see Solver::muscle_work; none in scheme flex
 };
 
 /// The gaits of a batch, row by row; without frequencies the muscles stay as they are.
@@ -22,10 +22,10 @@ struct GaitView {
     const double* power = nullptr;
     const double* amplitude = nullptr;  ///< [state * actuators + actuator]
     const double* phase = nullptr;
-    const double* offset = nullptr;     ///< likewise; null = 0
+    const double* offset = nullptr;  ///< likewise; null = 0
 };
 
-/// What the teams of a launch work on: `updates` updates of each of `states` States.
+/// Work of the teams of a launch: `updates` updates of each of `states` States.
 template <class Real>
 struct BatchView {
     ModelView<Real> model;
@@ -72,7 +72,8 @@ struct Teams {
     int count = 0;  ///< that are on the device at a time
 };
 
-/// The fastest for so many States on the current device; all give the same bits. Throws InputError where there are none.
+/// The fastest for so many States on the current device; all give the same bits. Throws InputError where there are
+/// none.
 template <class Real>
 Teams best_teams(const ModelView<Real>& model, int states);
 
@@ -80,8 +81,9 @@ Teams best_teams(const ModelView<Real>& model, int states);
 template <class Real>
 void launch_batch(const BatchView<Real>& batch, const Teams& teams);
 
-/// The kernel that launch_batch starts, with the code of effects (Plan::effects) or without; each in a source of its own. Null where
-/// there is none, as it takes long to compile: for one block with effects, which are rare, for many blocks with them or in double.
+/// The kernel that launch_batch starts, with the code of effects (Plan::effects) or without; each in a source of its
+/// own. Null where there is none, as it takes long to compile: for one block with effects, which are rare, for many
+/// blocks with them or in double.
 template <class Real, bool effects>
 const void* batch_kernel(TeamKind kind);
 

@@ -34,8 +34,8 @@ public:
         return batch;
     }
 
-    /// Runs the updates to their end; States whose progress has stopped already stay as they are. Calls meanwhile() while they
-    /// run.
+    /// Runs the updates to their end; States whose progress has stopped already stay as they are. Calls meanwhile()
+    /// while they run.
     template <class Meanwhile>
     void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile,
              const Meanwhile& meanwhile) {

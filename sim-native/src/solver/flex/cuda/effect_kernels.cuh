@@ -1,6 +1,6 @@
 #pragma once
 
-// What acts behind the velocities of a large State.
+// What acts behind the velocities, by the whole grid.
 #include "flex_kernels.cuh"
 #include "solver/cuda/grid/substep.cuh"
 
@@ -15,29 +15,29 @@ __device__ void check_slot(const ModelView<Real>&, const Slots<Real>& slots, int
 template <Scheme scheme, class Real>
 struct LaunchEffects : LaunchStages<scheme, Real> {
     using LaunchStages<scheme, Real>::launch, LaunchStages<scheme, Real>::model;
-    using Large = Slots<Real>;
+    using Grid = Slots<Real>;
 
     void begin_iterations() {
-        if (model.plan.dissipation) launch.template each_particle<count_overlaps<Real, Large>>();
+        if (model.plan.dissipation) launch.template each_particle<count_overlaps<Real, Grid>>();
     }
     void damp_contacts() {
-        if constexpr (scheme == Scheme::flex) return launch.template each_particle<damp<Real, Large>>();
-        launch.template each_particle<measure_damping<Real, Large>>();
-        launch.template each_particle<apply_change<Real, Large>>();
+        if constexpr (scheme == Scheme::flex) return launch.template each_particle<damp<Real, Grid>>();
+        launch.template each_particle<measure_damping<Real, Grid>>();
+        launch.template each_particle<apply_change<Real, Grid>>();
     }
-    void drag_free_surface() { launch.template each_slot<drag<Real, Large>>(model.fluid); }
+    void drag_free_surface() { launch.template each_slot<drag<Real, Grid>>(model.fluid); }
     void apply_fluid_forces() {
-        launch.template each_slot<measure_fluid<Real, Large>>(model.fluid);
-        launch.template each_slot<push_fluid_by_forces<Real, Large>>(model.fluid);
+        launch.template each_slot<measure_fluid<Real, Grid>>(model.fluid);
+        launch.template each_slot<push_fluid_by_forces<Real, Grid>>(model.fluid);
     }
-    void apply_adhesion() { launch.template each_particle<cuda::apply_adhesion<Real, Large>>(); }
-    void apply_restitution() { launch.template each_particle<cuda::apply_restitution<Real, Large>>(); }
-    void apply_sleep() { launch.template each_particle<cuda::apply_sleep<Real, Large>>(); }
+    void apply_adhesion() { launch.template each_particle<cuda::apply_adhesion<Real, Grid>>(); }
+    void apply_restitution() { launch.template each_particle<cuda::apply_restitution<Real, Grid>>(); }
+    void apply_sleep() { launch.template each_particle<cuda::apply_sleep<Real, Grid>>(); }
 };
 
 /// Launches a substep.
 template <class Stages>
-void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
+void launch_by(const GridLaunch<typename Stages::Real>& launch) {
     Stages stages{{{launch}}};
     natator::substep(stages, launch.model.plan, {launch.model.iterations}, AfterLaunch<Stages>{stages});
     if (launch.model.plan.effects()) launch.template each_particle<check_slot<typename Stages::Real>>();

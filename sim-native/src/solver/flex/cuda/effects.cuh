@@ -19,8 +19,8 @@ __device__ void set_velocity(const Team& team, int s, const Vec3<Real>& v) {
 
 /// Calls visit(slot, vector from it to s, r, q = r/R) for the fluid neighbours of fluid slot s with 0 < r < R.
 template <class Real, class Team, class Visit>
-__device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team& team, int s,
-                                        const Vec4<Real>* places, const Visit& visit) {
+__device__ void for_each_near_neighbour(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>* places,
+                                        const Visit& visit) {
     const Vec3<Real> x = xyz(places[s]);
     for_each_neighbour(model, team, s, [&](int other) {
         const Vec3<Real> difference = x - xyz(places[other]);
@@ -59,7 +59,7 @@ __device__ void measure_damping(const ModelView<Real>& model, const Team& team, 
     Vec3<Real> change{};
     if (inverse_mass > 0)
         for_each_contact(model, team, s, [&](int other) {
-            if (!overlaps(model, team.base(), s, other)) return;
+            if (!overlaps(model, team.predicted_position(), s, other)) return;
             const Real share = physics::impulse_share(inverse_mass, team.position()[other].w);
             change += share * physics::dissipated_by_pair(n + team.overlaps()[other], step) *
                       (velocity_of<Real>(team, other) - v);
@@ -67,7 +67,7 @@ __device__ void measure_damping(const ModelView<Real>& model, const Team& team, 
     team.change()[s] = quad(change, Real(0));
 }
 
-/// What `change` says.
+/// Applies `change`.
 template <class Real, class Team>
 __device__ void apply_change(const ModelView<Real>&, const Team& team, int s) {
     set_velocity(team, s, velocity_of<Real>(team, s) + xyz(team.change()[s]));
@@ -77,8 +77,8 @@ __device__ void apply_change(const ModelView<Real>&, const Team& team, int s) {
 template <class Real, class Team>
 __device__ void drag(const ModelView<Real>& model, const Team& team, int s) {
     if (!(team.position()[s].w > 0)) return;
-    set_velocity(team, s, physics::dragged(velocity_of<Real>(team, s), team.density()[s],
-                                            team.h * model.free_surface_drag));
+    set_velocity(team, s,
+                 physics::dragged(velocity_of<Real>(team, s), team.density()[s], team.h * model.free_surface_drag));
 }
 
 /// Normals and curls of the fluid.
@@ -94,8 +94,7 @@ __device__ void measure_fluid(const ModelView<Real>& model, const Team& team, in
                                     curl += physics::curl_part(difference, r, q, velocity_of<Real>(team, other) - v);
                             });
     if (model.plan.surface_tension) team.normal()[s] = quad(model.gradient_estimate * normal, Real(0));
-    if (model.plan.vorticity)
-        team.curl()[s] = quad(model.gradient_estimate * model.inverse_radius * curl, Real(0));
+    if (model.plan.vorticity) team.curl()[s] = quad(model.gradient_estimate * model.inverse_radius * curl, Real(0));
 }
 
 /// Surface tension and vorticity confinement of fluid slot s.
@@ -126,11 +125,11 @@ __device__ void apply_adhesion(const ModelView<Real>& model, const Team& team, i
     const Vec4<Real> end = team.end_position()[s];
     if (!(end.w > 0)) return;
     Vec3<Real> x = xyz(end), v = velocity_of<Real>(team, s);
-    const Real most = model.adhesion * team.h * team.h;
+    const Real limit = model.adhesion * team.h * team.h;
     for (int k = model.planes - 1; k >= 0; --k) {
         const physics::PlaneSurface<Real>& plane = model.plane[k].surface;
         if (distance_to(plane, xyz(team.start()[s])) > model.touching_distance) continue;
-        const Real back = physics::taken_back(distance_to(plane, x) - model.collision_distance, most);
+        const Real back = physics::taken_back(distance_to(plane, x) - model.collision_distance, limit);
         x -= back * plane.normal;
         v -= back / team.h * plane.normal;
     }
@@ -146,7 +145,7 @@ __device__ void apply_restitution(const ModelView<Real>& model, const Team& team
     for_each_near_plane(model, team, s, xyz(end), [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         if (distance > model.touching_distance) return;
         const Real missing = rebound_speed(plane.normal, xyz(team.predicted_velocity()[s]), v, model.restitution,
-                                           team.h * model.slowest_impact);
+                                           team.h * model.min_impact_speed);
         v += missing * plane.normal;
     });
     set_velocity(team, s, v);
@@ -159,11 +158,11 @@ __device__ void apply_sleep(const ModelView<Real>& model, const Team& team, int 
     team.end_position()[s] = team.start()[s];
 }
 
-/// Pull of the fluid around a slot of `next` in scheme flex, per inverse mass: cohesion.
+/// Pull of the fluid around a slot of `scratch_position` in scheme flex, per inverse mass: cohesion.
 template <class Real, class Team>
 __device__ Vec3<Real> cohesion_push(const ModelView<Real>& model, const Team& team, int s) {
     Vec3<Real> sum{};
-    for_each_near_neighbour(model, team, s, team.next(),
+    for_each_near_neighbour(model, team, s, team.scratch_position(),
                             [&](int, const Vec3<Real>& difference, Real r, Real q) {
                                 sum += physics::cohesion_pull(q, model.cohesion_slope) / r * difference;
                             });

@@ -15,7 +15,7 @@ __device__ Real kernel_argument(const ModelView<Real>& model, const Vec3<Real>& 
     return 1 - physics::length_of(x - there) * model.inverse_radius;
 }
 
-/// What a pair adds to the density of what is in x.
+/// Part of a pair in the density at x.
 template <class Real>
 struct DensityPart {
     Real left;
@@ -52,8 +52,8 @@ __device__ inline double rounded_product(double a, double b) {
     return __dmul_rn(a, b);
 }
 
-/// physics::rotation_matrix with its products rounded in the same places in every kernel. Which of two products a sum is fused
-/// with is else the compiler's choice, and another one in a block of a State's own than on the whole GPU.
+/// physics::rotation_matrix with its products rounded in the same places in every kernel. Which of two products a sum
+/// is fused with is else the compiler's choice, and another one in a block of a State's own than on the whole GPU.
 template <class T>
 __device__ void rotation_matrix(const T q[4], T m[9]) {
     const T x = q[0], y = q[1], z = q[2], w = q[3];
@@ -70,8 +70,8 @@ __device__ void rotation_matrix(const T q[4], T m[9]) {
     m[8] = 1 - 2 * fma(y, y, xx);
 }
 
-/// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m) its
-/// rest offset.
+/// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m)
+/// its rest offset.
 template <class Real, class Place, class Offset>
 __device__ void fit_members(int count, ClusterFit<Real>& fit, const Place& place, const Offset& offset) {
     const int lane = threadIdx.x % 32;
@@ -104,7 +104,7 @@ __device__ void fit_cluster(const ModelView<Real>& model, const Team& team, int 
         [&](int m) { return model.offset[begin + m]; });
 }
 
-/// What the constraints of one slot add up to.
+/// Sum of the corrections by the constraints of one slot.
 template <class Real>
 struct Correction {
     Vec3<Real> sum{0, 0, 0};
@@ -117,11 +117,11 @@ struct Correction {
     }
 };
 
-/// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is called if they
-/// touch; start_of(slot) is where a slot was.
+/// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is
+/// called if they touch; start_of(slot) is where a slot was.
 template <class Real, class Team, class StartOf, class Push>
-__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here, int other,
-                                const Vec4<Real>& there, const StartOf& start_of, const Push& push) {
+__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Vec4<Real>& here,
+                                int other, const Vec4<Real>& there, const StartOf& start_of, const Push& push) {
     const Vec3<Real> difference = xyz(here) - xyz(there);
     const Real r = norm(difference);
     const Real depth = model.solid_rest_distance - r;
@@ -132,17 +132,17 @@ __device__ void push_by_contact(const ModelView<Real>& model, const Team& team, 
     push(quad(by, physics::weight_share(here.w, partner_weight(model, team, s, other))));
 }
 
-/// Writes what the contacts of the slots in a unit push them by.
+/// Writes what the contacts of the slots in a task push them by.
 template <class Real, class Team>
-__device__ void push_touched(const ModelView<Real>& model, const Team& team, int unit) {
-    work_on_touched(team, unit, [&](int s, int lane) {
+__device__ void solve_contacts(const ModelView<Real>& model, const Team& team, int task) {
+    for_each_contact_slot(team, task, [&](int s, int lane) {
         Correction<Real> push;
         if (s >= 0) {
             const Vec4<Real> here = team.position()[s];
             for_each_contact_of(model, team, s, lane, pair_lanes, [&](int other) {
-                push_by_contact(model, team, s, here, other, team.position()[other],
-                                [&](int slot) { return xyz(team.start()[slot]); },
-                                [&](const Vec4<Real>& by) { push.add(by); });
+                push_by_contact(
+                    model, team, s, here, other, team.position()[other],
+                    [&](int slot) { return xyz(team.start()[slot]); }, [&](const Vec4<Real>& by) { push.add(by); });
             });
         }
         const Vec4<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
@@ -151,11 +151,12 @@ __device__ void push_touched(const ModelView<Real>& model, const Team& team, int
     });
 }
 
-/// Writes rho_i - 1, but at least 0, of slot s, which is in x, beside its position in `next`.
+/// Writes rho_i - 1, but at least 0, of slot s, which is in x, beside its position in `scratch_position`.
 template <class Real, class Team>
-__device__ void set_compression(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real above) {
+__device__ void set_compression(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                                Real above) {
     if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
-    team.next()[s] = quad(x, s < model.fluid ? max(above, Real(0)) : Real(0));
+    team.scratch_position()[s] = quad(x, s < model.fluid ? max(above, Real(0)) : Real(0));
 }
 template <class Real, class Team>
 __device__ void compute_density_of(const ModelView<Real>& model, const Team& team, int s) {
@@ -163,15 +164,15 @@ __device__ void compute_density_of(const ModelView<Real>& model, const Team& tea
     set_compression(model, team, s, x, s < model.fluid ? compression_of(model, team, s, x) : Real(0));
 }
 
-/// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends with a
-/// barrier.
+/// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends
+/// with a barrier.
 template <class Real, class Team>
 __device__ void compute_density(const ModelView<Real>& model, Team& team) {
-    const int touched = touched_units<Real>(model, team), slots = (model.particles + 31) / 32;
-    for_each_unit(team, model.clusters + touched, slots, [&](int unit) {
-        if (unit < model.clusters) return fit_cluster(model, team, unit);
-        if (unit < model.clusters + touched) return push_touched(model, team, unit - model.clusters);
-        const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
+    const int contact_tasks = contact_task_count<Real>(model, team), slots = (model.particles + 31) / 32;
+    for_each_warp_task(team, model.clusters + contact_tasks, slots, [&](int task) {
+        if (task < model.clusters) return fit_cluster(model, team, task);
+        if (task < model.clusters + contact_tasks) return solve_contacts(model, team, task - model.clusters);
+        const int s = (task - model.clusters - contact_tasks) * 32 + threadIdx.x % 32;
         if (s < model.particles) compute_density_of(model, team, s);
     });
     team.barrier();
@@ -221,9 +222,10 @@ struct ClusterMember {
     Vec3<Real> offset;  ///< of the member at rest
     Real stiffness;
 };
-/// The same of clusters; member_of(e) is how it sees cluster e.
+/// Adds clusters `begin` .. `end` - 1 of one solid likewise; member_of(e) is how it sees cluster e.
 template <int lanes, class Real, class MemberOf>
-__device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end, const MemberOf& member_of) {
+__device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end,
+                             const MemberOf& member_of) {
     add_in_order<lanes, Real>(
         begin, end,
         [&](int e) {
@@ -233,37 +235,37 @@ __device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, 
         [&](const Vec4<Real>& push) { correction.add(push); });
 }
 
-/// Of springs and clusters, seen from one solid, by the `lanes` threads that share it; of none if it is -1.
+/// Corrections of one solid by its springs and clusters, by the `lanes` threads that share it; none if `solid` is -1.
 template <int lanes, class Real, class Team>
 __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, const Team& team, int solid,
                                                  const Vec3<Real>& x, Real inverse_mass) {
     Correction<Real> correction;
-    const auto begin = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid]; };
-    const auto end = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid + 1]; };
-    add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_shares_begin), end(model.spring_shares_begin),
-                       [&](int e) {
-                           const Incidence share = model.spring_share[e];
-                           return SpringEnd<Real>{xyz(team.next()[team.slot_of_solid()[share.other]]),
-                                                  model.inverse_mass[model.fluid + share.other],
-                                                  team.rest_length()[share.constraint],
-                                                  model.spring[share.constraint].rule};
+    const auto begin = [solid](const int* incidences_begin) { return solid < 0 ? 0 : incidences_begin[solid]; };
+    const auto end = [solid](const int* incidences_begin) { return solid < 0 ? 0 : incidences_begin[solid + 1]; };
+    add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_incidences_begin),
+                       end(model.spring_incidences_begin), [&](int e) {
+                           const Incidence incidence = model.spring_incidence[e];
+                           return SpringEnd<Real>{xyz(team.scratch_position()[team.slot_of_solid()[incidence.other]]),
+                                                  model.inverse_mass[model.fluid + incidence.other],
+                                                  team.rest_length()[incidence.constraint],
+                                                  model.spring[incidence.constraint].rule};
                        });
-    add_clusters<lanes>(correction, x, begin(model.cluster_shares_begin), end(model.cluster_shares_begin),
+    add_clusters<lanes>(correction, x, begin(model.cluster_incidences_begin), end(model.cluster_incidences_begin),
                         [&](int e) {
-                            const Incidence share = model.cluster_share[e];
-                            return ClusterMember<Real>{team.fit()[share.constraint], model.offset[share.other],
-                                                       model.cluster[share.constraint].stiffness};
+                            const Incidence incidence = model.cluster_incidence[e];
+                            return ClusterMember<Real>{team.fit()[incidence.constraint], model.offset[incidence.other],
+                                                       model.cluster[incidence.constraint].stiffness};
                         });
     return correction;
 }
 
-/// What a slot touches: known before its correction is.
-struct Touch {
+/// What a slot may be in contact with, known before its correction is.
+struct SlotContacts {
     unsigned planes;  ///< bit k: plane k may be touched
     bool contacts;
 };
 template <class Real, class Team>
-__device__ Touch touch_of(const ModelView<Real>& model, const Team& team, int s) {
+__device__ SlotContacts slot_contacts(const ModelView<Real>& model, const Team& team, int s) {
     return {static_cast<unsigned>(team.plane_contact()[s]), model.plan.contacts && team.contact_count()[s] > 0};
 }
 
@@ -280,8 +282,8 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& tea
 
 /// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last. Returns where it is then.
 template <class Real, class Team>
-__device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
-                            Correction<Real> correction, const Touch& touch) {
+__device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                            Real inverse_mass, Correction<Real> correction, const SlotContacts& touch) {
     if (touch.contacts) {
         const Vec4<Real> push = team.contact_push()[s];
         correction.sum = correction.sum + xyz(push);
@@ -292,33 +294,33 @@ __device__ Vec4<Real> apply(const ModelView<Real>& model, const Team& team, int 
     return team.position()[s] = quad(solve_planes(model, team, s, touch.planes, moved), inverse_mass);
 }
 
-/// Corrects the solids of a unit, by so many threads each.
+/// Corrects the solids of a task, by so many threads each.
 template <int lanes, class Real, class Team>
-__device__ void correct_solids(const ModelView<Real>& model, const Team& team, int unit) {
-    const int s = model.fluid + (unit * 32 + threadIdx.x % 32) / lanes;
+__device__ void correct_solids(const ModelView<Real>& model, const Team& team, int task) {
+    const int s = model.fluid + (task * 32 + threadIdx.x % 32) / lanes;
     const bool there = s < model.particles;
     if (lanes == 1 && !there) return;
-    const Vec4<Real> here = team.next()[there ? s : model.particles];
+    const Vec4<Real> here = team.scratch_position()[there ? s : model.particles];
     const Real inverse_mass = team.position()[there ? s : model.particles].w;
     const int solid = there ? team.number()[s] - model.fluid : -1;
     const auto correction = springs_and_clusters<lanes>(model, team, solid, xyz(here), inverse_mass);
     if (there && threadIdx.x % lanes == 0)
-        apply(model, team, s, xyz(here), inverse_mass, correction, touch_of(model, team, s));
+        apply(model, team, s, xyz(here), inverse_mass, correction, slot_contacts(model, team, s));
 }
 
-/// Units of apply_corrections that the solids make, with one thread or several for each.
+/// Tasks of apply_corrections that the solids make, with one thread or several for each.
 template <class Real>
-__host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
-    const int in_unit = shared ? slots_of_warp : 32;
-    return (model.solids + in_unit - 1) / in_unit;
+__host__ __device__ int solid_tasks(const ModelView<Real>& model, bool shared) {
+    const int slots_of_task = shared ? slots_of_warp : 32;
+    return (model.solids + slots_of_task - 1) / slots_of_task;
 }
 
 /// Corrects fluid slot s; push_of(here) is what the density constraint pushes it by.
 template <class Real, class Team, class PushOf>
 __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s, const PushOf& push_of) {
-    const Vec4<Real> here = team.next()[s];
+    const Vec4<Real> here = team.scratch_position()[s];
     const Real inverse_mass = team.position()[s].w;
-    const Touch touch = touch_of(model, team, s);
+    const SlotContacts touch = slot_contacts(model, team, s);
     const physics::FlexPush<Real> push = push_of(here);
     Correction<Real> correction{push.correction(inverse_mass, model.radius), push.constraints};
     if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, team, s);
@@ -328,7 +330,8 @@ template <class Real, class Team>
 __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
     correct_fluid(model, team, s, [&](const Vec4<Real>& here) {
         physics::FlexPush<Real> push;
-        for_each_neighbour(model, team, s, [&](int other) { push_part(model, here, team.next()[other]).add_to(push); });
+        for_each_neighbour(model, team, s,
+                           [&](int other) { push_part(model, here, team.scratch_position()[other]).add_to(push); });
         return push;
     });
 }
@@ -336,25 +339,25 @@ __device__ void correct_fluid(const ModelView<Real>& model, const Team& team, in
 /// Every correction from the same positions: first of the solids, which take longest.
 template <class Real, class Team>
 __device__ void apply_corrections(const ModelView<Real>& model, Team& team) {
-    const int of_solids = solid_units(model, team.shares_solids()), of_fluid = fluid_units(model);
-    for_each_unit(team, of_solids, of_fluid, [&](int unit) {
-        if (unit < of_solids)
-            return team.shares_solids() ? correct_solids<pair_lanes>(model, team, unit)
-                                        : correct_solids<1>(model, team, unit);
-        const int s = fluid_slot(unit - of_solids, of_fluid);
+    const int of_solids = solid_tasks(model, team.shares_solids()), of_fluid = fluid_tasks(model);
+    for_each_warp_task(team, of_solids, of_fluid, [&](int task) {
+        if (task < of_solids)
+            return team.shares_solids() ? correct_solids<pair_lanes>(model, team, task)
+                                        : correct_solids<1>(model, team, task);
+        const int s = fluid_slot(task - of_solids, of_fluid);
         if (s < model.fluid) correct_fluid(model, team, s);
     });
 }
 
-/// What slot s moved by per second.
+/// Displacement of slot s in the substep, per second.
 template <class Real, class Team>
-__device__ Vec3<Real> moved_per_second(const Team& team, int s) {
+__device__ Vec3<Real> displacement_rate(const Team& team, int s) {
     const Real frequency = 1 / team.h;
     const Vec3<Real> way = xyz(team.position()[s]) - xyz(team.start()[s]);
     return {rounded_product(frequency, way.x), rounded_product(frequency, way.y), rounded_product(frequency, way.z)};
 }
 
-/// What a pair adds to the viscosity of what is in x and moved by u per second.
+/// Part of a pair in the viscosity at x, where the displacement per second is u.
 template <class Real>
 struct SmoothingPart {
     Real left;
@@ -389,10 +392,11 @@ __device__ Vec3<Real> velocity_with(const ModelView<Real>& model, const Team& te
     return flex_velocity(u, model.density_scale * smoothing.sum, predicted, rule);
 }
 
-/// The same; for viscosity, movement_of(slot) is what a fluid slot moved by per second.
+/// The velocity that slot s leaves the substep with; movement_of(slot) is the displacement of a fluid slot per second.
 template <class Real, class Team, class MovementOf>
-__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s, const MovementOf& movement_of) {
-    const Vec3<Real> x = xyz(team.position()[s]), u = moved_per_second<Real>(team, s);
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s,
+                                   const MovementOf& movement_of) {
+    const Vec3<Real> x = xyz(team.position()[s]), u = displacement_rate<Real>(team, s);
     physics::FlexSmoothing<Real> smoothing;
     if (is_viscous(model, s))
         for_each_neighbour(model, team, s, [&](int other) {
@@ -405,7 +409,7 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& tea
 template <class Real, class Team>
 __device__ bool set_new_velocity(const Team& team, int s, const Vec3<Real>& v) {
     const Vec4<Real> here = team.position()[s];
-    team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
+    team.scratch_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
     return isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
 }
 
@@ -416,13 +420,15 @@ __device__ bool update_velocities(const ModelView<Real>& model, Team& team) {
     constexpr bool stored = !Team::of_several_blocks;
     if (stored && model.plan.viscosity) {
         for (int s = team.thread(); s < model.fluid; s += team.size())
-            team.next()[s] = quad(moved_per_second<Real>(team, s), Real(0));
+            team.scratch_position()[s] = quad(displacement_rate<Real>(team, s), Real(0));
         team.barrier();
     }
-    const auto movement_of = [&](int s) { return stored ? xyz(team.next()[s]) : moved_per_second<Real>(team, s); };
+    const auto movement_of = [&](int s) {
+        return stored ? xyz(team.scratch_position()[s]) : displacement_rate<Real>(team, s);
+    };
     bool finite = true;
-    for_each_unit(team, 0, (model.particles + 31) / 32, [&](int unit) {
-        const int s = unit * 32 + threadIdx.x % 32;
+    for_each_warp_task(team, 0, (model.particles + 31) / 32, [&](int task) {
+        const int s = task * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         finite &= set_new_velocity(team, s, new_velocity(model, team, s, movement_of));
     });

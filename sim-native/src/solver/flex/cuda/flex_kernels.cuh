@@ -1,14 +1,14 @@
 #pragma once
 
-// Scheme flex for a large State: its velocities. Its iteration is that of flex.cuh.
+// Scheme flex by the whole grid: its velocities. Its iteration is that of flex.cuh.
 #include "flex.cuh"
 #include "solver/cuda/grid/search.cuh"
 
 namespace natator::cuda {
 
 template <class Real>
-__device__ void movements_large(const ModelView<Real>&, const Slots<Real>& slots, int s) {
-    slots.next()[s] = quad(moved_per_second<Real>(slots, s), Real(0));
+__device__ void movements_on_grid(const ModelView<Real>&, const Slots<Real>& slots, int s) {
+    slots.scratch_position()[s] = quad(displacement_rate<Real>(slots, s), Real(0));
 }
 
 /// Notes a slot whose outcome is not finite.
@@ -21,16 +21,18 @@ __device__ void note_if_bad(const Slots<Real>& slots, int s, const Vec3<Real>& x
 /// Gives the State slot s's position and velocity, or notes that they are not finite. Particles of infinite mass keep
 /// their place.
 template <class Real>
-__device__ void commit_large(const Slots<Real>& slots, int s, const Vec3<Real>& v) {
+__device__ void commit_on_grid(const Slots<Real>& slots, int s, const Vec3<Real>& v) {
     const Vec4<Real> x = slots.position()[s];
     note_if_bad(slots, s, xyz(x), v);
-    slots.at.state_position[s] = x.w > 0 ? x : slots.start()[s];
-    slots.at.state_velocity[s] = quad(x.w > 0 ? v : xyz(slots.predicted_velocity()[s]), as_number<Real>(slots.number()[s]));
+    slots.arrays.state_position[s] = x.w > 0 ? x : slots.start()[s];
+    slots.arrays.state_velocity[s] =
+        quad(x.w > 0 ? v : xyz(slots.predicted_velocity()[s]), as_number<Real>(slots.number()[s]));
 }
 
 template <class Real>
-__device__ void velocities_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    commit_large(slots, s, new_velocity(model, slots, s, [&](int other) { return xyz(slots.next()[other]); }));
+__device__ void velocities_on_grid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    commit_on_grid(slots, s,
+                   new_velocity(model, slots, s, [&](int other) { return xyz(slots.scratch_position()[other]); }));
 }
 
 }  // namespace natator::cuda

@@ -36,9 +36,9 @@ __device__ void actuate(const BatchView<Real>& batch, int state, int number, dou
             continue;
         }
         const int a = state * model.actuators + muscle.actuator;
-        const double activation =
-            physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        const double drive = physics::muscle_drive(gait.amplitude[a], activation, gait.offset ? gait.offset + a : nullptr);
+        const double activation = physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
+        const double drive =
+            physics::muscle_drive(gait.amplitude[a], activation, gait.offset ? gait.offset + a : nullptr);
         team.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
@@ -59,14 +59,15 @@ struct TeamStages {
     using Real = R;
     static constexpr Scheme scheme = Scheme::flex;
     static constexpr bool effects = with_effects;
-    static constexpr Grouping grouping = Grouping::together;
+    static constexpr Grouping grouping = Grouping::fused;
 
     const ModelView<Real>& model;
     const Trace<Real>& trace;
     Team& team;
     int number;
     int iteration = 0;
-    int touched = 0;     ///< units that the slots with contacts make, where a team has several blocks; a slot each where threads share
+    /// tasks that the slots with contacts make, where a team has several blocks; a slot each where threads share
+    int contact_tasks = 0;
     bool finite = true;  ///< of all velocities, before what acts behind them
 
     __device__ void predict() { cuda::predict(model, team); }
@@ -80,18 +81,19 @@ struct TeamStages {
     }
     __device__ void begin_iterations() {
         if constexpr (Team::of_several_blocks) {
-            touched = Team::shares_slots ? team.shared().touched : touched_units<Real>(model, team);
+            contact_tasks =
+                Team::shares_slots ? team.shared().contact_slot_count : contact_task_count<Real>(model, team);
             if (team.has_solids())
                 load_solids(model, team);
             else if constexpr (Team::shares_slots)
-                load_contacts(model, team, touched);
+                load_contacts(model, team, contact_tasks);
         }
         if constexpr (effects)
             if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, team, s); });
     }
     __device__ void compute_density_and_fits() {
         if constexpr (Team::of_several_blocks)
-            if (team.splits_solids()) return compute_density_beside_solids(model, team, touched);
+            if (team.splits_solids()) return compute_density_beside_solids(model, team, contact_tasks);
         if constexpr (!Team::shares_slots) compute_density(model, team);  // those always split
     }
     __device__ void apply_corrections() {
@@ -179,7 +181,7 @@ template <class Real, class Team>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Team& team, int number) {
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         if (!(team.position()[s].w > 0)) team.position()[s] = team.start()[s];
-        const Vec4<Real> v = team.next_velocity()[s];
+        const Vec4<Real> v = team.scratch_velocity()[s];
         team.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
@@ -191,7 +193,7 @@ __device__ void note_instability(const ModelView<Real>& model, Team& team, doubl
     if (team.thread() == 0) {
         int lowest = model.particles;
         for (int s = 0; s < model.particles; ++s) {
-            const Vec4<Real> x = team.position()[s], v = team.next_velocity()[s];
+            const Vec4<Real> x = team.position()[s], v = team.scratch_velocity()[s];
             const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
             if (!finite) lowest = min(lowest, static_cast<int>(team.number()[s]));
         }
@@ -206,11 +208,11 @@ __device__ void note_instability(const ModelView<Real>& model, Team& team, doubl
     // Velocities are still in the order that slots had before the substep.
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         team.position()[s] = team.start()[s];
-        team.next_velocity()[slot_of[number_in(team.unsorted_position()[s].w)]] = team.velocity[s];
+        team.scratch_velocity()[slot_of[number_in(team.unsorted_position()[s].w)]] = team.velocity[s];
     }
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = team.fit_before()[k];
     team.barrier();
-    for (int s = team.thread(); s < model.particles; s += team.size()) team.velocity[s] = team.next_velocity()[s];
+    for (int s = team.thread(); s < model.particles; s += team.size()) team.velocity[s] = team.scratch_velocity()[s];
     team.barrier();
 }
 
@@ -221,8 +223,8 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
     if (batch.neighbours) {
         int* const counts = batch.neighbours + static_cast<std::size_t>(state) * model.particles;
         for (int s = team.thread(); s < model.particles; s += team.size())
-            counts[team.number()[s]] = (s < model.fluid ? team.neighbour_count()[s] : 0) +
-                                        (model.plan.contacts ? team.contact_count()[s] : 0);
+            counts[team.number()[s]] =
+                (s < model.fluid ? team.neighbour_count()[s] : 0) + (model.plan.contacts ? team.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
     for (int s = team.thread(); s < model.fluid; s += team.size())
@@ -230,7 +232,8 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
             compression_of(model, team, s, xyz(team.position()[s])) + 1;
 }
 
-/// Notes the law that a State has broken at the end of a frame, or of settling, if there is one. Begins and ends with a barrier.
+/// Notes the law that a State has broken at the end of a frame, or of settling, if there is one. Begins and ends with a
+/// barrier.
 template <class Real, class Team>
 __device__ void look_at_laws(const BatchView<Real>& batch, int state, double time, Team& team) {
     team.barrier();
@@ -242,7 +245,8 @@ __device__ void look_at_laws(const BatchView<Real>& batch, int state, double tim
         return measures_of(model, team.number()[s], team.position()[s], v);
     };
     bool bad = false;
-    for (int s = team.thread(); s < model.particles; s += team.size()) bad |= breach(measured(s), limits).law != physics::Law::none;
+    for (int s = team.thread(); s < model.particles; s += team.size())
+        bad |= breach(measured(s), limits).law != physics::Law::none;
     for (int b = team.thread(); b < model.body; b += team.size())
         bad |= breach(reach_of(model, team, b), limits).law != physics::Law::none;
     if (!team.any(bad)) return;
@@ -298,7 +302,8 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
         if (s >= model.fluid) team.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
     if (team.thread() == 0)
-        team.position()[model.particles] = team.start()[model.particles] = team.next()[model.particles] = far_away<Real>();
+        team.position()[model.particles] = team.start()[model.particles] = team.scratch_position()[model.particles] =
+            far_away<Real>();
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = fit[k];
     team.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;

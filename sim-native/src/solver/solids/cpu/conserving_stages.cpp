@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "model/borders.h"
+#include "model/boundaries.h"
 
 namespace natator::cpu {
 
 template <class Real>
 ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
     : Substep<Real>(model, plan),
-      seams_(seams_of<Real>(model)),
+      periodic_axes_(periodic_axes_of<Real>(model)),
       bodies_(free_bodies(model)),
       springs_per_particle_(model.particles(), 0),
       spring_lambda_(model.springs.size()) {

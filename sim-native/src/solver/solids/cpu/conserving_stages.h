@@ -8,8 +8,8 @@
 
 namespace natator::cpu {
 
-/// The stages of scheme `conserving`. Each iteration is a pass of the water's density solve, on velocities, and then one
-/// of the solids' constraints, on positions, so that both see what the other has done. Of the solids each group of
+/// The stages of scheme `conserving`. Each iteration is a pass of the water's density solve, on velocities, and then
+/// one of the solids' constraints, on positions, so that both see what the other has done. Of the solids each group of
 /// constraints comes in turn, within a group all at once with split masses (Tonge, Benevolenski, Voroshilov: Mass
 /// Splitting for Jitter-Free Parallel Rigid Body Simulation, 2012), so that internal forces keep linear and angular
 /// momentum. Stiffness enters as XPBD compliance (Macklin, Müller, Chentanez: XPBD, 2016), so that it means the same at
@@ -57,8 +57,10 @@ public:
     std::vector<Real> pressures() const;
     std::vector<int> neighbour_counts() const;
 
-    /// Of the divergence, behind the stage that solves it; and of all else, behind an iteration.
-    void measure_divergence(Residuals& residuals) { residuals.divergence = water_->unsolved(*this->team_); }
+    /// Measures the residual of the divergence after its stage, and of all other constraints after an iteration.
+    void measure_divergence(Residuals& residuals) {
+        residuals.divergence = water_->measure_target_residual(*this->team_);
+    }
     void measure_constraints(Residuals& residuals);
 
     /// See Solver::forces; empty without water.
@@ -74,9 +76,9 @@ private:
     /// Calls work(i) for each particle, side by side.
     template <class Work>
     void for_each_particle(const Work& work) {
-        this->team_->for_each(ws_.particles, this->shortest_part * lanes, work);
+        this->team_->for_each(ws_.particles, this->min_part * lanes, work);
     }
-    void tell_water();
+    void send_velocities_to_water();
     void move_solids_with_water();
     /// Water that has left a periodic tank comes in at the other end.
     void wrap_fluid();
@@ -90,13 +92,13 @@ private:
     void apply_internal_corrections();
     /// x, or where it is put that is behind a plane or nearer to one than `distance`: see physics::put_before.
     Vec3<Real> before_planes(Vec3<Real> x, Real distance) const;
-    /// What a particle keeps from planes, length. Water does not touch them otherwise: their mirror images hold it.
+    /// Distance that a particle keeps from planes, length. Water does not touch them otherwise: their ghosts hold it.
     Real wall_distance(int particle) const;
     void move(int slot, const Vec3<Real>& by) {
         displacement_.add(slot, by);
         ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));
     }
-    /// Of a particle as the iterations have left it, length/s.
+    /// Velocity of a particle as the iterations have left it, length/s.
     Vec3<Real> present_velocity(int particle) const {
         const int slot = ws_.slot_of[particle];
         return ws_.predicted_velocity.at(slot) + 1 / h_ * displacement_.at(slot);
@@ -104,16 +106,16 @@ private:
 
     std::optional<Water<Real>> water_;
     std::vector<physics::PlaneSurface<Real>> planes_;
-    std::vector<physics::Seam<Real>> seams_;
+    std::vector<physics::PeriodicAxis<Real>> periodic_axes_;
     double density_error_ = 0;         ///< before the last iteration, see Residuals::density; with a tolerance alone
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
     std::vector<Real> contact_depth_;  ///< by contact
 
-    std::vector<int> bonded_;           ///< particles in springs or clusters
-    std::vector<Vec3<Real>> internal_;  ///< by particle: its displacement by springs and clusters
-    std::vector<std::vector<int>> bodies_;  ///< see free_bodies
+    std::vector<int> bonded_;                ///< particles in springs or clusters
+    std::vector<Vec3<Real>> internal_;       ///< by particle: its displacement by springs and clusters
+    std::vector<std::vector<int>> bodies_;   ///< see free_bodies
     std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
     std::vector<Real> spring_lambda_;
     std::vector<std::vector<Real>> member_mass_;                ///< m_j / n_j per member

@@ -2,13 +2,13 @@
 
 namespace natator::cpu {
 
-/// How the solids move by now.
+/// Tells the water the velocities of the solids.
 template <class Real>
-void ConservingStages<Real>::tell_water() {
+void ConservingStages<Real>::send_velocities_to_water() {
     for (const int i : ws_.solid_ids) water_->set_velocity(i, present_velocity(i));
 }
 
-/// By what the water has done to them since tell_water.
+/// Moves the solids by what the water has done to them since send_velocities_to_water.
 template <class Real>
 void ConservingStages<Real>::move_solids_with_water() {
     for (const int i : ws_.solid_ids) {
@@ -19,10 +19,10 @@ void ConservingStages<Real>::move_solids_with_water() {
 
 template <class Real>
 void ConservingStages<Real>::compute_density_impulses() {
-    tell_water();
-    if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
+    send_velocities_to_water();
+    if (!ws_.solid_ids.empty()) water_->update_ghost_velocities(*this->team_);
     water_->compute_impulses(*this->team_);
-    if (model_.parameters.conserving.density_tolerance > 0) density_error_ = water_->lacking().mean;
+    if (model_.parameters.conserving.density_tolerance > 0) density_error_ = water_->target_residual().mean;
 }
 
 template <class Real>
@@ -33,7 +33,7 @@ void ConservingStages<Real>::apply_density_impulses() {
 
 template <class Real>
 void ConservingStages<Real>::return_zeroth_order_correction() {
-    tell_water();
+    send_velocities_to_water();
     water_->return_zeroth_order_correction(*this->team_);
     move_solids_with_water();
 }
@@ -41,7 +41,7 @@ void ConservingStages<Real>::return_zeroth_order_correction() {
 /// The fluid goes where its velocities take it.
 template <class Real>
 void ConservingStages<Real>::move_water() {
-    this->team_->for_each(static_cast<int>(ws_.fluid_ids.size()), this->shortest_part * lanes, [this](int k) {
+    this->team_->for_each(static_cast<int>(ws_.fluid_ids.size()), this->min_part * lanes, [this](int k) {
         const int i = ws_.fluid_ids[k], slot = ws_.slot_of[i];
         if (!(inverse_mass_[i] > 0)) return;
         Vec3<Real> v = water_->velocity(i);
@@ -54,8 +54,8 @@ void ConservingStages<Real>::move_water() {
     });
 }
 
-template void ConservingStages<float>::tell_water();
-template void ConservingStages<double>::tell_water();
+template void ConservingStages<float>::send_velocities_to_water();
+template void ConservingStages<double>::send_velocities_to_water();
 template void ConservingStages<float>::move_solids_with_water();
 template void ConservingStages<double>::move_solids_with_water();
 template void ConservingStages<float>::compute_density_impulses();

@@ -2,7 +2,7 @@
 
 namespace natator::cpu {
 
-/// Of solids.
+/// Finds the planes that solids may touch.
 template <class Real>
 void ConservingStages<Real>::find_plane_contacts() {
     Substep<Real>::find_plane_contacts();

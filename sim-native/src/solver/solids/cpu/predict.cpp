@@ -19,9 +19,9 @@ Real ConservingStages<Real>::wall_distance(int particle) const {
 
 template <class Real>
 void ConservingStages<Real>::wrap_fluid() {
-    for (const physics::Seam<Real>& seam : seams_)
+    for (const physics::PeriodicAxis<Real>& periodic : periodic_axes_)
         for (const int i : ws_.fluid_ids)
-            if (inverse_mass_[i] > 0) state_->position[i] = eigen(wrapped(seam, vec3(state_->position[i])));
+            if (inverse_mass_[i] > 0) state_->position[i] = eigen(wrapped(periodic, vec3(state_->position[i])));
 }
 
 template <class Real>

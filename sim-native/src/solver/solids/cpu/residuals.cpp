@@ -8,9 +8,9 @@ namespace natator::cpu {
 template <class Real>
 void ConservingStages<Real>::measure_constraints(Residuals& residuals) {
     if (water_) {
-        tell_water();
-        water_->give_images_velocities(*this->team_);
-        residuals.density = water_->unsolved(*this->team_);
+        send_velocities_to_water();
+        water_->update_ghost_velocities(*this->team_);
+        residuals.density = water_->measure_target_residual(*this->team_);
     }
     ResidualSum springs, clusters;
     for (std::size_t s = 0; s < model_.springs.size(); ++s) {

@@ -6,8 +6,8 @@
 
 namespace natator::cpu {
 
-/// At which solids are pushed apart that overlap, length/s^2: max_acceleration, but enough to win against gravity. Unlimited
-/// only nominally, so that it can be multiplied.
+/// At which solids are pushed apart that overlap, length/s^2: max_acceleration, but enough to win against gravity.
+/// Unlimited only nominally, so that it can be multiplied.
 double overlap_acceleration(const SolverParameters& parameters);
 
 /// Groups of particles that springs and clusters hang together; none with a particle of infinite mass.

@@ -10,7 +10,7 @@ __device__ inline void sum_over_warp(Vec3<double>& v) {
     v = {sum_of_warp(v.x), sum_of_warp(v.y), sum_of_warp(v.z)};
 }
 
-/// A warp per free body, the sums in double; one block. `next` holds velocities, before and after.
+/// A warp per free body, the sums in double; one block. `scratch_position` holds velocities, before and after.
 template <class Real>
 __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Real>& slots) {
     const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
@@ -42,9 +42,9 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Rea
             *entry = sum_of_warp(*entry);
         const physics::BodyMotion motion = motion_of(centres, moments);
         for_own([&](int s, int, double) {
-            const Vec4<Real> v = slots.next()[s];
+            const Vec4<Real> v = slots.scratch_position()[s];
             const Vec3<Real> change = physics::cast<Real>(velocity_at(motion, at(slots.position()[s])));
-            slots.next()[s] = quad(xyz(v) + change, v.w);
+            slots.scratch_position()[s] = quad(xyz(v) + change, v.w);
         });
     }
 }
@@ -56,11 +56,11 @@ __device__ Vec4<Real> constrained_velocity(const Slots<Real>& slots, int s) {
     return quad(xyz(predicted) + (1 / slots.h) * xyz(slots.displacement()[s]), predicted.w);
 }
 
-/// The velocity that slot s leaves the substep with, where `next` holds what the constraints left.
+/// The velocity that slot s leaves the substep with, where `scratch_position` holds what the constraints left.
 template <class Real>
-__device__ Vec3<Real> velocity_in_turn(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+__device__ Vec3<Real> final_velocity(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const Real kept = model.plan.damping ? 1 / (1 + slots.h * model.damping) : Real(1);
-    const Vec3<Real> v = kept * xyz(slots.next()[s]);
+    const Vec3<Real> v = kept * xyz(slots.scratch_position()[s]);
     return model.plan.clamp_speed ? clamped(v, model.max_speed) : v;
 }
 

@@ -10,7 +10,7 @@ namespace natator::cuda {
 
 #define NATATOR_CHIP_SOLIDS(X) NATATOR_SOLID_MODEL_ARRAYS(X) NATATOR_SOLID_STATE_ARRAYS(X)
 
-/// Where on the chip the arrays begin, in bytes.
+/// Offsets of the arrays in shared memory, bytes.
 struct SolidLayout {
 #define NATATOR_OFFSET(type, name, ...) unsigned name;
     NATATOR_CHIP_SOLIDS(NATATOR_OFFSET)
@@ -55,7 +55,8 @@ __device__ void fetch(T* on_chip, const T* from) {
 
 /// Ends with a barrier.
 template <class Real>
-__device__ void load_on_chip(const ModelView<Real>& size, const SolidsInMemory<Real>& memory, const SolidsOnChip<Real>& chip) {
+__device__ void load_on_chip(const ModelView<Real>& size, const SolidsInMemory<Real>& memory,
+                             const SolidsOnChip<Real>& chip) {
 #define NATATOR_LOAD(type, name, count) \
     for_each_in_block(count, [&](int k) { fetch(chip.name() + k, memory.name() + k); });
     NATATOR_SOLID_MODEL_ARRAYS(NATATOR_LOAD)
@@ -76,7 +77,8 @@ __device__ void load_on_chip(const ModelView<Real>& size, const SolidsInMemory<R
 
 /// Each thread its own solids, behind a barrier.
 template <class Real>
-__device__ void store_from_chip(const ModelView<Real>& size, const SolidsOnChip<Real>& chip, const SolidsInMemory<Real>& memory) {
+__device__ void store_from_chip(const ModelView<Real>& size, const SolidsOnChip<Real>& chip,
+                                const SolidsInMemory<Real>& memory) {
 #define NATATOR_STORE(type, name, count) for_each_in_block(count, [&](int k) { memory.name()[k] = chip.name()[k]; });
     NATATOR_CHANGED_SOLID_ARRAYS(NATATOR_STORE)
 #undef NATATOR_STORE

@@ -12,15 +12,15 @@ __device__ Real contact_depth(const ModelView<Real>& model, const Slots<Real>& s
     const auto distance = [&](const Vec4<Real>* places) { return norm(xyz(places[s]) - xyz(places[other])); };
     return physics::limited_depth(
         model.solid_rest_distance, distance(slots.position()), model.overlap_acceleration * slots.h * slots.h,
-        [&] { return distance(slots.start()); }, [&] { return distance(slots.base()); });
+        [&] { return distance(slots.start()); }, [&] { return distance(slots.predicted_position()); });
 }
 
 /// Masses are split over the contacts that are not apart. Ends with a barrier.
 template <class Real>
 __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& slots) {
-    const int units = touched_units<Real>(model, slots);
-    for_each_unit(slots, units, 0, [&](int unit) {
-        work_on_touched(slots, unit, [&](int s, int lane) {
+    const int tasks = contact_task_count<Real>(model, slots);
+    for_each_warp_task(slots, tasks, 0, [&](int task) {
+        for_each_contact_slot(slots, task, [&](int s, int lane) {
             int active = 0;
             if (s >= 0)
                 for_each_contact_of(model, slots, s, lane, pair_lanes,
@@ -30,8 +30,8 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
         });
     });
     __syncthreads();
-    for_each_unit(slots, units, 0, [&](int unit) {
-        work_on_touched(slots, unit, [&](int s, int lane) {
+    for_each_warp_task(slots, tasks, 0, [&](int task) {
+        for_each_contact_slot(slots, task, [&](int s, int lane) {
             const Real inverse_mass = s >= 0 ? slots.position()[s].w : Real(0);
             const int active = s >= 0 ? slots.constraint_count()[s] : 0;
             Vec3<Real> sum{0, 0, 0};
@@ -49,8 +49,8 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
         });
     });
     __syncthreads();
-    for (int t = threadIdx.x; t < slots.shared().touched; t += slots.size()) {
-        const int s = slots.touched()[t];
+    for (int t = threadIdx.x; t < slots.shared().contact_slot_count; t += slots.size()) {
+        const int s = slots.contact_slots()[t];
         if (slots.constraint_count()[s] > 0 && slots.position()[s].w > 0)
             move(slots, s, model.relaxation_factor * xyz(slots.contact_push()[s]));
     }

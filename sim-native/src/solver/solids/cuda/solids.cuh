@@ -1,7 +1,7 @@
 #pragma once
 
-// Springs, clusters and planes of scheme conserving, by one block of threads: in device memory or on its chip, as `Solids` has them
-// (solid_arrays.cuh). What is done to a solid is done by one thread, always the same.
+// Springs, clusters and planes of scheme conserving, by one block of threads: in device memory or on its chip, as
+// `Solids` has them (solid_arrays.cuh). What is done to a solid is done by one thread, always the same.
 #include "physics/spring.h"
 #include "solid_arrays.cuh"
 #include "solver/cuda/contacts.cuh"
@@ -14,30 +14,31 @@ template <class Real, class Solids>
 __device__ void move(const Solids& solids, int place, const Vec3<Real>& by) {
     const Vec3<Real> displacement = xyz(solids.displacement()[place]) + by;
     solids.displacement()[place] = quad(displacement, Real(0));
-    const Vec4<Real> base = solids.base()[place];
-    solids.position()[place] = quad(xyz(base) + displacement, base.w);
+    const Vec4<Real> predicted = solids.predicted_position()[place];
+    solids.position()[place] = quad(xyz(predicted) + displacement, predicted.w);
 }
 
 /// Moves a solid by what its springs or clusters ask for, and books it as internal to its body.
 template <class Real, class Solids>
-__device__ void move_by_internal(const ModelView<Real>& model, const Solids& solids, int solid, const Vec3<Real>& correction) {
+__device__ void move_by_internal(const ModelView<Real>& model, const Solids& solids, int solid,
+                                 const Vec3<Real>& correction) {
     const Vec3<Real> by = model.relaxation_factor * correction;
     solids.internal()[solid] = quad(xyz(solids.internal()[solid]) + by, Real(0));
     move(solids, solids.place(solid), by);
 }
 
-/// Where a solid is, with its inverse mass.
+/// Position of a solid, with its inverse mass.
 template <class Solids>
 __device__ auto position_of(const Solids& solids, int solid) {
     return solids.position()[solids.place(solid)];
 }
 
-/// What stays the same in all iterations of a substep of length h, s: what springs go by, and the compliances of clusters relative to
-/// their masses, not finite for those that ask for nothing. Ends with a barrier.
+/// What stays the same in all iterations of a substep of length h, s: what springs go by, and the compliances of
+/// clusters relative to their masses, not finite for those that ask for nothing. Ends with a barrier.
 template <class Real, class Solids>
 __device__ void prepare_constraints(const ModelView<Real>& model, const Solids& solids, Real h) {
     const auto count = [&](int solid) {
-        return static_cast<Real>(solids.spring_shares_begin()[solid + 1] - solids.spring_shares_begin()[solid]);
+        return static_cast<Real>(solids.spring_incidences_begin()[solid + 1] - solids.spring_incidences_begin()[solid]);
     };
     for_each_in_block(model.springs, [&](int k) {
         const SpringView<Real> spring = solids.spring()[k];
@@ -49,12 +50,12 @@ __device__ void prepare_constraints(const ModelView<Real>& model, const Solids& 
         terms.compliance = physics::spring_compliance(spring.rule, wa + wb, h);
     });
     for_each_in_block(2 * model.springs, [&](int e) {
-        const Incidence* const share = solids.spring_share() + e;
-        const int k = share->constraint, a = solids.spring()[k].a, b = solids.spring()[k].b;
-        // Of a spring that has both its ends on a solid, the first share is before the other.
-        const bool of_a = a != b ? share->other == b : e == 0 || share[-1].constraint != k;
+        const Incidence* const incidence = solids.spring_incidence() + e;
+        const int k = incidence->constraint, a = solids.spring()[k].a, b = solids.spring()[k].b;
+        // Of a spring that has both its ends on a solid, the first incidence is before the other.
+        const bool of_a = a != b ? incidence->other == b : e == 0 || incidence[-1].constraint != k;
         SpringTerms<Real>& terms = solids.spring_terms()[k];
-        (of_a ? terms.share_of_a : terms.share_of_b) = e;
+        (of_a ? terms.incidence_of_a : terms.incidence_of_b) = e;
     });
     for_each_in_block(model.clusters, [&](int k) {
         solids.compliance()[k] =
@@ -69,15 +70,15 @@ __device__ void solve_springs(const ModelView<Real>& model, const Solids& solids
     for_each_in_block(model.springs, [&](int k) {
         const int a = solids.spring()[k].a, b = solids.spring()[k].b;
         const SpringTerms<Real> terms = solids.spring_terms()[k];
-        const Vec3<Real> push =
-            physics::xpbd_spring_push(xyz(position_of(solids, a)) - xyz(position_of(solids, b)), terms.weights, terms.split,
-                                      solids.rest_length()[k], terms.compliance, solids.spring_lambda()[k]);
-        solids.spring_push()[terms.share_of_a] = quad(push, Real(0));
-        solids.spring_push()[terms.share_of_b] = {-push.x, -push.y, -push.z, Real(0)};
+        const Vec3<Real> push = physics::xpbd_spring_push(xyz(position_of(solids, a)) - xyz(position_of(solids, b)),
+                                                          terms.weights, terms.split, solids.rest_length()[k],
+                                                          terms.compliance, solids.spring_lambda()[k]);
+        solids.spring_push()[terms.incidence_of_a] = quad(push, Real(0));
+        solids.spring_push()[terms.incidence_of_b] = {-push.x, -push.y, -push.z, Real(0)};
     });
     __syncthreads();
     for_each_in_block(model.solids, [&](int solid) {
-        const int begin = solids.spring_shares_begin()[solid], end = solids.spring_shares_begin()[solid + 1];
+        const int begin = solids.spring_incidences_begin()[solid], end = solids.spring_incidences_begin()[solid + 1];
         const Real inverse_mass = position_of(solids, solid).w;
         if (begin == end || !(inverse_mass > 0)) return;
         Vec3<Real> sum{0, 0, 0};
@@ -118,8 +119,9 @@ __device__ void sum_up_clusters(const ModelView<Real>& model, const Solids& soli
     }
 }
 
-/// Rotations of all clusters, a thread for each: a fit is one chain of arithmetic in double, and where all threads of a warp do the same,
-/// warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to different schedulers.
+/// Rotations of all clusters, a thread for each: a fit is one chain of arithmetic in double, and where all threads of a
+/// warp do the same, warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to
+/// different schedulers.
 template <class Real, class Solids>
 __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids) {
     constexpr int schedulers = 4;
@@ -138,10 +140,10 @@ __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids)
     }
 }
 
-/// What a cluster asks of one of its members.
+/// Correction of a cluster to one of its members.
 template <class Real, class Solids>
-__device__ Vec3<Real> push_of_share(const Solids& solids, const Incidence& share) {
-    const int k = share.constraint, m = share.other;
+__device__ Vec3<Real> push_of_incidence(const Solids& solids, const Incidence& incidence) {
+    const int k = incidence.constraint, m = incidence.other;
     const Real alpha = solids.compliance()[k];
     if (!isfinite(alpha)) return {0, 0, 0};
     const ClusterPose& pose = solids.cluster_pose()[k];
@@ -162,11 +164,11 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Solids& solid
     fit_clusters(model, solids);
     __syncthreads();
     for_each_in_block(model.members, [&](int e) {
-        solids.cluster_push()[e] = quad(push_of_share<Real>(solids, solids.cluster_share()[e]), Real(0));
+        solids.cluster_push()[e] = quad(push_of_incidence<Real>(solids, solids.cluster_incidence()[e]), Real(0));
     });
     __syncthreads();
     for_each_in_block(model.solids, [&](int solid) {
-        const int begin = solids.cluster_shares_begin()[solid], end = solids.cluster_shares_begin()[solid + 1];
+        const int begin = solids.cluster_incidences_begin()[solid], end = solids.cluster_incidences_begin()[solid + 1];
         if (begin == end || !(position_of(solids, solid).w > 0)) return;
         Vec3<Real> sum{0, 0, 0};
 #pragma unroll 1
@@ -179,20 +181,20 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Solids& solid
 template <class Real, class Solids>
 __device__ void solve_planes_of(const ModelView<Real>& model, const Solids& solids, int place) {
     const Vec4<Real> here = solids.position()[place];
-    Vec3<Real> x = xyz(here), base, displacement, start;
+    Vec3<Real> x = xyz(here), predicted, displacement, start;
     bool moved = false;
     for_each_near_plane(model, solids, place, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         const Real depth = model.collision_distance - distance;
         if (!(depth > 0)) return;
         if (!moved) {
-            base = xyz(solids.base()[place]);
+            predicted = xyz(solids.predicted_position()[place]);
             displacement = xyz(solids.displacement()[place]);
             start = xyz(solids.start()[place]);
             moved = true;
         }
         displacement = resolve_plane_penetration(displacement, depth, plane.normal, plane_friction(model),
-                                                 [&](const Vec3<Real>& to) { return base + to - start; });
-        x = base + displacement;
+                                                 [&](const Vec3<Real>& to) { return predicted + to - start; });
+        x = predicted + displacement;
     });
     if (!moved) return;
     solids.displacement()[place] = quad(displacement, Real(0));
@@ -201,7 +203,8 @@ __device__ void solve_planes_of(const ModelView<Real>& model, const Solids& soli
 
 /// All iterations of a substep of length h, s. solve_contacts() ends with a barrier, as this does.
 template <class Real, class Solids, class Contacts>
-__device__ void iterate_solids(const ModelView<Real>& model, const Solids& solids, Real h, const Contacts& solve_contacts) {
+__device__ void iterate_solids(const ModelView<Real>& model, const Solids& solids, Real h,
+                               const Contacts& solve_contacts) {
     prepare_constraints(model, solids, h);
     for (int k = 0; k < model.solid_iterations; ++k) {
         solve_contacts();

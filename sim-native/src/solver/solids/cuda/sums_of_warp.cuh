@@ -1,7 +1,7 @@
 #pragma once
 
-// Sums of several values over a warp at once: the bits of sum_of_warp for each, by fewer shuffles. In every step two lanes share
-// the values that they both have, so that in the end each lane has the sum of one.
+// Sums of several values over a warp at once: the bits of sum_of_warp for each, by fewer shuffles. In every step two
+// lanes share the values that they both have, so that in the end each lane has the sum of one.
 
 namespace natator::cuda {
 

@@ -1,6 +1,6 @@
 // Forces that the thesis leaves off, as in cpu/effects, between water and water. All act on the velocities that the
-// divergence solve has left. Images take part, so that walls pull neither along nor back: what a particle and its
-// neighbour's image do to each other along a wall is equal and opposite to what the neighbour and its image do.
+// divergence solve has left. Ghosts take part, so that walls pull neither along nor back: what a particle and its
+// neighbour's ghost do to each other along a wall is equal and opposite to what the neighbour and its ghost do.
 #include "physics/water_effects.h"
 
 #include "water.h"
@@ -23,7 +23,7 @@ void Water<Real>::for_each_fluid_within_radius(int slot, const Visit& visit) con
 template <class Real>
 template <class Work>
 void Water<Real>::for_fluid_slots(ThreadTeam& team, const Work& work) {
-    team.for_parts(particles_, shortest_part * lanes, [&](int, int begin, int end) {
+    team.for_parts(particles_, min_part * lanes, [&](int, int begin, int end) {
         for (int slot = begin; slot < end; ++slot)
             if (is_fluid_slot(slot)) work(slot);
     });
@@ -39,8 +39,8 @@ void Water<Real>::add_cohesion(ThreadTeam& team) {
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
         for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>& difference, Real r) {
-            sum += physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot],
-                                          inverse_mass_[other]);
+            sum +=
+                physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot], inverse_mass_[other]);
         });
         push(slot, -step * sum);
     });
@@ -55,9 +55,9 @@ void Water<Real>::add_surface_tension(ThreadTeam& team) {
         for_each_neighbour_of(slot, [&](int entry, int) { sum += gradient_.at(entry); });
         field_.set(slot, physics::colour_normal(sum, effect_radius_, volume_[slot]));
     });
-    for (std::size_t k = 0; k < image_owner_.size(); ++k)
-        field_.set(static_cast<int>(image_begin_ + k),
-                   vec3<Real>((images_.matrix(image_turn_[k]) * eigen(field_.at(image_owner_[k]))).eval()));
+    for (std::size_t k = 0; k < ghost_owner_.size(); ++k)
+        field_.set(static_cast<int>(ghost_begin_ + k),
+                   vec3<Real>((ghosts_.matrix(ghost_transform_[k]) * eigen(field_.at(ghost_owner_[k]))).eval()));
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
         for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>&, Real) {
@@ -82,7 +82,7 @@ void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
         field_.set(slot, 1 / volume_[slot] * sum);
         strength_[slot] = norm(field_.at(slot));
     });
-    for (std::size_t k = 0; k < image_owner_.size(); ++k) strength_[image_begin_ + k] = strength_[image_owner_[k]];
+    for (std::size_t k = 0; k < ghost_owner_.size(); ++k) strength_[ghost_begin_ + k] = strength_[ghost_owner_[k]];
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> towards_stronger{};
         for_each_neighbour_of(slot, [&](int entry, int other) {
@@ -95,9 +95,8 @@ void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::drag_free_surface(ThreadTeam& team) {
     const Real step = h_ * static_cast<Real>(model_.parameters.free_surface_drag);
-    for_fluid_slots(team, [&](int slot) {
-        velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step));
-    });
+    for_fluid_slots(team,
+                    [&](int slot) { velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step)); });
 }
 
 template <class Real>

@@ -1,6 +1,6 @@
-// What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs keep
-// their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the zeroth_order_correction
-// that is given back once they are over.
+// What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs
+// keep their gradients through a substep, so all of its passes together are one with the sums of their impulses, and
+// the zeroth_order_correction that is given back once they are over.
 #include "physics/dfsph.h"
 #include "physics/water_force.h"
 #include "water.h"
@@ -21,16 +21,16 @@ void Water<Real>::clear_forces() {
     impulse_time_ = 0;
 }
 
-/// As the kernel add_viscosity does, on the same velocities.
+/// Adds the viscous impulses on solids, of the same velocities as the kernel add_viscosity.
 template <class Real>
-void Water<Real>::add_viscous_forces(Real strength, Real most) {
+void Water<Real>::add_viscous_forces(Real strength, Real limit) {
     const Real softening = view().softening;
     for_each_solid_slot([&](int slot, int particle) {
         const Real own = volume_[slot] * mobility_[slot];
         physics::ViscousSums<Real> sums;
         for_each_neighbour_of(slot, [&](int entry, int other) {
             if (!is_fluid_slot(other)) return;
-            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most) *
+            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], limit) *
                                physics::wall_viscosity_factor(Real(1), Real(0));
             sums.add(position_.at(slot) - position_.at(other), packed_velocity(other) - velocity_.at(slot), softening,
                      share, gradient_.at(entry));
@@ -44,10 +44,12 @@ void Water<Real>::add_pressure_forces() {
     const WaterView<Real> all = view();
     const physics::WendlandKernel<Real> kernel{all.inverse_radius, all.kernel_scale, all.slope_scale};
     for_each_solid_slot([&](int slot, int particle) {
-        if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
+        if (carried_.any())
+            impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
             const Real* const zeroth_order_correction = &packed_zeroth_order_[4 * static_cast<std::size_t>(of)];
-            return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],
+            return {volume_[of],
+                    impulse_sum_[of < ghost_begin_ ? of : ghost_owner_[of - ghost_begin_]],
                     {zeroth_order_correction[0], zeroth_order_correction[1], zeroth_order_correction[2]}};
         };
         const physics::PairSide<Real> own = side(slot);

@@ -27,8 +27,8 @@ inline void for_groups_of(int block, const Work& work) {
     for (int k = 0; k < groups<Group>; ++k) work(k, block * lanes + k * Group::slots);
 }
 
-/// Calls visit(k, entry) for each entry of a block's rows, row by row for all its groups k: group after group would fetch
-/// whole cache lines for the first, and have nothing to fetch while it computes for the others.
+/// Calls visit(k, entry) for each entry of a block's rows, row by row for all its groups k: group after group would
+/// fetch whole cache lines for the first, and have nothing to fetch while it computes for the others.
 template <class Group, class Real, class Visit>
 inline void for_each_entry(const WaterView<Real>& water, int block, const Visit& visit) {
     const int end = water.row_begin[block + 1];
@@ -43,7 +43,8 @@ void pack(WaterView<Real> water) {
     pack_arrays<Group>(water, velocity, water.mobility, water.packed_velocity);
 }
 
-// Flattened, as compute_gradients is: g++ would leave the body of the loop a function of its own, which has the view by its address.
+// Flattened, as compute_gradients is: g++ would leave the body of the loop a function of its own, which has the view by
+// its address.
 template <class Group, class Real>
 [[gnu::flatten]] void compute_moments(WaterView<Real> water) {
     using Lane = typename Group::Lane;
@@ -66,7 +67,8 @@ template <class Group, class Real>
 }
 
 template <class Group, class Real>
-void put_impulse(const WaterView<Real>& water, int first, typename Group::Lane impulse, typename Group::Lane sum_before) {
+void put_impulse(const WaterView<Real>& water, int first, typename Group::Lane impulse,
+                 typename Group::Lane sum_before) {
     Group::put(water.impulse + first, impulse);
     Group::put(water.impulse_sum + first, sum_before + impulse);
 }
@@ -90,8 +92,8 @@ template <class Group, class Real>
             const Four<Lane> shear = Group::gather(water.packed_shear, index);
             const Four<Lane> moves = Group::gather(water.packed_velocity, index);
             const Lane slope = kernel.slope(Group::get(water.distance + entry));
-            const Vec3<Lane> gradient =
-                pair_gradient(difference, slope, volume * other.w, own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
+            const Vec3<Lane> gradient = pair_gradient(difference, slope, volume * other.w,
+                                                      own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
             const Vec3<Lane> relative = Vec3<Lane>{moves.x, moves.y, moves.z} - v;
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
@@ -99,15 +101,16 @@ template <class Group, class Real>
             rate += dot(relative, gradient);
         });
         const Lane response = sums.response(Group::get(water.mobility + first));
-        Group::put(water.fastest_square + first, fastest.square);
+        Group::put(water.max_speed_square + first, fastest.square);
         put3<Group>(water.zeroth, first, sums.gradient);
         Group::put(water.response + first, response);
-        put_impulse<Group>(water, first, pressure_impulse(Lane{}, rate, response, Group::get(water.density + first)), Lane{});
+        put_impulse<Group>(water, first, pressure_impulse(Lane{}, rate, response, Group::get(water.density + first)),
+                           Lane{});
     });
 }
 
 template <class Group, class Real>
-void add_viscosity(WaterView<Real> water, Real strength, Real most) {
+void add_viscosity(WaterView<Real> water, Real strength, Real limit) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
@@ -119,7 +122,7 @@ void add_viscosity(WaterView<Real> water, Real strength, Real most) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             const Four<Lane> shear = Group::gather(water.packed_shear, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     viscous_share(own, other.w * moves.w, most) * wall_viscosity_factor(solid, shear.z),
+                     viscous_share(own, other.w * moves.w, limit) * wall_viscosity_factor(solid, shear.z),
                      get3<Group>(water.gradient, entry));
         });
         const Lane scale = strength * inverse_mass;
@@ -145,8 +148,9 @@ void compute_impulse(WaterView<Real> water) {
             rate[k] += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v[k], get3<Group>(water.gradient, entry));
         });
         for_groups_of<Group>(block, [&](int k, int first) {
-            const Lane impulse = pressure_impulse(Group::get(water.target + first), rate[k],
-                                                  Group::get(water.response + first), Group::get(water.density + first));
+            const Lane impulse =
+                pressure_impulse(Group::get(water.target + first), rate[k], Group::get(water.response + first),
+                                 Group::get(water.density + first));
             put_impulse<Group>(water, first, impulse, Group::get(water.impulse_sum + first));
         });
     });
@@ -174,15 +178,16 @@ template <class Group, class Real>
 void apply_zeroth_order_correction(WaterView<Real> water, Real strength) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
-        const Lane kept = uncorrected_impulse(Group::get(water.fastest_square + first), strength);
+        const Lane kept = uncorrected_impulse(Group::get(water.max_speed_square + first), strength);
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
         const Vec3<Lane> zeroth = get3<Group>(water.zeroth, first);
         const Lane own = own_response(inverse_mass, zeroth, Group::get(water.response + first));
-        const Lane all = zeroth_order_correction(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept, own);
-        const Lane now = inverse_mass > 0 ? all : Lane{}, more = now - Group::get(water.zeroth_order_correction + first);
+        const Lane all = zeroth_order_correction(Group::get(water.density + first),
+                                                 Group::get(water.impulse_sum + first), kept, own);
+        const Lane now = inverse_mass > 0 ? all : Lane{},
+                   more = now - Group::get(water.zeroth_order_correction + first);
         Group::put(water.zeroth_order_correction + first, now);
-        put_velocity<Group>(water, first,
-                            get3<Group>(water.velocity, first) + inverse_mass * more * zeroth);
+        put_velocity<Group>(water, first, get3<Group>(water.velocity, first) + inverse_mass * more * zeroth);
     });
 }
 
@@ -193,7 +198,8 @@ void lay_out_zeroth_order_correction(WaterView<Real> water) {
     for_each_group<Group>(water, [&](int first) {
         const Lane share =
             zeroth_order_share(Group::get(water.density + first), Group::get(water.volume + first), kernel);
-        const Vec3<Lane> all = Group::get(water.zeroth_order_correction + first) * share * get3<Group>(water.zeroth, first);
+        const Vec3<Lane> all =
+            Group::get(water.zeroth_order_correction + first) * share * get3<Group>(water.zeroth, first);
         Group::put_quadruples(water.packed_zeroth_order + 4 * first, {all.x, all.y, all.z, Lane{}});
     });
 }
@@ -217,9 +223,15 @@ void return_zeroth_order_correction(WaterView<Real> water) {
 
 template <class Group, class Real>
 WaterKernels<Real> kernels_by() {
-    return {&pack<Group>,          &compute_moments<Group>, &compute_gradients<Group>,
-            &add_viscosity<Group>, &compute_impulse<Group>, &apply_impulse<Group>,
-            &apply_zeroth_order_correction<Group>,       &lay_out_zeroth_order_correction<Group>,  &return_zeroth_order_correction<Group>};
+    return {&pack<Group>,
+            &compute_moments<Group>,
+            &compute_gradients<Group>,
+            &add_viscosity<Group>,
+            &compute_impulse<Group>,
+            &apply_impulse<Group>,
+            &apply_zeroth_order_correction<Group>,
+            &lay_out_zeroth_order_correction<Group>,
+            &return_zeroth_order_correction<Group>};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which slots the particles of the water and their images have in a substep, cell by cell, and the neighbours of each.
+// Which slots the particles of the water and their ghosts have in a substep, cell by cell, and the neighbours of each.
 #include <algorithm>
 
 #include "physics/constants.h"
@@ -10,20 +10,20 @@ namespace natator::cpu {
 
 template <class Real>
 const std::vector<Vector3<Real>>& Water<Real>::places_in_tank(const State<Real>& state) {
-    if (seams_.empty()) return state.position;
+    if (periodic_axes_.empty()) return state.position;
     in_tank_ = state.position;
     for (Vector3<Real>& x : in_tank_)
-        for (const physics::Seam<Real>& seam : seams_) x = eigen(to_tank(seam, vec3(x)));
+        for (const physics::PeriodicAxis<Real>& periodic : periodic_axes_) x = eigen(to_tank(periodic, vec3(x)));
     return in_tank_;
 }
 
 /// The grid, the cells of the particles, and where the slots of each cell begin.
 template <class Real>
-void Water<Real>::sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Image>& images,
+void Water<Real>::sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Ghost>& ghosts,
                                   ThreadTeam& team) {
     Box<Real> box = bounding_box(position, team);
     for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] -= radius_;  // images that are further out are in the border cells
+        box.low[axis] -= radius_;  // ghosts that are further out are in the border cells
         box.high[axis] += radius_;
     }
     grid_.cover(box.low, box.high, radius_, 4096 + 16 * particles_);
@@ -32,12 +32,12 @@ void Water<Real>::sort_into_cells(const std::vector<Vector3<Real>>& position, co
     for_each_slot(team, [&](int i) { cell_of_[i] = cell(position[i]); });
     cell_begin_.assign(grid_.cells() + 1, 0);
     for (const int of_particle : cell_of_) ++cell_begin_[of_particle + 1];
-    image_cell_begin_.assign(grid_.cells() + 1, 0);
-    for (const auto& image : images) ++image_cell_begin_[cell(image.position) + 1];
-    image_cell_begin_[0] = image_begin_;
+    ghost_cell_begin_.assign(grid_.cells() + 1, 0);
+    for (const auto& ghost : ghosts) ++ghost_cell_begin_[cell(ghost.position) + 1];
+    ghost_cell_begin_[0] = ghost_begin_;
     for (int c = 0; c < grid_.cells(); ++c) {
         cell_begin_[c + 1] += cell_begin_[c];
-        image_cell_begin_[c + 1] += image_cell_begin_[c];
+        ghost_cell_begin_[c + 1] += ghost_cell_begin_[c];
     }
 }
 
@@ -47,16 +47,17 @@ void Water<Real>::make_room(std::size_t slots) {
     const std::size_t room = round_up_to_block(static_cast<int>(slots + slots / 8));
     for (auto* array : {&position_, &velocity_}) array->resize(room);
     for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
-    for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_zeroth_order_}) array->resize(4 * room);
+    for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_zeroth_order_})
+        array->resize(4 * room);
 }
 
-/// Numbers the slots by cell, first of the particles, then of the images.
+/// Numbers the slots by cell, first of the particles, then of the ghosts.
 template <class Real>
 void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
     const std::vector<Vector3<Real>>& position = places_in_tank(state);
-    const auto& images = images_.of(position, radius_, team);
-    sort_into_cells(position, images, team);
-    far_slot_ = image_begin_ + static_cast<int>(images.size());
+    const auto& ghosts = ghosts_.find(position, radius_, team);
+    sort_into_cells(position, ghosts, team);
+    far_slot_ = ghost_begin_ + static_cast<int>(ghosts.size());
 
     const std::size_t all = round_up_to_block(far_slot_ + 1) + lanes;  // what searches may read behind the last slot
     make_room(all);
@@ -83,35 +84,35 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
         solid_[slot] = model_.is_fluid(i) ? Real(0) : Real(1);
         put(slot, i, position[i], state.velocity[i]);
     });
-    for (int slot = particles_; slot < image_begin_; ++slot) put_nothing(slot);
-    next.assign(image_cell_begin_.begin(), image_cell_begin_.end() - 1);
-    image_owner_.resize(images.size());
-    image_turn_.resize(images.size());
-    image_slot_.clear();
-    for (const auto& image : images) image_slot_.push_back(next[cell(image.position)]++);
-    for_each_image(team, [&](int k) {
-        const auto& image = images[k];
-        const int slot = image_slot_[k];
-        image_owner_[slot - image_begin_] = slot_of_[image.particle];
-        image_turn_[slot - image_begin_] = image.turn;
-        put(slot, image.particle, image.position,
-            (images_.matrix(image.turn) * state.velocity[image.particle]).eval());
+    for (int slot = particles_; slot < ghost_begin_; ++slot) put_nothing(slot);
+    next.assign(ghost_cell_begin_.begin(), ghost_cell_begin_.end() - 1);
+    ghost_owner_.resize(ghosts.size());
+    ghost_transform_.resize(ghosts.size());
+    ghost_slot_.clear();
+    for (const auto& ghost : ghosts) ghost_slot_.push_back(next[cell(ghost.position)]++);
+    for_each_ghost(team, [&](int k) {
+        const auto& ghost = ghosts[k];
+        const int slot = ghost_slot_[k];
+        ghost_owner_[slot - ghost_begin_] = slot_of_[ghost.particle];
+        ghost_transform_[slot - ghost_begin_] = ghost.transform;
+        put(slot, ghost.particle, ghost.position,
+            (ghosts_.matrix(ghost.transform) * state.velocity[ghost.particle]).eval());
     });
     for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
 }
 
-/// Of all particles with all particles and images.
+/// Lists the neighbours of all particles: particles and ghosts.
 template <class Real>
 void Water<Real>::list_neighbours(ThreadTeam& team) {
     const auto cell_of = [this](int slot) { return slot < particles_ ? cell_of_[particle_of_[slot]] : -1; };
     const auto go_to = [this](Surroundings<Real>& around, int cell) {
-        around.go_to(grid_, cell, cell_begin_, image_cell_begin_);
+        around.go_to(grid_, cell, cell_begin_, ghost_cell_begin_);
     };
     const std::size_t size = lists_.list({.position = {position_.x.data(), position_.y.data(), position_.z.data()},
-                                          .blocks = image_begin_ / lanes,
+                                          .blocks = ghost_begin_ / lanes,
                                           .distance_squared = radius_ * radius_,
                                           .filler = far_slot_,
-                                          .shortest_part = shortest_part,
+                                          .min_part = min_part,
                                           .kernels = neighbour_kernels_},
                                          team, {row_begin_, neighbour_, neighbour_count_}, cell_of, go_to,
                                          [](int, std::int32_t*, int n) { return n; });
@@ -132,7 +133,7 @@ void Water<Real>::find_neighbours(const State<Real>& state, Real h, ThreadTeam& 
         std::copy_n(quadruples, 4, packed_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
         std::copy_n(quadruples + 4, 4, packed_velocity_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
     };
-    for_each_image(team, [&](int k) { pack(image_begin_ + k); });
+    for_each_ghost(team, [&](int k) { pack(ghost_begin_ + k); });
     pack(far_slot_);
 }
 

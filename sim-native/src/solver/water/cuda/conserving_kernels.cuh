@@ -9,7 +9,7 @@
 namespace natator::cuda {
 
 template <class Real>
-__device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slots) {
+__device__ void begin_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     const Vec4<Real> zero{0, 0, 0, 0};
     const int first = own_index(), step = static_cast<int>(gridDim.x * blockDim.x);
     for (int s = first; s < model.particles; s += step) {
@@ -23,7 +23,7 @@ __device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slo
 
 /// Tells the water how the solids move. Each thread its own.
 template <class Real>
-__device__ void tell_water(const ModelView<Real>& model, const Slots<Real>& slots) {
+__device__ void send_velocities_to_water(const ModelView<Real>& model, const Slots<Real>& slots) {
     if (!model.plan.water) return;
     for_each_in_block(model.solids, [&](int solid) {
         slots.water.velocity[slots.water.slot_of_solid[solid]] =
@@ -31,14 +31,14 @@ __device__ void tell_water(const ModelView<Real>& model, const Slots<Real>& slot
     });
 }
 
-/// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by then.
-/// One block.
+/// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by
+/// then. One block.
 template <class Real>
 __device__ void solids_in_memory(const ModelView<Real>& model, const Slots<Real>& slots) {
     iterate_solids(model, SolidsInMemory<Real>(model, slots), slots.h, [&] {
         if (model.plan.contacts) solve_contacts(model, slots);
     });
-    tell_water(model, slots);
+    send_velocities_to_water(model, slots);
 }
 
 /// The same without contacts.
@@ -50,17 +50,17 @@ __device__ void solids_on_chip(const ModelView<Real>& model, const Slots<Real>& 
     load_on_chip(model, memory, chip);
     iterate_solids(model, chip, slots.h, [] {});
     store_from_chip(model, chip, memory);
-    tell_water(model, slots);
+    send_velocities_to_water(model, slots);
 }
 
 template <class Real>
 __device__ void constrained_velocities(const ModelView<Real>&, const Slots<Real>& slots, int s) {
-    slots.next()[s] = constrained_velocity<Real>(slots, s);
+    slots.scratch_position()[s] = constrained_velocity<Real>(slots, s);
 }
 
 template <class Real>
-__device__ void velocities_in_turn_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    commit_large(slots, s, velocity_in_turn(model, slots, s));
+__device__ void final_velocities_on_grid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    commit_on_grid(slots, s, final_velocity(model, slots, s));
 }
 
 }  // namespace natator::cuda

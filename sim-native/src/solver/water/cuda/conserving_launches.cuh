@@ -13,7 +13,7 @@ template <Pairs pairs, class Real>
 struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base = LaunchEffects<Scheme::conserving, Real>;
     using Base::blocks, Base::launch, Base::model, Base::slots;
-    static constexpr Grouping grouping = Grouping::together;
+    static constexpr Grouping grouping = Grouping::fused;
     static constexpr bool effects = true;
     // Blocks that act on the solids of a State, each on one multiprocessor: several small ones fit there.
     static constexpr int few_threads = 512, warp_threads = 128;
@@ -43,14 +43,16 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if constexpr (pairs == Pairs::searched)
             each_pair<water_impulses<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 3, water_impulses<which, pairs, many_lanes, Real>, 6>();
+            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 3,
+                               water_impulses<which, pairs, many_lanes, Real>, 6>();
     }
     template <Pass which>
     void push_apart() const {
         if constexpr (pairs == Pairs::searched)
             each_pair<push_water_apart<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, 4, push_water_apart<which, pairs, many_lanes, Real>, 8>();
+            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, 4,
+                               push_water_apart<which, pairs, many_lanes, Real>, 8>();
     }
     /// By few threads for a slot where that is enough to fill the GPU. Each with its own least blocks.
     template <auto by_few, int few_at_once, auto by_many, int many_at_once>
@@ -63,9 +65,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     /// Of the passes that most substeps need not: few blocks, as those that find nothing to do cost time, too.
     template <Pass which>
-    void seldom_pass() const {
+    void rare_pass() const {
         launch.template each_crowded_slot<water_impulses<which, pairs, many_lanes, Real>, many_lanes>(model.particles);
-        launch.template each_crowded_slot<push_water_apart<which, pairs, many_lanes, Real>, many_lanes>(model.particles);
+        launch.template each_crowded_slot<push_water_apart<which, pairs, many_lanes, Real>, many_lanes>(
+            model.particles);
     }
 
     /// And their densities.
@@ -84,19 +87,20 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void list_water_neighbours() const {
         const int rows = blocks_for(model.particles, slots_of_row);
-        constexpr int few = 192, many = 448;  // neighbours that a list on the chip has room for: fewer let more blocks run at once
+        constexpr int few = 192,
+                      many = 448;  // neighbours that a list on the chip has room for: fewer let more blocks run at once
         if (usual_water_neighbours(model.water.radius / model.water.spacing) < few * 3 / 4)
-            launch.template each_state<find_water_neighbours_large<few, Real>, water_row>(rows);
+            launch.template each_state<find_water_neighbours_on_grid<few, Real>, water_row>(rows);
         else
-            launch.template each_state<find_water_neighbours_large<many, Real>, water_row>(rows);
+            launch.template each_state<find_water_neighbours_on_grid<many, Real>, water_row>(rows);
     }
     void compute_water_gradients() const { each_pair<water_gradients<pairs, Real>, 4>(); }
     bool begin_overlap_separation() const { return true; }  // the device knows whether there are any
     void separate_overlaps(int pass) const {
         if (pass == 0)
-            seldom_pass<Pass::first_parting>();
+            rare_pass<Pass::first_separation>();
         else
-            seldom_pass<Pass::parting>();
+            rare_pass<Pass::separation>();
     }
     void end_overlap_separation() const {}
     void solve_divergence() const { push_apart<Pass::divergence>(); }
@@ -110,11 +114,11 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void predict() const {
         if (!model.plan.water) return launch_predict<Real, Scheme::conserving>(launch);
-        launch.clear(slots.at.table, 2 * model.grid.cells);
+        launch.clear(slots.arrays.table, 2 * model.grid.cells);
         each_particle<predict_in_water<Real>>();
     }
     void begin_iterations() {
-        launch.template each_state<begin_large<Real>>(blocks);
+        launch.template each_state<begin_on_grid<Real>>(blocks);
         Base::begin_iterations();
     }
     void compute_density_impulses() const { impulses<Pass::density>(); }
@@ -145,7 +149,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void update_velocities() const {
         each_particle<constrained_velocities<Real>>();
         if (model.free_bodies > 0) launch.template each_state<keep_body_momentum<Real>, warp_threads>(1);
-        each_particle<velocities_in_turn_large<Real>>();
+        each_particle<final_velocities_on_grid<Real>>();
     }
 };
 

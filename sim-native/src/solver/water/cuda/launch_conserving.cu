@@ -3,7 +3,7 @@
 namespace natator::cuda {
 
 template <class Real, Scheme scheme>
-void launch_substep_of(const LargeLaunch<Real>& launch) {
+void launch_substep_of(const GridLaunch<Real>& launch) {
     static_assert(scheme == Scheme::conserving);
     if (launch.model.plan.water && !launch.slots.lists_water())
         launch_substep_without_lists(launch);
@@ -11,7 +11,7 @@ void launch_substep_of(const LargeLaunch<Real>& launch) {
         launch_by<ConservingLaunches<Pairs::listed, Real>>(launch);
 }
 
-template void launch_substep_of<float, Scheme::conserving>(const LargeLaunch<float>&);
-template void launch_substep_of<double, Scheme::conserving>(const LargeLaunch<double>&);
+template void launch_substep_of<float, Scheme::conserving>(const GridLaunch<float>&);
+template void launch_substep_of<double, Scheme::conserving>(const GridLaunch<double>&);
 
 }  // namespace natator::cuda

@@ -4,7 +4,8 @@
 namespace natator::cuda {
 namespace {
 
-/// Sums all that is read, so that none of it can be left out. As many at a time as in water_impulses and push_water_apart.
+/// Sums all that is read, so that none of it can be left out. As many at a time as in water_impulses and
+/// push_water_apart.
 template <Fetch what, int lanes, class Real>
 __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* sums) {
     ListSums<lanes, Real> sum;
@@ -27,20 +28,21 @@ __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slo
 }  // namespace
 
 template <class Real>
-void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums) {
+void launch_fetch(const GridLaunch<Real>& launch, Fetch what, Real* sums) {
     // Of floats as many blocks on a multiprocessor as the passes ask for.
     constexpr bool single = std::is_same_v<Real, float>;
     const int particles = launch.model.particles;
     if (what == Fetch::velocities)
-        launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, grid_threads, single ? 3 : 0>(
-            particles, sums);
+        launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, grid_threads,
+                                  single ? 3 : 0>(particles, sums);
     else
-        launch.template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads, single ? 4 : 0>(
-            particles, sums);
+        launch
+            .template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads, single ? 4 : 0>(
+                particles, sums);
     check(cudaGetLastError(), "launch");
 }
 
-template void launch_fetch(const LargeLaunch<float>&, Fetch, float*);
-template void launch_fetch(const LargeLaunch<double>&, Fetch, double*);
+template void launch_fetch(const GridLaunch<float>&, Fetch, float*);
+template void launch_fetch(const GridLaunch<double>&, Fetch, double*);
 
 }  // namespace natator::cuda

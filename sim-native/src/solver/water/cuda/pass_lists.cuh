@@ -5,8 +5,8 @@
 
 namespace natator::cuda {
 
-/// So many threads share a slot where slots do not fill the GPU, and else so few: what each begins with takes time, too. The sums are
-/// the same to the last bit.
+/// So many threads share a slot where slots do not fill the GPU, and else so few: what each begins with takes time,
+/// too. The sums are the same to the last bit.
 inline constexpr int many_lanes = water_lists, few_lanes = 2;
 
 /// Values that lie side by side.
@@ -49,8 +49,8 @@ __device__ Vec3<Real> of_lane(const Vec3<Real>& v, int step) {
     return {of_lane(v.x, step), of_lane(v.y, step), of_lane(v.z, step)};
 }
 
-/// A sum over the neighbours of a slot that `lanes` threads share, by list of this thread. The total is added up in the order of
-/// sum_of_lanes, however many lists a thread has: reversed_list sees to that.
+/// A sum over the neighbours of a slot that `lanes` threads share, by list of this thread. The total is added up in the
+/// order of sum_of_lanes, however many lists a thread has: reversed_list sees to that.
 template <int lanes, class Sum>
 class ListSums {
 public:
@@ -70,9 +70,9 @@ private:
     Sum of_[own]{};
 };
 
-/// Calls visit(list, G_ij, borders, value) for the neighbours of slot s in the lists of this thread, which are numbered from 0, once
-/// gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the lists are under way
-/// at a time.
+/// Calls visit(list, G_ij, boundaries, value) for the neighbours of slot s in the lists of this thread, which are
+/// numbered from 0, once gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the
+/// lists are under way at a time.
 template <int lanes, int rows, class Real, class Visit, class Value>
 __device__ void for_each_listed_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value* array) {
     constexpr int own = water_lists / lanes;
@@ -123,9 +123,9 @@ __device__ void for_each_searched_pair(const ModelView<Real>& model, const Slots
         model, slots, s, model.particles, wanted, reversed_list(own_lane()),
         [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
         [&](unsigned entry) {
-            const auto add = [&](int, unsigned borders, const Vec4<Real>& there, const Vec4<Real>& correction,
+            const auto add = [&](int, unsigned boundaries, const Vec4<Real>& there, const Vec4<Real>& correction,
                                  const Vec4<Real>& shear, const Value& value) {
-                visit(0, own.kept(borders, there, correction, shear), borders, value);
+                visit(0, own.kept(boundaries, there, correction, shear), boundaries, value);
             };
             visit_entry(entry, values_at(entry, water.position, water.correction, water.shear, array), add);
         });

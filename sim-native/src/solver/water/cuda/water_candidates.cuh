@@ -14,7 +14,7 @@ __device__ inline int own_lane() {
     return static_cast<int>(threadIdx.x) % pair_lanes;
 }
 
-/// Of a candidate: its slot, with the borders that it is the ghost of.
+/// Entry of a candidate: its slot, with the boundaries that it is the ghost of.
 template <class Real>
 __device__ unsigned entry_of(const Vec4<Real>& candidate) {
     return static_cast<unsigned>(number_in(candidate.w));
@@ -25,7 +25,8 @@ struct Candidates {
     int begin, end;
 };
 
-/// Those of row `around` of the nine rows of cells around x, but for cells that are further away than the kernel's support.
+/// Those of row `around` of the nine rows of cells around x, but for cells that are further away than the kernel's
+/// support.
 template <class Real>
 __device__ Candidates candidates_around(const ModelView<Real>& model, const Slots<Real>& slots, const Vec3<Real>& x,
                                         int around) {
@@ -44,7 +45,8 @@ __device__ Candidates candidates_around(const ModelView<Real>& model, const Slot
     return {low > 0 ? table[low - 1] : 0, min(table[high], slots.water_room.copies)};
 }
 
-/// All threads of a warp, for functions that take some of them: with a number that the compiler knows they take half of the time.
+/// All threads of a warp, for functions that take some of them: with a number that the compiler knows they take half of
+/// the time.
 using AllLanes = std::integral_constant<unsigned, 0xffffffff>;
 
 /// A thread's value, from the thread itself: the compiler would compute it anew wherever it is used, if it knew how.
@@ -55,7 +57,7 @@ __device__ unsigned kept_value(Lanes lanes, unsigned value) {
 
 /// The largest value of the slots that share a warp, whose threads are those of `lanes`.
 template <class Lanes>
-__device__ int largest_of_slots(Lanes lanes, int value) {
+__device__ int max_of_slots(Lanes lanes, int value) {
     int largest = 0;
     for (int first = 0; first < 32; first += pair_lanes) {
         const int its = __shfl_sync(lanes, value, first);
@@ -64,10 +66,11 @@ __device__ int largest_of_slots(Lanes lanes, int value) {
     return largest;
 }
 
-/// Calls keep(before, near, n, k, candidate) for candidates k of a slot, in the order of the cells. Those that are `near` are its neighbours n: what
-/// is within the kernel's support of it, solids and ghosts too; `before` is how many were found already, the same for all that share the
-/// slot. Returns how many there are, 0 if they are not `wanted`. A lane looks up a row of cells for all that share the slot. The threads
-/// of a warp that are in `lanes` call it and stay together, those that have no candidate left as well.
+/// Calls keep(before, near, n, k, candidate) for candidates k of a slot, in the order of the cells. Those that are
+/// `near` are its neighbours n: what is within the kernel's support of it, solids and ghosts too; `before` is how many
+/// were found already, the same for all that share the slot. Returns how many there are, 0 if they are not `wanted`. A
+/// lane looks up a row of cells for all that share the slot. The threads of a warp that are in `lanes` call it and stay
+/// together, those that have no candidate left as well.
 template <int unrolled, class Real, class Lanes, class Keep>
 __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slots, int slot, bool wanted, Lanes lanes,
                             const Keep& keep) {
@@ -84,13 +87,12 @@ __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slo
     int n = 0;
 #pragma unroll 1
     for (int around = 0; around < rows; ++around) {
-        if (around % pair_lanes == 0 && wanted)
-            own = candidates_around(model, slots, x, min(around + lane, rows - 1));
+        if (around % pair_lanes == 0 && wanted) own = candidates_around(model, slots, x, min(around + lane, rows - 1));
         const int begin = __shfl_sync(lanes, own.begin, around % pair_lanes, pair_lanes);
         const int end = __shfl_sync(lanes, own.end, around % pair_lanes, pair_lanes);
-        int most = largest_of_slots(lanes, end - begin);
+        int left = max_of_slots(lanes, end - begin);
 #pragma unroll unrolled
-        for (int k = begin + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
+        for (int k = begin + lane; left > 0; left -= pair_lanes, k += pair_lanes) {
             const Vec4<Real> there = candidate[min(static_cast<unsigned>(k), last_copy)];
             const Real r2 = physics::squared_length(x - xyz(there));
             const bool near = k < end && r2 < distance_squared && r2 > 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Forces and losses that the thesis leaves off, between water and water: water/cpu/water_effects.cpp for a large State.
+// Forces and losses that the thesis leaves off, between water and water: water/cpu/water_effects.cpp by the whole grid.
 // They act on what the viscosity has left in `pushed`. The slots of the fluid are before those of the solids.
 #include "physics/water_effects.h"
 #include "water_kernels.cuh"
@@ -13,11 +13,13 @@ __device__ void measure_water(const ModelView<Real>& model, const Slots<Real>& s
     const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> v = xyz(water.velocity[s]);
     Vec3<Real> gradients{}, vorticity{};
-    for_each_water_pair<pairs>(model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
-        gradients += gradient;
-        if (model.vorticity > 0)
-            vorticity += physics::vorticity_part(xyz(seen(model, water.velocity[other], borders)) - v, gradient);
-    });
+    for_each_water_pair<pairs>(
+        model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned boundaries) {
+            gradients += gradient;
+            if (model.vorticity > 0)
+                vorticity +=
+                    physics::vorticity_part(xyz(reflected(model, water.velocity[other], boundaries)) - v, gradient);
+        });
     gradients = sum_of_lanes(gradients);
     vorticity = sum_of_lanes(vorticity);
     if (own_lane() != 0) return;
@@ -42,16 +44,18 @@ __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<
     const Real w = water.velocity[s].w, inverse_radius = 1 / of.effect_radius;
     Vec3<Real> pull{}, tension{}, towards_stronger{};
     if (cohesive || tense || confined)
-        for_each_water_pair<pairs>(model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
-            if (other >= model.fluid) return;
-            if (confined) towards_stronger += (water.vorticity[other].w - vorticity.w) * gradient;
-            const Vec3<Real> difference = x - ghost_of(of, xyz(water.position[other]), borders);
-            const Real r = norm(difference), its = water.velocity[other].w;
-            if (!(r > 0 && r < of.effect_radius)) return;
-            if (cohesive) pull += physics::cohesion_part(difference, r, inverse_radius, of.cohesion_slope, w, its);
-            if (tense)
-                tension += physics::tension_part(normal, xyz(seen(model, water.normal[other], borders)), w, its);
-        });
+        for_each_water_pair<pairs>(
+            model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned boundaries) {
+                if (other >= model.fluid) return;
+                if (confined) towards_stronger += (water.vorticity[other].w - vorticity.w) * gradient;
+                const Vec3<Real> difference = x - ghost_position(of, xyz(water.position[other]), boundaries);
+                const Real r = norm(difference), its = water.velocity[other].w;
+                if (!(r > 0 && r < of.effect_radius)) return;
+                if (cohesive) pull += physics::cohesion_part(difference, r, inverse_radius, of.cohesion_slope, w, its);
+                if (tense)
+                    tension +=
+                        physics::tension_part(normal, xyz(reflected(model, water.normal[other], boundaries)), w, its);
+            });
     pull = sum_of_lanes(pull);
     tension = sum_of_lanes(tension);
     towards_stronger = sum_of_lanes(towards_stronger);

@@ -9,7 +9,7 @@
 
 namespace natator::cuda {
 
-/// Where sums over pairs have them from, with the same bits.
+/// Source of the pairs in sums, with the same bits.
 enum class Pairs {
     listed,    ///< lists and gradients that are kept for a substep
     searched,  ///< nothing but places: slower, in less memory
@@ -25,7 +25,7 @@ __device__ physics::Symmetric3<Real> sum_of_lanes(const physics::Symmetric3<Real
             sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
 }
 template <class Real>
-__device__ Real largest_of_lanes(Real value) {
+__device__ Real max_of_lanes(Real value) {
     for (int step = pair_lanes / 2; step > 0; step /= 2) {
         const Real other = __shfl_xor_sync(0xffffffff, value, step);
         value = other > value ? other : value;
@@ -33,29 +33,29 @@ __device__ Real largest_of_lanes(Real value) {
     return value;
 }
 
-/// How many of the neighbours of slot s are this thread's share.
+/// Number of neighbours of slot s that are this thread's share.
 template <class Real>
 __device__ int own_neighbours(const Slots<Real>& slots, int s) {
     return (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;
 }
 
-/// What is in each of the arrays at the slot of an entry.
+/// Values of each of the arrays at the slot of an entry.
 template <class... Value>
 __device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*... array) {
     return ::cuda::std::tuple<Value...>(array[entry & slot_mask]...);
 }
 
-/// Calls visit(slot, borders, values...) for an entry.
+/// Calls visit(slot, boundaries, values...) for an entry.
 template <class Visit, class... Value>
 __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& there, const Visit& visit) {
     const int slot = static_cast<int>(entry & slot_mask);
-    const unsigned borders = entry >> max_slot_bits;
-    ::cuda::std::apply([&](const Value&... value) { visit(slot, borders, value...); }, there);
+    const unsigned boundaries = entry >> max_slot_bits;
+    ::cuda::std::apply([&](const Value&... value) { visit(slot, boundaries, value...); }, there);
 }
 
-/// Calls visit(place, own, slot, borders, values...) for this thread's share of the neighbours of slot s, with what `own_at` reads at
-/// the neighbour's place in the list and with what is at its slot in each of the arrays. Those of `batch` neighbours are under
-/// way at a time, and the entries of the next.
+/// Calls visit(place, own, slot, boundaries, values...) for this thread's share of the neighbours of slot s, with what
+/// `own_at` reads at the neighbour's place in the list and with what is at its slot in each of the arrays. Those of
+/// `batch` neighbours are under way at a time, and the entries of the next.
 template <int batch, class Real, class OwnAt, class Visit, class... Value>
 __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnAt& own_at, const Visit& visit,
                                      const Value*... array) {
@@ -80,8 +80,8 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
-            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
-                visit(first + water_row * (begin + k), own[k], slot, borders, value...);
+            visit_entry(entry[k], there[k], [&](int slot, unsigned boundaries, const Value&... value) {
+                visit(first + water_row * (begin + k), own[k], slot, boundaries, value...);
             });
         }
     }
@@ -89,25 +89,27 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
 
 struct Nothing {};
 
-/// Calls visit(place in the list, slot, borders, values...) for each of them; the place means nothing where they are searched, and the
-/// slots of all threads that call it are below `end`.
+/// Calls visit(place in the list, slot, boundaries, values...) for each of them; the place means nothing where they are
+/// searched, and the slots of all threads that call it are below `end`.
 template <Pairs pairs, int batch, class Real, class Visit, class... Value>
 __device__ void for_each_water_neighbour(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end,
                                          const Visit& visit, const Value*... array) {
     if constexpr (pairs == Pairs::listed)
         for_each_water_entry<batch>(
             slots, s, [](std::size_t) { return Nothing(); },
-            [&](std::size_t place, Nothing, int slot, unsigned borders, const Value&... value) {
-                visit(place, slot, borders, value...);
+            [&](std::size_t place, Nothing, int slot, unsigned boundaries, const Value&... value) {
+                visit(place, slot, boundaries, value...);
             },
             array...);
     else
         for_each_found(
-            model, slots, s, end, true, own_lane(), [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
+            model, slots, s, end, true, own_lane(),
+            [](int, const Vec4<Real>& candidate) { return entry_of(candidate); },
             [&](unsigned entry) {
-                visit_entry(entry, values_at(entry, array...), [&](int slot, unsigned borders, const Value&... value) {
-                    visit(std::size_t{0}, slot, borders, value...);
-                });
+                visit_entry(entry, values_at(entry, array...),
+                            [&](int slot, unsigned boundaries, const Value&... value) {
+                                visit(std::size_t{0}, slot, boundaries, value...);
+                            });
             });
 }
 

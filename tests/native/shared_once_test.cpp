@@ -14,11 +14,11 @@ namespace {
 
 using Words = SharedOnce<int, std::string>;
 
-TEST(SharedOnce, IsClaimedByTheFirst) {
+TEST(SharedOnce, IsAcquiredByTheFirst) {
     Words words({1, 1, 2, 3});
-    EXPECT_EQ(words.claim({2, 1, 1}), (std::vector{2, 1}));
-    EXPECT_EQ(words.claim({1, 3}), std::vector{3});
-    EXPECT_EQ(words.claim({1, 2, 3}), std::vector<int>{});
+    EXPECT_EQ(words.acquire({2, 1, 1}), (std::vector{2, 1}));
+    EXPECT_EQ(words.acquire({1, 3}), std::vector{3});
+    EXPECT_EQ(words.acquire({1, 2, 3}), std::vector<int>{});
 }
 
 TEST(SharedOnce, ComesToAllThatWait) {
@@ -29,38 +29,38 @@ TEST(SharedOnce, ComesToAllThatWait) {
     std::vector<std::future<std::string>> all;
     for (int k = 0; k < 8; ++k)
         all.push_back(std::async(std::launch::async, [&words, &made] {
-            for (const int key : words.claim({1, 2})) {
+            for (const int key : words.acquire({1, 2})) {
                 ++made;
-                words.give(key, std::to_string(key));
+                words.publish(key, std::to_string(key));
             }
-            const std::string both = *words.of(1) + *words.of(2);
-            words.leave({1, 2});
+            const std::string both = *words.get(1) + *words.get(2);
+            words.release({1, 2});
             return both;
         }));
     for (auto& one : all) EXPECT_EQ(one.get(), "12");
     EXPECT_EQ(made, 2);
 }
 
-TEST(SharedOnce, FailsWhereTheOneThatClaimedItDoes) {
+TEST(SharedOnce, FailsWhereTheOneThatAcquiredItDoes) {
     Words words({1, 1, 2});
-    const std::vector<int> claimed = words.claim({1, 2});
-    auto other = std::async(std::launch::async, [&words] { return *words.of(1); });
-    words.give(2, "two");
-    words.fail(claimed, std::make_exception_ptr(std::runtime_error("no memory")));
+    const std::vector<int> acquired = words.acquire({1, 2});
+    auto other = std::async(std::launch::async, [&words] { return *words.get(1); });
+    words.publish(2, "two");
+    words.fail(acquired, std::make_exception_ptr(std::runtime_error("no memory")));
     EXPECT_THROW(other.get(), std::runtime_error);
-    EXPECT_EQ(*words.of(2), "two");
+    EXPECT_EQ(*words.get(2), "two");
 }
 
 TEST(SharedOnce, IsForgottenWithTheLastNeed) {
     Words words({1, 1});
-    words.claim({1});
-    words.give(1, "one");
-    const auto held = words.of(1);
-    words.leave({1});
+    words.acquire({1});
+    words.publish(1, "one");
+    const auto held = words.get(1);
+    words.release({1});
     EXPECT_EQ(held.use_count(), 2);
-    words.leave({1});
+    words.release({1});
     EXPECT_EQ(held.use_count(), 1);
-    EXPECT_THROW(words.of(1), std::out_of_range);
+    EXPECT_THROW(words.get(1), std::out_of_range);
 }
 
 }  // namespace

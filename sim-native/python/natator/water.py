@@ -1,0 +1,74 @@
+"""The water of a swim on a grid of cubic cells, and what is read off it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from natator.errors import InputError
+from natator.script import package
+
+
+@dataclass(frozen=True)
+class Water:
+    """The water at a time: the cells of scheme lattice, or the particles of the others on cells as wide as they are apart at rest.
+    Arrays are X × Y × Z, in the coordinates of the tank; derivatives are central differences, one-sided at the ends."""
+
+    time: float           #: s
+    cell: float           #: edge of a cell, length
+    corner: np.ndarray    #: the lowest of the grid, length
+    velocity: np.ndarray  #: X × Y × Z × 3, length/s; in scheme lattice about the body's where that is
+    density: np.ndarray   #: X × Y × Z, rest densities: about 1 in water, 0 without
+
+    @classmethod
+    def from_message(cls, body):
+        """Of a WATR message's body. Raises ValueError for what is none."""
+        head = np.frombuffer(body, "<u4", 6)
+        time, cell, *corner = np.frombuffer(body, "<f8", 5, 24)
+        size, shape = int(np.prod(head[2:5], dtype=np.uint64)), tuple(int(count) for count in head[4:1:-1])
+        if len(body) != 64 + 16 * size or not (cell > 0 or size == 0):
+            raise ValueError
+        values = np.frombuffer(body, "<f4", offset=64)
+        return cls(float(time), float(cell), np.array(corner), values[:3 * size].reshape(*shape, 3).transpose(2, 1, 0, 3),
+                   values[3 * size:].reshape(shape).T)
+
+    def gradient(self):
+        """X × Y × Z × 3 × 3: derivative of component i along axis j, 1/s. Raises InputError for fewer than two cells along an axis."""
+        if min(self.density.shape) < 2:
+            raise InputError(f"water of {' x '.join(map(str, self.density.shape))} cells: must have 2 along each axis for derivatives")
+        return np.stack([np.stack(np.gradient(self.velocity[..., i], self.cell), -1) for i in range(3)], -2)
+
+    def vorticity(self):
+        """X × Y × Z × 3: curl of the velocity, 1/s."""
+        g = self.gradient()
+        return np.stack([g[..., 2, 1] - g[..., 1, 2], g[..., 0, 2] - g[..., 2, 0], g[..., 1, 0] - g[..., 0, 1]], -1)
+
+    def q_criterion(self):
+        """X × Y × Z: (|Ω|² − |S|²) / 2, 1/s², Ω and S the halves of the gradient that turn and that strain; above 0 in vortices
+        (Hunt, Wray, Moin 1988)."""
+        g = self.gradient()
+        return -0.5 * np.einsum("...ij,...ji->...", g, g)
+
+    def centres(self, axis):
+        """Where the middles of the cells are along an axis (0, 1, 2), length."""
+        return self.corner[axis] + self.cell * (np.arange(self.density.shape[axis]) + 0.5)
+
+    def grid(self):
+        """A pyvista.ImageData with all of it: cell data velocity, density, vorticity and Q."""
+        pyvista = package("pyvista", "pyvista", "a grid")
+        grid = pyvista.ImageData(dimensions=np.add(self.density.shape, 1), spacing=[self.cell] * 3, origin=self.corner)
+        for name, values in (("velocity", self.velocity), ("density", self.density), ("vorticity", self.vorticity()),
+                             ("Q", self.q_criterion())):
+            grid.cell_data[name] = values.reshape(-1, *values.shape[3:], order="F").astype("f4")
+        grid.field_data["TimeValue"] = [self.time]
+        return grid
+
+    def save(self, file):
+        """To .npz (numpy: time, cell, corner, velocity, density) or .vti (ParaView: `grid`, needs pyvista). Raises InputError and OSError."""
+        kind = Path(file).suffix.lower()
+        if kind == ".npz":
+            np.savez_compressed(file, time=self.time, cell=self.cell, corner=self.corner, velocity=self.velocity, density=self.density)
+        elif kind == ".vti":
+            self.grid().save(file)
+        else:
+            raise InputError(f"file = {str(file)!r}: must end in .npz or .vti")
