@@ -42,6 +42,7 @@ class WholeFile;
 /// (length). The file takes its place when it is finished; what stood there before stays until then. For one thread at a time.
 class TrajectoryCsv {
 public:
+    /// What has a line in each frame.
     enum class Rows { slices, particles };
 
     /// Throws std::runtime_error when the file can't be written; so do the other members.
@@ -50,7 +51,7 @@ public:
 
     /// Throws InputError if there are not as many places as the slices have particles, or a whole number of times so many.
     void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
-    void finish();
+    void finish();  ///< puts the file in its place; nothing may be added after it
 
 private:
     void add_row(double time, std::size_t index, const Eigen::Vector3d& x);

@@ -43,8 +43,8 @@ public:
     /// Settles a scene that is looked up by its name. Throws as for a scene.
     explicit Simulation(const SimulationSetup& setup, const Execution& execution = {});
     ~Simulation();
-    Simulation(Simulation&&) noexcept;
-    Simulation& operator=(Simulation&&) noexcept;
+    Simulation(Simulation&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+    Simulation& operator=(Simulation&&) noexcept;  ///< likewise
 
     /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
     /// starts anew.
@@ -76,10 +76,10 @@ public:
 
     /// What runs now; its gait is always there.
     const SimulationSetup& setup() const { return setup_; }
-    const Gait& gait() const { return *setup_.gait; }
-    const Scene& scene() const;
-    const Model& model() const;
-    const State<Real>& state() const { return state_; }
+    const Gait& gait() const { return *setup_.gait; }     ///< that drives the muscles
+    const Scene& scene() const;                           ///< with all overrides
+    const Model& model() const;                           ///< of that scene
+    const State<Real>& state() const { return state_; }   ///< of this moment
     double time() const { return state_.time; }  ///< s since the start
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
@@ -94,7 +94,7 @@ public:
     /// Density of each particle in units of rest density, 0 for solids: of the present state at the start and in scheme
     /// flex; after a step in conserving at the positions of the start of its last substep.
     std::vector<Real> densities();
-    const std::optional<Instability>& instability() const { return instability_; }
+    const std::optional<Instability>& instability() const { return instability_; }  ///< none: it is stable
 
 private:
     struct Run;
