@@ -12,7 +12,7 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium, pycma, nbclient, and what makes and checks its wheel and the site, from PyPI into .readers (1 GB); the validator of glTF, where npm
-            is; libegl1 and libgl1, which draw; and valgrind, which runs the program as on a processor without AVX-512
+            is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; and doxygen
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
 TEXT
 }
@@ -155,6 +155,7 @@ find_missing() {
     $with_browser && ! node_works && missing+=(nodejs)
     $with_browser && ! command -v npm >/dev/null && missing+=(npm)
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
+    $with_readers && ! command -v doxygen >/dev/null && missing+=(doxygen)
     for library in libegl1 libgl1; do
         $with_readers && ! installed "$library" && missing+=("$library")
     done

@@ -31,7 +31,7 @@ class NotebookTest(unittest.TestCase):
             file = Path(folder, "notebook.ipynb")
             file.write_text(json.dumps(notebook))
             done = subprocess.run([sys.executable, "-c", EXECUTE, file], cwd=folder, capture_output=True, text=True,
-                                  env={**os.environ, "IPYTHONDIR": folder, "JUPYTER_CONFIG_DIR": folder})
+                                  env={**os.environ, "TQDM_DISABLE": "", "IPYTHONDIR": folder, "JUPYTER_CONFIG_DIR": folder})
             left = {path.relative_to(folder).as_posix() for path in Path(folder).rglob("*") if path.is_file()}
             return (json.loads(file.read_text()), left) if done.returncode == 0 else done.stderr
 

@@ -67,6 +67,7 @@ class SwimmerEnv(gymnasium.Env):
         self.action_space = spaces.Box(-1, 1, (self.actuators * (2 if self.by_gait else 1),), np.float32)
 
     def reset(self, *, seed=None, options=None):
+        """As of gymnasium.Env. options: {"start": number of a start} chooses one. Raises InputError."""
         self.begin_reset(seed, options)
         return self.end_reset()
 
@@ -91,6 +92,7 @@ class SwimmerEnv(gymnasium.Env):
         return self._observation(), self._info()
 
     def step(self, action):
+        """As of gymnasium.Env. Raises InputError for an action of another shape."""
         self.begin_step(action)
         return self.end_step()
 
@@ -140,6 +142,7 @@ class SwimmerEnv(gymnasium.Env):
         return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
 
     def close(self):
+        """Ends its program."""
         self._stream.close()
 
     def _drain(self):
@@ -222,6 +225,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return np.stack(observations), infos
 
     def step(self, actions):
+        """As of gymnasium.vector.VectorEnv: a row of actions for each environment. Raises InputError."""
         actions = np.asarray(actions)
         if actions.ndim == 0:
             raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
@@ -244,6 +248,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return np.stack(observations), rewards, terminated, truncated, infos
 
     def close_extras(self, **_):
+        """Ends their programs."""
         close_all([env._stream for env in self.envs])
 
 
