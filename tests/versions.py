@@ -16,14 +16,15 @@ from pathlib import Path
 
 SOURCE = ("CMakeLists.txt", r"(?m)^project\(natator VERSION (\S+)")
 HEADS = ("CHANGELOG.md", r"(?m)^## \[([^]]+)\](?: - (\d{4}-\d\d-\d\d))?$")
-MODULE = r"<groupId>io\.natator</groupId>\s*<artifactId>[^<]+</artifactId>\s*<version>([^<$]+)</version>"
+MODULE = r"(?:<groupId>io\.natator</groupId>\s*<artifactId>[^<]+</artifactId>\s*<version>|<revision>)([^<$]+)</(?:version|revision)>"
 CLIENT = ("sim-native/python/natator/__init__.py", r'(?m)^__version__ = "(.*)"$')
 RELEASED = [("CITATION.cff", r"(?m)^version: (.*)$"), ("ga-java/docs/embedding.md", MODULE)]
 
 
 def modules(root):
-    return [(str(file.relative_to(root)), MODULE) for file in [root / "pom.xml", *sorted(root.glob("ga-java/**/pom.xml"))]
-            if "node_modules" not in file.parts]
+    """The parent, and those that name a version of their own beside it."""
+    files = [file for file in sorted(root.glob("ga-java/**/pom.xml")) if re.search(MODULE, file.read_text())]
+    return [(str(file.relative_to(root)), MODULE) for file in [root / "pom.xml", *files]]
 
 
 def check(root, tag=None):
