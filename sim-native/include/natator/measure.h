@@ -9,6 +9,7 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 
+/// @file
 /// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as many
 /// particles. Real is float or double.
 namespace natator {
