@@ -93,6 +93,21 @@ TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     }
 }
 
+TEST_F(SettledStateCacheTest, TheWaterOfALatticeMakesAnotherStart) {
+    const auto lattice = [](const char* overrides) {
+        nlohmann::json all = {{"scheme", "lattice"}, {"duration", 0.02}, {"settling", {{"updates", 5}}},
+                              {"fluid", {{"disorder", 0}}}};
+        all.merge_patch(nlohmann::json::parse(overrides));
+        return load_scene("open-water/creature-2", all);
+    };
+    hash(lattice("{}"), &cache_);
+    std::size_t expected = 1;
+    for (const char* other : {R"({"fluid":{"mass":{"bottom":0.5}}})", R"({"solver":{"kinematicViscosity":0.01}})"}) {
+        EXPECT_EQ(hash(lattice(other), &cache_), hash(lattice(other), nullptr)) << other;
+        EXPECT_EQ(files(), ++expected) << other;
+    }
+}
+
 TEST_F(SettledStateCacheTest, DamagedFilesAreSettledAnew) {
     const std::uint64_t settled = hash(scene(), &cache_);
     const fs::path file = only_file();

@@ -135,7 +135,7 @@ class EnvironmentTest(unittest.TestCase):
                              ({"starts": 2**31 + 1}, "starts = 2147483649: must be at most 2147483648"),
                              ({"flow": 50}, "flow = 50: must be at most the body's \\d+ slices"),
                              ({"gait": natator.Gait(1, [0.5, 0.5], [0, 0.5])}, "gait: must be left out where actions are .drive."),
-                             ({"render_mode": "human"}, "render_mode = 'human': must be None"),
+                             ({"render_mode": "human"}, "render_mode = 'human': must be None or"),
                              ({"scene": "thesis/tank"}, "must have a creature with actuators")):
             with self.assertRaisesRegex(natator.InputError, reason):
                 natator.gym.SwimmerEnv(**{**TANK, **more})
@@ -144,7 +144,7 @@ class EnvironmentTest(unittest.TestCase):
             env.step(np.zeros(2))
         env.reset(seed=1)
         for action, reason in (([0, np.nan], r"action\[1\] = nan: must be a finite number"), (["a", "b"], "must be numbers"),
-                               ([2, 0], r"must be 2 numbers in \[-1, 1\]"), ([0], r"must be 2 numbers in \[-1, 1\]"), (None, "action")):
+                               ([0], r"must be 2 numbers in \[-1, 1\]"), (None, "action")):
             with self.assertRaisesRegex(natator.InputError, reason):
                 env.step(np.array(action))
         with self.assertRaisesRegex(natator.InputError, "options: 'strt' is unknown; must be 'start'"):
@@ -167,11 +167,48 @@ class EnvironmentTest(unittest.TestCase):
                 natator.gym.SwimmerEnv(**TANK, actions="gait", gait=gait)
 
 
+    def test_actions_beyond_the_limits_are_clipped_with_one_warning(self):
+        env, limited = (natator.gym.SwimmerEnv(**TANK) for _ in range(2))
+        for one in (env, limited):
+            one.reset(seed=1)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            for action in ([1.0000001, -3], [7, 0]):
+                observation = env.step(np.array(action))[0]
+                np.testing.assert_array_equal(observation, limited.step(np.clip(action, -1, 1))[0])
+        self.assertEqual(len(told), 1)
+        self.assertRegex(str(told[0].message), r"\[1.0000001, -3.0\] is clipped to \[-1, 1\]")
+        for one in (env, limited):
+            one.close()
+
+    def test_it_is_drawn(self):
+        with self.assertRaisesRegex(natator.InputError, 'render_mode = \'ansi\': must be None or "rgb_array"'):
+            natator.gym.SwimmerEnv(**TANK, render_mode="ansi")
+        env = gymnasium.make("natator/Swimmer-v0", **TANK, render_mode="rgb_array", target=(1.4, 0.4, 0.6))
+        self.assertEqual(env.unwrapped.metadata["render_fps"], 20)
+        env.reset(seed=1)
+        seen = [env.render()]
+        env.step(np.ones(2))
+        seen.append(env.render())
+        blind = natator.gym.SwimmerEnv(**TANK, target=(1.4, 0.4, 0.6))
+        blind.reset(seed=1)
+        np.testing.assert_array_equal(blind.step(np.ones(2))[0], env.unwrapped._observation())
+        self.assertIsNone(blind.render())
+        for pixels in seen:
+            self.assertEqual((pixels.shape, pixels.dtype), ((400, 640, 3), np.uint8))
+            for half in (pixels[:200], pixels[200:]):  # the body, from above and from the side, and the target
+                for colour in ((31, 111, 139), (224, 74, 43)):
+                    self.assertTrue(np.any(np.all(half == colour, axis=2)), colour)
+        self.assertFalse(np.array_equal(*seen))
+        env.close()
+        blind.close()
+
+
 class VectorTest(unittest.TestCase):
     def test_where_one_action_is_refused_no_swimmer_begins(self):
         vector = natator.gym.SwimmerVectorEnv(2, **TANK)
         vector.reset(seed=1)
-        with self.assertRaisesRegex(natator.InputError, "nan"):
+        with self.assertRaisesRegex(natator.InputError, r"environment 1: action\[0\] = nan"):
             vector.step(np.array([[0, 0], [np.nan, 0]]))
         with self.assertRaisesRegex(natator.InputError, "1 actions: must be 2"):
             vector.step(np.zeros((1, 2)))
@@ -203,6 +240,40 @@ class VectorTest(unittest.TestCase):
             self.assertTrue(np.all(seen[0][1 + 4 * 3 + 3]))  # the fourth step's truncations
             vector.close()
             singles.close()
+
+    def test_an_episode_can_begin_anew_within_the_step_that_ends_it(self):
+        vector = natator.gym.SwimmerVectorEnv(2, "SameStep", **TANK)
+        singles = gymnasium.vector.SyncVectorEnv([lambda: natator.gym.SwimmerEnv(**TANK) for _ in range(2)],
+                                                 autoreset_mode=gymnasium.vector.AutoresetMode.SAME_STEP)
+        seen = [[env.reset(seed=5)[0]] for env in (vector, singles)]
+        for _ in range(5):
+            for env, observed in zip((vector, singles), seen):
+                *results, infos = env.step(np.full((2, 2), 0.5))
+                observed.extend([*results, np.stack(infos["final_obs"])] if "final_obs" in infos else results)
+        self.assertEqual(len(seen[0]), 1 + 5 * 4 + 1)
+        for one, other in zip(*seen, strict=True):
+            np.testing.assert_array_equal(one, other)
+        vector.close()
+        singles.close()
+
+    def test_or_by_a_reset_of_those_that_are_named(self):
+        vector = natator.gym.SwimmerVectorEnv(2, gymnasium.vector.AutoresetMode.DISABLED, **TANK, render_mode="rgb_array")
+        with self.assertRaisesRegex(natator.InputError, "reset_mask = .*: must be 2 booleans, all true the first time"):
+            vector.reset(options={"reset_mask": np.array([True, False])})
+        first = vector.reset(seed=5)[0]
+        self.assertEqual([pixels.shape for pixels in vector.render()], [(400, 640, 3)] * 2)
+        for _ in range(4):
+            last, *_, truncated, _ = vector.step(np.zeros((2, 2)))
+        self.assertTrue(np.all(truncated))
+        with self.assertRaisesRegex(gymnasium.error.ResetNeeded, "environment 0 has ended"):
+            vector.step(np.zeros((2, 2)))
+        again = vector.reset(seed=[5, None], options={"reset_mask": np.array([True, False])})[0]
+        np.testing.assert_array_equal(again, [first[0], last[1]])
+        with self.assertRaisesRegex(gymnasium.error.ResetNeeded, "environment 1 has ended"):
+            vector.step(np.zeros((2, 2)))
+        vector.close()
+        with self.assertRaisesRegex(natator.InputError, "autoreset_mode = 'later': must be one of NextStep, SameStep, Disabled"):
+            natator.gym.SwimmerVectorEnv(2, "later", **TANK)
 
     def test_seeds(self):
         vector = natator.gym.SwimmerVectorEnv(2, **TANK)

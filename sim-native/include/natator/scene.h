@@ -114,7 +114,7 @@ struct Plane {
 
 /// An axis along which the tank closes up with itself: water that leaves at one end comes in at the other, and what is near
 /// one end is next to what is near the other. Water is wrapped; bodies are where they have come to, beyond the ends too, and
-/// the water meets them as many lengths of the tank back. Scheme `conserving` only.
+/// the water meets them as many lengths of the tank back. Not in scheme `flex`.
 struct PeriodicAxis {
     int axis = 0;  ///< 0 = x, 2 = z
     double low = 0;   ///< where the lower end is, length

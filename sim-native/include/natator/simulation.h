@@ -63,7 +63,7 @@ public:
     /// scheme `lattice`.
     void steer(const Steering& steering);
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
-    /// steering_of_drive. Scheme `conserving` has no start ramp for them. Throws InputError as `steer`.
+    /// steering_of_drive. They have no start ramp. Throws InputError as `steer`.
     void drive(const std::vector<double>& values);
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an

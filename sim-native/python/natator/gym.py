@@ -3,11 +3,13 @@
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
 from natator.errors import InputError, Unstable
 from natator.gait import as_json, number, rows, wave_in, whole
 from natator.stream import SIDES, Stream, close_all, pairs
+from natator.swimming import Views
 
 
 class SwimmerEnv(gymnasium.Env):
@@ -19,10 +21,11 @@ class SwimmerEnv(gymnasium.Env):
     slices, evenly from head to tail, both sides of each. target: None (the reward is progress along x), a point, or a
     box (low, high) that each reset draws one from (the reward is coming nearer). reached: at this distance, in body lengths,
     an episode with a target ends. work_cost: taken off the reward per unit of work, mass length²/s², in all schemes but flex.
+    render_mode: None, or "rgb_array", whose pictures gymnasium.make shows in a window for "human"; needs Pillow.
     options: those of Stream, such as overrides, scheme, arguments, program.
     """
 
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, scene="pool/tadpole", actions="drive", gait=None, frames=3, duration=4.0, starts=16, flow=3,
                  target=None, reached=0.25, work_cost=0.0, render_mode=None, **options):
@@ -30,9 +33,9 @@ class SwimmerEnv(gymnasium.Env):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
         if gait is not None and actions == "drive":
             raise InputError('gait: must be left out where actions are "drive", which move the muscles by themselves')
-        if render_mode is not None:
-            raise InputError(f"render_mode = {render_mode!r}: must be None")
-        self.render_mode = render_mode
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise InputError(f'render_mode = {render_mode!r}: must be None or "rgb_array"')
+        self.render_mode, self._clipped = render_mode, False
         self.frames = _at_most(MOST_FRAMES, "frames", whole("frames", frames, 1))
         self.starts = _at_most(MOST_STARTS, "starts", whole("starts", starts, 1))
         self.duration = _at_least(0, "duration", duration)
@@ -40,7 +43,7 @@ class SwimmerEnv(gymnasium.Env):
             raise InputError("duration = 0: must be more than 0 s")
         self.target, self.reached = _box_of(target), _at_least(0, "reached", reached)
         self.work_cost = _at_least(0, "work_cost", work_cost)
-        self._stream = Stream(scene, **options)
+        self._stream = Stream(scene, fields=("position",) if render_mode else (), **options)
         try:
             self._prepare(actions, gait, flow)
         except BaseException:
@@ -65,6 +68,8 @@ class SwimmerEnv(gymnasium.Env):
         size = 9 + 2 * self.actuators + 3 * len(self._places) + 2 * self.by_gait + 4 * (self.target is not None)
         self.observation_space = spaces.Box(-LARGEST, LARGEST, (size,), np.float32)
         self.action_space = spaces.Box(-1, 1, (self.actuators * (2 if self.by_gait else 1),), np.float32)
+        self.metadata = {**self.metadata, "render_fps": 1 / (self.frames * stream.scene["timeStep"])}
+        self._views = Views(stream.scene, stream.frame.position) if self.render_mode else None
 
     def reset(self, *, seed=None, options=None):
         """As of gymnasium.Env. options: {"start": number of a start} chooses one. Raises InputError."""
@@ -115,13 +120,17 @@ class SwimmerEnv(gymnasium.Env):
             self._stream.begin_step(1, scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
 
     def checked(self, action):
-        """An action that can be taken. Raises InputError."""
+        """An action that can be taken: what is beyond [-1, 1] is clipped, with a warning the first time. Raises InputError."""
         if self._senses is None:
             raise gymnasium.error.ResetNeeded("step before the first reset")
         action = rows("action", action)
-        if action.shape != self.action_space.shape or not np.all(np.abs(action) <= 1):
+        if action.shape != self.action_space.shape or not np.all(np.isfinite(action)):
             raise InputError(f"action {action.tolist()}: must be {self.action_space.shape[0]} numbers in [-1, 1]")
-        return action
+        within = np.clip(action, -1, 1)
+        if not self._clipped and np.any(within != action):
+            self._clipped = True
+            gymnasium.logger.warn(f"action {action.tolist()} is clipped to [-1, 1], as all are from now on")
+        return within
 
     def end_step(self):
         """The second half."""
@@ -140,6 +149,14 @@ class SwimmerEnv(gymnasium.Env):
         info = self._info() | {"unstable": unstable, "reached": there}
         late = now.time >= self.duration - 1e-9
         return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
+
+    def render(self):
+        """The body from above and from the side, and the target: height × width × 3 bytes; None without a render_mode."""
+        if self._views is None:
+            return None
+        if self._senses is None:
+            raise gymnasium.error.ResetNeeded("render before the first reset")
+        return self._views.pixels(self._stream.frame.position, self._senses, self._point is not None)
 
     def close(self):
         """Ends its program."""
@@ -187,13 +204,20 @@ class SwimmerEnv(gymnasium.Env):
 
 class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
     """Swimmers side by side, each by a program of its own: they swim at the same time, as far as there are processors.
-    Same arguments as SwimmerEnv; the same bits as so many of those."""
+    Arguments are those of SwimmerEnv, and the bits are those of so many of these. autoreset_mode: when an environment whose
+    episode has ended begins anew, one of gymnasium.vector.AutoresetMode: with the next step, with the same one (its last
+    observation and info are infos["final_obs"] and infos["final_info"]), or by reset(options={"reset_mask": …}) alone."""
 
-    metadata = {"render_modes": [], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+    metadata = {"render_modes": ["rgb_array"], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(self, num_envs=1, **arguments):
+    def __init__(self, num_envs=1, autoreset_mode=AutoresetMode.NEXT_STEP, **arguments):
         self.envs = []
         whole("num_envs", num_envs, 1)
+        try:
+            self.autoreset_mode = AutoresetMode(autoreset_mode)
+        except ValueError:
+            raise InputError(f"autoreset_mode = {autoreset_mode!r}: must be one of "
+                             f"{', '.join(mode.value for mode in AutoresetMode)}") from None
         try:
             for _ in range(num_envs):
                 self.envs.append(SwimmerEnv(**arguments))
@@ -202,27 +226,37 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise
         self.num_envs, first = num_envs, self.envs[0]
         self.render_mode = first.render_mode
+        self.metadata = {**first.metadata, "autoreset_mode": self.autoreset_mode}
         self.single_observation_space, self.single_action_space = first.observation_space, first.action_space
         self.observation_space = batch_space(first.observation_space, num_envs)
         self.action_space = batch_space(first.action_space, num_envs)
-        self._over = np.zeros(num_envs, bool)
+        self._over, self._observations = np.zeros(num_envs, bool), None
 
     def reset(self, *, seed=None, options=None):
-        """seed: one for each, or an int, which gives them seed, seed + 1 …"""
+        """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, and "reset_mask", booleans:
+        which of them begin anew."""
         seeds = list(seed) if isinstance(seed, (list, tuple)) else [
             None if seed is None else seed + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise InputError(f"{len(seeds)} seeds: must be {self.num_envs}, one for each environment")
-        for env, own in zip(self.envs, seeds):
-            env.begin_reset(own, options)
-        self._over[:] = False
-        infos = {}
-        observations = []
-        for i, env in enumerate(self.envs):
-            observation, info = env.end_reset()
-            observations.append(observation)
+        options = dict(options or {})
+        mask = np.asarray(options.pop("reset_mask", np.ones(self.num_envs, bool)))
+        if mask.shape != (self.num_envs,) or mask.dtype != bool or self._observations is None and not mask.all():
+            raise InputError(f"options: reset_mask = {mask.tolist()}: must be {self.num_envs} booleans, all true the first time")
+        chosen = np.flatnonzero(mask)
+        for i in chosen:
+            self.envs[i].begin_reset(seeds[i], options)
+        self._over[mask] = False
+        if self._observations is None:
+            self._observations = np.zeros(self.observation_space.shape, np.float32)
+        infos = self._end_resets(chosen, {})
+        return self._observations.copy(), infos
+
+    def _end_resets(self, chosen, infos):
+        for i in chosen:
+            self._observations[i], info = self.envs[i].end_reset()
             infos = self._add_info(infos, info, i)
-        return np.stack(observations), infos
+        return infos
 
     def step(self, actions):
         """As of gymnasium.vector.VectorEnv: a row of actions for each environment. Raises InputError."""
@@ -231,21 +265,37 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
         if len(actions) != self.num_envs:
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
-        checked = [None if over else env.checked(action)  # all, before anything is begun
-                   for env, action, over in zip(self.envs, actions, self._over)]
+        if self.autoreset_mode == AutoresetMode.DISABLED and np.any(self._over):
+            raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
+        checked = [None if over else self._checked(i, action)  # all, before anything is begun
+                   for i, (action, over) in enumerate(zip(actions, self._over))]
         for env, action, over in zip(self.envs, checked, self._over):
             env.begin_reset() if over else env.begin_checked_step(action)
-        observations, infos = [], {}
+        infos = self._end_resets(np.flatnonzero(self._over), {})
         rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
-        for i, (env, over) in enumerate(zip(self.envs, self._over)):
-            if over:
-                observation, info = env.end_reset()
-            else:
-                observation, rewards[i], terminated[i], truncated[i], info = env.end_step()
-            observations.append(observation)
-            infos = self._add_info(infos, info, i)
+        told = {}
+        for i in np.flatnonzero(~self._over):
+            self._observations[i], rewards[i], terminated[i], truncated[i], told[i] = self.envs[i].end_step()
         self._over = terminated | truncated
-        return np.stack(observations), rewards, terminated, truncated, infos
+        again = np.flatnonzero(self._over) if self.autoreset_mode == AutoresetMode.SAME_STEP else []
+        for i in again:
+            infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": told.pop(i)}, i)
+            self.envs[i].begin_reset()
+        infos = self._end_resets(again, infos)
+        self._over[again] = False
+        for i, info in told.items():
+            infos = self._add_info(infos, info, i)
+        return self._observations.copy(), rewards, terminated, truncated, infos
+
+    def _checked(self, i, action):
+        try:
+            return self.envs[i].checked(action)
+        except InputError as error:
+            raise InputError(f"environment {i}: {error}") from None
+
+    def render(self):
+        """One picture for each environment; None without a render_mode."""
+        return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close_extras(self, **_):
         """Ends their programs."""

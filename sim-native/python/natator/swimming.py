@@ -108,6 +108,69 @@ class Swim:
         return _Drawing(self).svg()
 
 
+def _outline(body, slices, axis):
+    """Corners of the body's outline at each time, T × 2 S × 2, along x and along `axis`: of each slice the mean of the particles that
+    are outermost at first, from head to tail on one side and back on the other. body: T × N × 3."""
+    sides = [[], []]
+    for members in map(np.array, slices):
+        across = body[0, members, axis]
+        for side, end in zip(sides, (across.min(), across.max())):
+            side.append(body[:, members[np.abs(across - end) < 1e-3]].mean(1)[:, [0, axis]])
+    return np.stack(sides[0] + sides[1][::-1], axis=1)
+
+
+class Views:
+    """Pictures of a swimmer for SwimmerEnv: from above and, below that, from the side. They go along with it over a grid of half
+    body lengths that stays. scene: a SCEN message; start: N × 3, the places of its particles at the start. Needs Pillow."""
+
+    SIZE = (640, 400)  #: width and height, pixels
+    ALONG = 3          #: body lengths that are seen from left to right
+
+    def __init__(self, scene, start):
+        self._scene, self._start = scene, np.asarray(start, float)
+        self._pillow, self._pen = (package(f"PIL.{name}", "pillow", "a picture") for name in ("Image", "ImageDraw"))
+        self._scale = self.SIZE[0] / (self.ALONG * scene["bodyLength"])
+
+    def pixels(self, position, senses, goes_to_target):
+        """height × width × 3, bytes. position: N × 3; senses: Senses of the same time; goes_to_target: whether that is drawn, a ring."""
+        image = self._pillow.new("RGB", self.SIZE, WATER)
+        body, target = np.stack([self._start, position.astype(float)]), None
+        if goes_to_target:
+            target = senses.target_distance * senses.target @ np.stack([senses.forward, senses.up, senses.right])
+        for part, axis in enumerate((2, 1)):
+            self._draw(image, part * self.SIZE[1] // 2, body, axis, senses, target)
+        return np.array(image)
+
+    def _draw(self, image, top, body, axis, senses, target):
+        width, height = self.SIZE[0], self.SIZE[1] // 2
+        panel = self._pillow.new("RGB", (width, height), WATER)
+        draw, middle = self._pen.Draw(panel), senses.centre[[0, axis]]
+        directions = np.array([1, -1 if axis == 1 else 1]) * self._scale
+
+        def pixel(points):
+            return [tuple(point) for point in (points - middle) * directions + (width / 2, height / 2)]
+
+        step = self._scene["bodyLength"] / 2
+        gone = senses.distance + self._start[self._scene["body"], 0].mean() - middle[0]  # of a moving tank
+        reach = np.array([width, height]) / 2 / self._scale
+        for at in np.arange(np.ceil((middle[0] + gone - reach[0]) / step), (middle[0] + gone + reach[0]) / step) * step - gone:
+            draw.line(pixel(np.array([[at, middle[1] - reach[1]], [at, middle[1] + reach[1]]])), GHOST)
+        for at in np.arange(np.ceil((middle[1] - reach[1]) / step), (middle[1] + reach[1]) / step) * step:
+            draw.line(pixel(np.array([[middle[0] - reach[0], at], [middle[0] + reach[0], at]])), GHOST)
+        for *normal, offset in self._scene["planes"]:
+            for k, along in enumerate((0, axis)):
+                if abs(normal[along]) > 0.999:
+                    ends = np.array([middle - reach, middle + reach])
+                    ends[:, k] = -offset / normal[along]
+                    draw.line(pixel(ends), INK, 2)
+        draw.polygon(pixel(_outline(body, self._scene["slices"], axis)[1]), BODY)
+        if target is not None:
+            (x, y), = pixel((middle + target[[0, axis]])[None])
+            draw.ellipse((x - 5, y - 5, x + 5, y + 5), outline=PATH, width=2)
+        draw.line((0, 0, width, 0), INK)
+        image.paste(panel, (0, top))
+
+
 class _Drawing:
     """The body's outline as it moves, seen from above or, where it moves more up and down, from the side."""
 
@@ -119,13 +182,7 @@ class _Drawing:
         axis = 1 if np.ptp(body - own[:, None], axis=0)[scene["body"], 1:].mean(0).argmax() == 0 else 2
         body[:, :, 1] *= -1
         self.legend, self.duration = f"{swim!r}; the bar is {BAR} body lengths", swim.duration
-        # Of each slice the particles outermost at first, on one side and on the other: the outline goes along with the body.
-        sides = [[], []]
-        for members in map(np.array, scene["slices"]):
-            across = body[0, members, axis]
-            for side, end in zip(sides, (across.min(), across.max())):
-                side.append(body[:, members[np.abs(across - end) < 1e-3]].mean(1)[:, [0, axis]])
-        outline = np.stack(sides[0] + sides[1][::-1], axis=1)
+        outline = _outline(body, scene["slices"], axis)
         path = own[:, [0, axis]] * [1, -1 if axis == 1 else 1]
         low, high = outline.min((0, 1)), outline.max((0, 1))
         scale = (WIDTH - 2 * MARGIN) / (high - low)[0]

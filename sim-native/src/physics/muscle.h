@@ -27,7 +27,7 @@ NATATOR_HD double muscle_drive(double amplitude, double activation, const double
     return drive;
 }
 
-/// Scheme `conserving` starts its muscles softly: 0 to 1 with no kink (smoothstep).
+/// Schemes `conserving` and `lattice` start their muscles softly: 0 to 1 with no kink (smoothstep).
 NATATOR_HD double start_ramp(double time) {
     const double part = time / start_ramp_time;
     const double s = part < 0 ? 0 : part < 1 ? part : 1;

@@ -52,7 +52,7 @@ GoalRecord::GoalRecord(const Scene& scene, const Model& model)
         if (goal.measure == Measure::depth) check_place(scene, model, k, {0, goal.amount, 0});
         if (goal.measure == Measure::reach) check_place(scene, model, k, goal.place);
         if (goal.measure == Measure::economy && (model.scheme == Scheme::flex || model.muscles.empty()))
-            refuse(scene, k, "economy needs the work of muscles: a creature with joints, in scheme conserving");
+            refuse(scene, k, "economy needs the work of muscles: a creature with joints, in scheme conserving or lattice");
     }
 }
 

@@ -14,7 +14,7 @@ struct LawLimits;
 struct LawMeasures;
 }  // namespace physics
 
-/// What a State has come to by the measures of physics/laws.h. Energies of scheme `conserving` alone.
+/// What a State has come to by the measures of physics/laws.h. No energies in scheme `flex`.
 template <class Real>
 physics::LawMeasures measure_laws(const Model& model, const State<Real>& state);
 

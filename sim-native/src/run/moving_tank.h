@@ -12,7 +12,7 @@ namespace natator {
 /// Keeps a tank about its swimmer. One for each run, in one thread at a time.
 class MovingFrame {
 public:
-    /// Throws InputError unless the scene has water of scheme `conserving`, a creature, and for each
+    /// Throws InputError unless the scene has water of scheme `conserving` or `lattice`, a creature, and for each
     /// axis that the tank moves along two planes across it with room enough between them.
     MovingFrame(const Scene& scene, const Model& model);
 

@@ -42,41 +42,35 @@ std::string build_id() {
     return id;
 }
 
-void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 280, "a parameter was added or removed: list it here");
-    for (const int value : {p.substeps, p.iterations, p.conserving.solid_iterations, p.conserving.max_iterations, p.flex.maxNeighborsPerParticle}) key.add(value);
-    key.add(p.gravity);
-    for (const double value : {p.conserving.density_tolerance,
-                               p.radius,
-                               p.solid_rest_distance,
-                               p.fluid_rest_distance,
-                               p.dynamic_friction,
-                               p.static_friction,
-                               p.particle_friction,
-                               p.restitution,
-                               p.adhesion,
-                               p.sleep_threshold,
-                               p.max_speed,
-                               p.max_acceleration,
-                               p.shock_propagation,
-                               p.dissipation,
-                               p.damping,
-                               p.cohesion,
-                               p.surface_tension,
-                               p.flex.viscosity,
-                               p.conserving.kernel_support,
-                               p.conserving.kinematic_viscosity,
-                               p.vorticity_confinement,
-                               p.flex.solidPressure,
-                               p.free_surface_drag,
-                               p.buoyancy,
-                               p.collision_distance,
-                               p.particle_collision_margin,
-                               p.shape_collision_margin,
-                               p.relaxation_factor})
-        key.add(value);
-    key.add(p.flex.relaxationMode);
-    key.add(p.conserving.modified_pressure);
+template <class... Values>
+void add(ByteWriter& key, const Values&... values) {
+    (key.add(values), ...);
+}
+
+// Structures are taken apart into all of their members: what has one more or less does not compile before it is listed here.
+
+void add_parameters(ByteWriter& key, const SolverParameters& parameters) {
+    const auto& [substeps, iterations, flex, conserving, gravity, radius, solid_rest_distance, fluid_rest_distance,
+                 dynamic_friction, static_friction, particle_friction, restitution, adhesion, sleep_threshold, max_speed,
+                 max_acceleration, shock_propagation, dissipation, damping, cohesion, surface_tension,
+                 vorticity_confinement, free_surface_drag, buoyancy, collision_distance, particle_collision_margin,
+                 shape_collision_margin, relaxation_factor] = parameters;
+    add(key, substeps, iterations, gravity, radius, solid_rest_distance, fluid_rest_distance, dynamic_friction,
+        static_friction, particle_friction, restitution, adhesion, sleep_threshold, max_speed, max_acceleration,
+        shock_propagation, dissipation, damping, cohesion, surface_tension, vorticity_confinement, free_surface_drag,
+        buoyancy, collision_distance, particle_collision_margin, shape_collision_margin, relaxation_factor);
+    const auto& [viscosity, solid_pressure, relaxation_mode, max_neighbours] = flex;
+    add(key, viscosity, solid_pressure, relaxation_mode, max_neighbours);
+    const auto& [solid_iterations, max_iterations, density_tolerance, kinematic_viscosity, kernel_support,
+                 modified_pressure] = conserving;
+    add(key, solid_iterations, max_iterations, density_tolerance, kinematic_viscosity, kernel_support,
+        modified_pressure);
+}
+
+void add_water_box(ByteWriter& key, const WaterBox& box) {
+    const auto& [cells, cell, corner, faces, viscosity, density] = box;
+    add(key, cells, cell, corner, viscosity, density);
+    for (const auto& ends : faces) add(key, ends[0], ends[1]);
 }
 
 }  // namespace
@@ -85,39 +79,21 @@ std::string settled_state_key(const Model& model, const Settling& settling, int 
     static const std::string id = build_id();
     if (id.empty()) return {};
     ByteWriter key;
-    key.add(id);
-    key.add(instruction_set());
-    key.add(real_bytes);
-    key.add(settling.updates);
-    key.add(settling.time_step);
-    key.add(settling.substeps);
-    key.add(model.scheme);
-    add_parameters(key, model.parameters);
-    for (const auto* vectors : {&model.position, &model.velocity, &model.rest_position}) key.add(*vectors);
-    key.add(model.inverse_mass);
-    key.add(model.phase);
-    for (const Plane& plane : model.planes) {
-        key.add(plane.normal);
-        key.add(plane.offset);
-    }
-    for (const PeriodicAxis& periodic : model.periodic) {
-        key.add(periodic.axis);
-        key.add(periodic.low);
-        key.add(periodic.high);
-    }
-    for (const Spring& spring : model.springs) {
-        key.add(spring.a);
-        key.add(spring.b);
-        key.add(spring.rest_length);
-        key.add(spring.stiffness);
-    }
-    for (const Cluster& cluster : model.clusters) {
-        key.add(cluster.particles);
-        key.add(cluster.rest_offset);
-        key.add(cluster.stiffness);
-        key.add(cluster.rotation);
-        key.add(cluster.centre);
-    }
+    add(key, id, instruction_set(), real_bytes);
+    const auto& [updates, step, settling_substeps] = settling;
+    add(key, updates, step, settling_substeps);
+
+    // Muscles rest while a model settles, and its own time step is that of later.
+    const auto& [scheme, parameters, time_step, position, velocity, inverse_mass, phase, rest_position, planes, water_box,
+                 periodic, springs, clusters, muscles, actuators, body, companions] = model;
+    add(key, scheme, position, velocity, inverse_mass, phase, rest_position, body.spacing);
+    add_parameters(key, parameters);
+    for (const auto& [normal, offset] : planes) add(key, normal, offset);
+    if (water_box) add_water_box(key, *water_box);
+    for (const auto& [axis, low, high] : periodic) add(key, axis, low, high);
+    for (const auto& [a, b, rest_length, stiffness] : springs) add(key, a, b, rest_length, stiffness);
+    for (const auto& [particles, rest_offset, stiffness, rotation, centre] : clusters)
+        add(key, particles, rest_offset, stiffness, rotation, centre);
     return key.bytes();
 }
 

@@ -120,6 +120,7 @@ std::vector<std::string> describe_plan(const Model& model) {
         add(plan.surface_tension, once("surface tension"));
         add(plan.vorticity, once("vorticity confinement"));
     };
+    add(model.water_box.has_value(), once("impulses of the water on the body"));
     add(plan.water, once("find fluid neighbours"));
     add(plan.water, once("density and gradients"));
     add(plan.water, once(name(Stage::divergence)) + about_weight(model));
@@ -152,6 +153,7 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(plan.adhesion, once(name(Stage::adhesion)));
     add(plan.restitution, once(name(Stage::restitution)));
     add(plan.sleep, once(name(Stage::sleep)));
+    add(model.water_box.has_value(), once("lattice: cells that the body covers, collision and streaming"));
     add(true, once("check finite"));
     return lines;
 }

@@ -4,9 +4,10 @@
 #include "physics/dfsph.h"
 #include "stage.h"
 
-// One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on the host
-// cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by kernels that the host launches.
-// after(stage) is called behind each.
+// One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them: on
+// the host cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by kernels
+// that the host launches. after(stage) is called behind each. In scheme `lattice` these are the stages of its solids; its
+// water pushes them before (lattice::Coupling::push) and steps after them (Coupling::follow), both called in solver.cpp.
 #if defined(__CUDACC__)
 #define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of
 #define NATATOR_STEP __host__ __device__
@@ -17,11 +18,11 @@
 
 namespace natator {
 
-/// Of a substep, and of the solids in each of those; the latter in scheme `conserving` alone.
+/// How often a substep iterates over its constraints.
 struct Iterations {
-    int all;
-    int of_solids = 1;
-    int most = 0;  ///< of those Stages that go on until they have converged
+    int all;            ///< iterations of a substep; at least as many where it goes on until it has converged
+    int of_solids = 1;  ///< times that solids are solved in each of them, but for scheme `flex`
+    int max = 0;        ///< of Stages that go on until they have converged; 0: these go no further than `all`
 };
 
 /// How a backend goes through the constraints of an iteration.
@@ -81,7 +82,8 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
 }
 
 /// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the
-/// last one left; those of the solids `solid_iterations` times, of which Stages that solve them together know.
+/// last one left; those of the solids `solid_iterations` times, a number that Stages that solve them together take from the
+/// model.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
@@ -190,7 +192,7 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
     stages.find_neighbours(after);
     stages.begin_iterations();
     after(Stage::neighbours);
-    for (int i = 0; i < iterations.all || i < iterations.most; ++i) {
+    for (int i = 0; i < iterations.all || i < iterations.max; ++i) {
         if constexpr (requires { stages.has_converged(); })
             if (i >= iterations.all && stages.has_converged()) break;
         if constexpr (Stages::scheme != Scheme::flex)

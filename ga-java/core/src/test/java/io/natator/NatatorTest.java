@@ -27,7 +27,8 @@ class NatatorTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"io.javalin.Javalin",
-        "picocli.CommandLine", "me.tongfei.progressbar.ProgressBar", "io.natator.cli.Main", "io.natator.view.ViewServer"})
+            "picocli.CommandLine", "me.tongfei.progressbar.ProgressBar", "io.natator.cli.Main",
+            "io.natator.view.ViewServer"})
     void whoEmbedsItGetsNoServerNoChartsAndNoCommandLine(String name) {
         assertThatThrownBy(() -> Class.forName(name)).isInstanceOf(ClassNotFoundException.class);
     }

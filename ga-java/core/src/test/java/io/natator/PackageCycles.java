@@ -44,7 +44,8 @@ public final class PackageCycles {
         try {
             String code = COMMENT.matcher(Files.readString(file)).replaceAll(" ");
             NAME.matcher(code).results().map(name -> name.group(1)).filter(used -> !used.equals(own))
-                    .forEach(used -> uses.computeIfAbsent(own, any -> new TreeMap<>()).computeIfAbsent(used, any -> new TreeSet<>())
+                    .forEach(used -> uses.computeIfAbsent(own, any -> new TreeMap<>())
+                            .computeIfAbsent(used, any -> new TreeSet<>())
                             .add(file.getFileName().toString().replace(".java", "")));
         } catch (IOException e) {
             throw new UncheckedIOException(e);

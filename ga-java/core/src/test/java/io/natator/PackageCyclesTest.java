@@ -25,14 +25,16 @@ class PackageCyclesTest {
         write("b", "B", "import static io.natator.c.C.ONE;");
         write("c", "C", "class C { io.natator.a.A.Inner inner; }");
         write("d", "D", "import io.natator.a.A;");
-        assertThat(PackageCycles.in(sources)).containsExactly("io.natator.a -> io.natator.b: A", "io.natator.b -> io.natator.c: B",
+        assertThat(PackageCycles.in(sources)).containsExactly("io.natator.a -> io.natator.b: A",
+                "io.natator.b -> io.natator.c: B",
                 "io.natator.c -> io.natator.a: C");
     }
 
     @Test
     void commentsAndTheOwnPackageAreNoUse() throws IOException {
         write("a", "A", "import io.natator.b.B;");
-        write("b", "B", "import io.natator.b.Other; // not io.natator.a.A", "/** {@link io.natator.a.A} */", "class B { }");
+        write("b", "B", "import io.natator.b.Other; // not io.natator.a.A", "/** {@link io.natator.a.A} */",
+                "class B { }");
         assertThat(PackageCycles.in(sources)).isEmpty();
     }
 

@@ -59,7 +59,8 @@ public @interface RandomCases {
     /** Seeds from 0. */
     final class Source extends AnnotationBasedArgumentsProvider<RandomCases> {
         @Override
-        protected Stream<? extends Arguments> provideArguments(ParameterDeclarations parameters, ExtensionContext context,
+        protected Stream<? extends Arguments> provideArguments(ParameterDeclarations parameters,
+                ExtensionContext context,
                 RandomCases cases) {
             return LongStream.range(0, cases.value()).mapToObj(seed -> Arguments.of(new Case(seed)));
         }

@@ -9,8 +9,9 @@ import picocli.CommandLine.Option;
 @Section(Topic.COMPUTING)
 final class CacheOptions {
 
-    @Option(names = "--no-cache", description = "Evaluate everything anew. Otherwise results of earlier evaluations are "
-            + "used, which are the same; from ~/.cache/natator/evaluations ($NATATOR_CACHE/evaluations).")
+    @Option(names = "--no-cache",
+            description = "Evaluate everything anew. Otherwise results of earlier evaluations are "
+                    + "used, which are the same; from ~/.cache/natator/evaluations ($NATATOR_CACHE/evaluations).")
     private boolean off;
 
     ExecutionSettings in(ExecutionSettings execution) {

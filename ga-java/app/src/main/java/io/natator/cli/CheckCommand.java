@@ -32,9 +32,9 @@ import picocli.CommandLine.Spec;
 /** {@code natator check}: whether a run's winner swims, by what should not. */
 @Command(name = "check", mixinStandardHelpOptions = true,
         description = {"Runs a run's best gait from fresh starts beside its controls: resting muscles, vacuum, no "
-            + "acceleration clamp (flex), half the time step, mirrored, on the other backend; and looks how much of the body "
-            + "is in the water.",
-            "Prints one verdict, and keeps all in RUN/check.json."},
+                + "acceleration clamp (flex), half the time step, mirrored, on the other backend; and looks how much of the body "
+                + "is in the water.",
+                "Prints one verdict, and keeps all in RUN/check.json."},
         footer = {"", "Example:", "  natator check runs/creature-1-seed-1"})
 final class CheckCommand implements Callable<Integer> {
 
@@ -73,20 +73,23 @@ final class CheckCommand implements Callable<Integer> {
     }
 
     /** Halfway and at the end; null without water, and, with a warning, if that fails: the controls are worth having without. */
-    private Double underWater(SimulationRequest request, double duration, ExecutionSettings execution) throws InterruptedException {
+    private Double underWater(SimulationRequest request, double duration, ExecutionSettings execution)
+            throws InterruptedException {
         try {
             Double halfway = Snapshot.of(request, duration / 2, execution).shareUnderWater();
             Double end = Snapshot.of(request, null, execution).shareUnderWater();
             return halfway == null || end == null ? null : Double.valueOf((halfway + end) / 2);
         } catch (InvalidInputException | RequestRejectedException | UncheckedIOException e) {
-            OneLineErrors.warn(spec.commandLine(), e.getMessage() + "; how much of the body is under water is left out");
+            OneLineErrors.warn(spec.commandLine(),
+                    e.getMessage() + "; how much of the body is under water is left out");
             return null;
         }
     }
 
     /** As a table, with the verdict. */
     private static void print(Controls controls, PrintWriter out) {
-        out.printf("%-26s%-22s%s%n", "distance in " + Numbers.fixed(controls.duration(), 2) + " s", "mean ± sd", "runs");
+        out.printf("%-26s%-22s%s%n", "distance in " + Numbers.fixed(controls.duration(), 2) + " s", "mean ± sd",
+                "runs");
         line("in water", controls.water(), out);
         line("with resting muscles", controls.resting(), out);
         line("in vacuum", controls.vacuum(), out);

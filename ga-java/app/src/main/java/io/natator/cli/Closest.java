@@ -10,7 +10,8 @@ import java.util.Map;
 final class Closest {
 
     /** What others call it. */
-    private static final Map<String, String> ALSO_CALLED = Map.of("gpu", "cuda", "gltf", "glb", "nsga-ii", "nsga2", "cmaes", "cma-es");
+    private static final Map<String, String> ALSO_CALLED = Map.of("gpu", "cuda", "gltf", "glb", "nsga-ii", "nsga2",
+            "cmaes", "cma-es");
 
     private Closest() {
     }
@@ -32,9 +33,11 @@ final class Closest {
         String small = given.toLowerCase(Locale.ROOT);
         List<String> near = known.stream().filter(name -> isNear(last(small), last(name)) || isNear(small, name))
                 .sorted(Comparator.comparingInt((String name) -> distance(last(small), last(name)))
-                        .thenComparingInt(name -> distance(small, name))).toList();
+                        .thenComparingInt(name -> distance(small, name)))
+                .toList();
         return near.isEmpty() ? "" : "; did you mean " + EnumNames.choice(near.stream()
-                .filter(name -> distance(last(small), last(name)) == distance(last(small), last(near.get(0)))).limit(3).toList()) + "?";
+                .filter(name -> distance(last(small), last(name)) == distance(last(small), last(near.get(0)))).limit(3)
+                .toList()) + "?";
     }
 
     private static String last(String scene) {

@@ -28,10 +28,11 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator compare}: runs side by side. */
 @Command(name = "compare", mixinStandardHelpOptions = true,
-        description = {"Sets runs side by side: settings, best fitness after the same number of evaluations, best gaits.",
-            "Then runs the best gaits from fresh starts, and compares them after equal numbers of evaluations and after equal "
-            + "simulated time: medians with intervals, a rank test, an effect size. Runs that differ only in their seeds stand "
-            + "together."},
+        description = {
+                "Sets runs side by side: settings, best fitness after the same number of evaluations, best gaits.",
+                "Then runs the best gaits from fresh starts, and compares them after equal numbers of evaluations and after equal "
+                        + "simulated time: medians with intervals, a rank test, an effect size. Runs that differ only in their seeds stand "
+                        + "together."},
         footer = {"", "Example:", "  natator compare runs/one runs/two"})
 final class CompareCommand implements Callable<Integer> {
 
@@ -47,18 +48,21 @@ final class CompareCommand implements Callable<Integer> {
     private CacheOptions cacheOptions;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--starts", paramLabel = "N", defaultValue = "8", description = "Fresh starts of each best gait, from 2; "
-            + "0: nothing is run. Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--starts", paramLabel = "N", defaultValue = "8",
+            description = "Fresh starts of each best gait, from 2; "
+                    + "0: nothing is run. Default: ${DEFAULT-VALUE}.")
     private int starts;
 
     @Section(Topic.OUTPUT)
-    @Option(names = "--json", paramLabel = "FILE", description = "Also write a line of JSON for each run: settings, course, winner, and "
-            + "what its best gaits at a tenth, a quarter, half and all of the budgets were worth from the fresh starts.")
+    @Option(names = "--json", paramLabel = "FILE",
+            description = "Also write a line of JSON for each run: settings, course, winner, and "
+                    + "what its best gaits at a tenth, a quarter, half and all of the budgets were worth from the fresh starts.")
     private Path json;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--rank-starts", paramLabel = "N", description = "For --json: run all gaits of each last generation from so many "
-            + "fresh starts, from 1, too.")
+    @Option(names = "--rank-starts", paramLabel = "N",
+            description = "For --json: run all gaits of each last generation from so many "
+                    + "fresh starts, from 1, too.")
     private Integer rankStarts;
 
     @Parameters(paramLabel = "RUN", arity = "2..*", description = "Run folders, at least two.")
@@ -67,13 +71,15 @@ final class CompareCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
-            throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
+            throw new InvalidInputException(
+                    "--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
         if (rankStarts != null) {
             Limits.checkCount("--rank-starts", rankStarts, Limits.STARTS);
         }
         if (json == null ? rankStarts != null : starts == 0) {
-            throw new InvalidInputException(json == null ? "--rank-starts goes with --json; give both" : "--json goes without --starts 0; leave one of them out");
+            throw new InvalidInputException(json == null ? "--rank-starts goes with --json; give both"
+                    : "--json goes without --starts 0; leave one of them out");
         }
         List<RunReader> runs = folders.stream().map(RunReader::in).toList();
         RejectRepeated.checkFolders("RUN", folders);
@@ -98,10 +104,11 @@ final class CompareCommand implements Callable<Integer> {
     }
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
-        Backend backend = settings.stream().map(one -> one.budget().backend()).distinct().count() == 1 ? settings.get(0).budget().backend()
+        Backend backend = settings.stream().map(one -> one.budget().backend()).distinct().count() == 1
+                ? settings.get(0).budget().backend()
                 : Backend.CPU;
-        ExecutionSettings execution =
-                EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)),
+                settings);
         RunComparison comparison = new RunComparison(folders, starts, json != null);
         PrintWriter err = spec.commandLine().getErr();
         err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");
@@ -109,7 +116,10 @@ final class CompareCommand implements Callable<Integer> {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
             comparison.run(evaluator, execution.simulator());
             if (json != null) {
-                AtomicFile.write(json, String.join("\n", comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n");
+                AtomicFile.write(json,
+                        String.join("\n",
+                                comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator()))
+                                + "\n");
             }
         }
         comparison.lines().forEach(out::println);

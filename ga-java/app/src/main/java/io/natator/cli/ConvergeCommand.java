@@ -30,10 +30,11 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator converge}: how far the speed of a run's winner depends on time step and spacing. */
 @Command(name = "converge", mixinStandardHelpOptions = true,
-        description = {"Runs a run's best gait as it was evolved, at half the time step and at half the spacing of the particles, "
-            + "body and motion kept, and tells what its speed goes to, with an error bar.",
-            "Keeps what it found in RUN/converge.json, each run in RUN/converge.jsonl: the same command goes on after a kill, and "
-            + "does not do again what is there."},
+        description = {
+                "Runs a run's best gait as it was evolved, at half the time step and at half the spacing of the particles, "
+                        + "body and motion kept, and tells what its speed goes to, with an error bar.",
+                "Keeps what it found in RUN/converge.json, each run in RUN/converge.jsonl: the same command goes on after a kill, and "
+                        + "does not do again what is there."},
         footer = {"", "Example:", "  natator converge runs/creature-1-seed-1"})
 final class ConvergeCommand implements Callable<Integer> {
 

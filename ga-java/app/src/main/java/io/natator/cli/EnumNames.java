@@ -17,7 +17,8 @@ final class EnumNames {
     /** Makes all arguments of a command, and of those below it, take such names in either case. */
     static void install(CommandLine command) {
         for (ArgSpec argument : command.getCommandSpec().args()) {
-            Arrays.stream(argument.typeInfo().isMultiValue() ? argument.auxiliaryTypes() : new Class<?>[] {argument.type()})
+            Arrays.stream(
+                    argument.typeInfo().isMultiValue() ? argument.auxiliaryTypes() : new Class<?>[] {argument.type()})
                     .filter(Class::isEnum).forEach(type -> command.registerConverter(typed(type), converter(type)));
         }
         command.getSubcommands().values().forEach(EnumNames::install);

@@ -39,8 +39,8 @@ import picocli.CommandLine.Spec;
         mixinStandardHelpOptions = true,
         customSynopsis = "natator evaluate --scene NAME|FILE --gait FILE|GENE... [OPTIONS]",
         footer = {"", "Examples:",
-            "  natator evaluate --scene pool/eel --gait runs/eel/best.json --duration 2",
-            "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
+                "  natator evaluate --scene pool/eel --gait runs/eel/best.json --duration 2",
+                "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
 final class EvaluateCommand implements Callable<Integer> {
 
     @Spec
@@ -53,7 +53,8 @@ final class EvaluateCommand implements Callable<Integer> {
     private ExecutionOptions executionOptions;
 
     @Section(Topic.SCENE)
-    @Option(names = "--scene", required = true, paramLabel = "NAME|FILE", description = "For example thesis/creature-1.")
+    @Option(names = "--scene", required = true, paramLabel = "NAME|FILE",
+            description = "For example thesis/creature-1.")
     private String scene;
 
     @Section(Topic.SCENE)
@@ -118,7 +119,8 @@ final class EvaluateCommand implements Callable<Integer> {
 
     private Gait gait(int actuators) {
         if (actuators == 0) {
-            throw new InvalidInputException("--scene is " + scene + ", where nothing can move by itself: it has no actuators");
+            throw new InvalidInputException(
+                    "--scene is " + scene + ", where nothing can move by itself: it has no actuators");
         }
         List<Double> genes = numbers();
         // Of two actuators both encodings are the same.

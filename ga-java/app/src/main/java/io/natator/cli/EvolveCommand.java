@@ -31,14 +31,14 @@ import picocli.CommandLine.Spec;
 /** {@code natator evolve}: evolves a creature. */
 @Command(name = "evolve", mixinStandardHelpOptions = true,
         description = {"Evolves the gait of a creature, its body, or both.",
-            "Prints the best; keeps everything in a run folder."},
+                "Prints the best; keeps everything in a run folder."},
         footer = {"", "Examples:",
-            "  natator evolve --creature 2 --generations 6",
-            "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
-            "  natator evolve --optimizer nsga2 --objectives distance,work",
-            "  natator evolve --creature eel --evolve both",
-            "  natator evolve --creature 1 --seeds 10 --output-dir runs/ten",
-            "  natator evolve --preset thesis --dry-run"})
+                "  natator evolve --creature 2 --generations 6",
+                "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
+                "  natator evolve --optimizer nsga2 --objectives distance,work",
+                "  natator evolve --creature eel --evolve both",
+                "  natator evolve --creature 1 --seeds 10 --output-dir runs/ten",
+                "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
     private static final int AT_ONCE = 2;
@@ -72,14 +72,17 @@ final class EvolveCommand implements Callable<Integer> {
     private boolean dryRun;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--seeds", paramLabel = "N", description = "Evolve with so many seeds, from --seed on, several at once, each in the folder "
-            + "DIR/seed-S. The same command continues.")
+    @Option(names = "--seeds", paramLabel = "N",
+            description = "Evolve with so many seeds, from --seed on, several at once, each in the folder "
+                    + "DIR/seed-S. The same command continues.")
     private Integer seeds;
 
     @Section(Topic.COMPUTING)
-    @Option(names = "--runs-at-once", paramLabel = "N", description = "With --seeds: runs under way at the same time; their "
-            + "generations share a batch. Default: " + AT_ONCE_SHARED + " with --simulator batch or spark, else "
-            + AT_ONCE + ".")
+    @Option(names = "--runs-at-once", paramLabel = "N",
+            description = "With --seeds: runs under way at the same time; their "
+                    + "generations share a batch. Default: " + AT_ONCE_SHARED
+                    + " with --simulator batch or spark, else "
+                    + AT_ONCE + ".")
     private Integer runsAtOnce;
 
     @Section(Topic.EXTENT)
@@ -119,13 +122,16 @@ final class EvolveCommand implements Callable<Integer> {
     private int evolveAll(EvolutionSettings settings, ExecutionSettings execution) throws InterruptedException {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         if (outputDir == null || dryRun) {
-            throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out" : "--seeds goes with --output-dir; give both");
+            throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out"
+                    : "--seeds goes with --output-dir; give both");
         }
         if (RunReader.exists(outputDir)) {
-            throw new InvalidInputException("output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
+            throw new InvalidInputException(
+                    "output folder " + outputDir + " is the folder of a run; choose another by --output-dir");
         }
         int atOnce = runsAtOnce != null ? runsAtOnce
-                : execution.mode() == SimulatorMode.BATCH || execution.mode() == SimulatorMode.SPARK ? AT_ONCE_SHARED : AT_ONCE;
+                : execution.mode() == SimulatorMode.BATCH || execution.mode() == SimulatorMode.SPARK ? AT_ONCE_SHARED
+                        : AT_ONCE;
         Limits.checkCount("--runs-at-once", atOnce, Limits.AT_ONCE);
         SeedRuns runs = new SeedRuns(settings, seeds, outputDir, spec.commandLine().getErr());
         runs.run(EvolutionRun.withTimeLimit(execution, settings), atOnce, stopAfter);
@@ -141,7 +147,8 @@ final class EvolveCommand implements Callable<Integer> {
         int actuators = actuators(sceneName, encoding, execution.simulator());
         return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
                 sceneOptions.overrides(), execution.simulator())
-                .withScene(sceneOptions.scheme(), sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                .withScene(sceneOptions.scheme(),
+                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides());
     }
 

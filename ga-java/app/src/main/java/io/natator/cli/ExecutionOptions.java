@@ -30,8 +30,9 @@ final class ExecutionOptions {
             + "instruction set, or all the same NATATOR_ISA. Default: the native program here.")
     private List<String> commands = List.of();
 
-    @Option(names = "--master", paramLabel = "URL", description = "The cluster's master in mode spark: local[4] or, for "
-            + "example, spark://host:7077. Default: what spark-submit was told.")
+    @Option(names = "--master", paramLabel = "URL",
+            description = "The cluster's master in mode spark: local[4] or, for "
+                    + "example, spark://host:7077. Default: what spark-submit was told.")
     private String master;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
@@ -68,11 +69,12 @@ final class ExecutionOptions {
         Backend chosen = backend != null ? backend : otherwise;
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
                 : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
-                : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
+                        : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
         return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(chosen),
                 workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
-                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands, master);
+                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))),
+                null, commands, master);
     }
 
     private List<Integer> devices(Backend chosen) throws InterruptedException {
@@ -80,13 +82,16 @@ final class ExecutionOptions {
             return List.of(0);
         }
         if (chosen == Backend.CPU) {
-            throw new InvalidInputException("--device is " + device + ", but the backend is cpu, which has no GPUs; expected --backend "
-                    + "cuda or auto with it");
+            throw new InvalidInputException(
+                    "--device is " + device + ", but the backend is cpu, which has no GPUs; expected --backend "
+                            + "cuda or auto with it");
         }
         if (!commands.isEmpty()) {
-            throw new InvalidInputException("--device is " + device + "; expected none beside --simulator-command, whose command lines "
-                    + "say it");
+            throw new InvalidInputException(
+                    "--device is " + device + "; expected none beside --simulator-command, whose command lines "
+                            + "say it");
         }
-        return device.matches("\\d{1,4}") ? List.of(Integer.valueOf(device)) : ProgramInfo.of(simulator.path()).devices(device);
+        return device.matches("\\d{1,4}") ? List.of(Integer.valueOf(device))
+                : ProgramInfo.of(simulator.path()).devices(device);
     }
 }

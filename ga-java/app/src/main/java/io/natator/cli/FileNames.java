@@ -31,7 +31,9 @@ final class FileNames {
 
     /** The same where Java takes names of files for text of this encoding. */
     static String fault(InvalidPathException name, String encoding) {
-        return "'" + name.getInput() + "' cannot be the name of a file" + (encoding.equals(UTF_8) ? ": " + name.getReason()
-                : " in " + encoding + ", which Java has from the locale; expected LC_ALL=C.UTF-8 before java, or the command natator, which sets it");
+        return "'" + name.getInput() + "' cannot be the name of a file" + (encoding.equals(UTF_8)
+                ? ": " + name.getReason()
+                : " in " + encoding
+                        + ", which Java has from the locale; expected LC_ALL=C.UTF-8 before java, or the command natator, which sets it");
     }
 }

@@ -25,7 +25,8 @@ final class GaitFile {
         JsonNode content = Json.read(file, JsonNode.class, "--gait");
         JsonNode body = content.get("body");
         if (body != null && !body.isObject()) {
-            throw new InvalidInputException("--gait " + file + ": body is " + body + "; expected a JSON Merge Patch on the scene");
+            throw new InvalidInputException(
+                    "--gait " + file + ": body is " + body + "; expected a JSON Merge Patch on the scene");
         }
         JsonNode gait = content.has("gait") ? content.get("gait") : content;
         if (!(gait instanceof ObjectNode keys)) {
@@ -44,13 +45,15 @@ final class GaitFile {
     /** A gait has numbers only, in lists or not: no text that looks like one, and no null for what can be left out. */
     private static void requireNumbers(Path file, String place, JsonNode node) {
         if (node.isObject()) {
-            node.properties().forEach(one -> requireNumbers(file, place + (place.isEmpty() ? "" : ".") + one.getKey(), one.getValue()));
+            node.properties().forEach(
+                    one -> requireNumbers(file, place + (place.isEmpty() ? "" : ".") + one.getKey(), one.getValue()));
         } else if (node.isArray()) {
             for (int i = 0; i < node.size(); i++) {
                 requireNumbers(file, place + "[" + i + "]", node.get(i));
             }
         } else if (!node.isNumber()) {
-            throw new InvalidInputException("--gait " + file + ": " + place + " is " + Json.shown(node) + "; expected a number");
+            throw new InvalidInputException(
+                    "--gait " + file + ": " + place + " is " + Json.shown(node) + "; expected a number");
         }
     }
 }

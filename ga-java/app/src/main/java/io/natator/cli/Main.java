@@ -13,8 +13,8 @@ import picocli.CommandLine.Spec;
 /** The {@code natator} program. Results go to standard output, logs and progress to standard error. */
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
-            CheckCommand.class, ConvergeCommand.class,
-            CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
+                CheckCommand.class, ConvergeCommand.class,
+                CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

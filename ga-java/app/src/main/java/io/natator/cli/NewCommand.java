@@ -23,12 +23,13 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator new}: a file of one's own to begin with. */
 @Command(name = "new", mixinStandardHelpOptions = true,
-        description = {"Writes a scene, a creature or a gait to begin with, which runs as it is, and says what to try next.",
-            "By its $schema, editors such as VS Code complete and explain every key of it."},
+        description = {
+                "Writes a scene, a creature or a gait to begin with, which runs as it is, and says what to try next.",
+                "By its $schema, editors such as VS Code complete and explain every key of it."},
         footer = {"", "Examples:",
-            "  natator new scene minnow",
-            "  natator new gait minnow-gait --like minnow.json",
-            "  natator new creature my-tuna --like open-water/tuna"})
+                "  natator new scene minnow",
+                "  natator new gait minnow-gait --like minnow.json",
+                "  natator new creature my-tuna --like open-water/tuna"})
 final class NewCommand implements Callable<Integer> {
 
     private static final String SUFFIX = ".json";
@@ -43,13 +44,15 @@ final class NewCommand implements Callable<Integer> {
     private String name;
 
     @Section(Topic.SCENE)
-    @Option(names = "--like", paramLabel = "SCENE", description = "A scene, by name or file, that is to be changed, whose "
-            + "creature is to be changed, or whose muscles are to be driven. Default: a fish in pool/water; for a gait, "
-            + "pool/eel.")
+    @Option(names = "--like", paramLabel = "SCENE",
+            description = "A scene, by name or file, that is to be changed, whose "
+                    + "creature is to be changed, or whose muscles are to be driven. Default: a fish in pool/water; for a gait, "
+                    + "pool/eel.")
     private String like;
 
     @Section(Topic.OUTPUT)
-    @Option(names = {"-o", "--output"}, paramLabel = "FILE", description = "Default: NAME.json. It must not be there yet.")
+    @Option(names = {"-o", "--output"}, paramLabel = "FILE",
+            description = "Default: NAME.json. It must not be there yet.")
     private Path output;
 
     @Mixin
@@ -63,8 +66,9 @@ final class NewCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         if (!name.matches("[\\p{L}\\p{N}][\\p{L}\\p{M}\\p{N}_-]{0,63}")) {
-            throw new InvalidInputException("NAME is " + name + "; expected at most 64 letters, digits, - and _, not beginning "
-                    + "with - or _");
+            throw new InvalidInputException(
+                    "NAME is " + name + "; expected at most 64 letters, digits, - and _, not beginning "
+                            + "with - or _");
         }
         Path file = output == null ? Path.of(name + SUFFIX) : output;
         if (!file.toString().endsWith(SUFFIX)) {

@@ -23,14 +23,16 @@ final class NumberValues {
     /** Whether the error is that a value is no such number as its argument is. */
     static boolean isNone(ParameterException error) {
         ArgSpec argument = error.getArgSpec();
-        return argument != null && error.getValue() != null && (WHOLE.contains(type(argument)) || ANY.contains(type(argument)));
+        return argument != null && error.getValue() != null
+                && (WHOLE.contains(type(argument)) || ANY.contains(type(argument)));
     }
 
     /** {@code --seed is x; expected a whole number}. */
     static String message(ParameterException error) {
         ArgSpec argument = error.getArgSpec();
         return error.getValue().isEmpty() ? EmptyValues.message(argument)
-                : EmptyValues.name(argument) + " is " + error.getValue() + "; expected " + expected(argument, error.getValue());
+                : EmptyValues.name(argument) + " is " + error.getValue() + "; expected "
+                        + expected(argument, error.getValue());
     }
 
     private static String expected(ArgSpec argument, String given) {
@@ -39,7 +41,8 @@ final class NumberValues {
         }
         boolean isLong = type(argument) == long.class || type(argument) == Long.class;
         return "a whole number" + (!given.matches("[+-]?\\d+") ? ""
-                : " from " + (isLong ? Long.MIN_VALUE + " to " + Long.MAX_VALUE : Integer.MIN_VALUE + " to " + Integer.MAX_VALUE));
+                : " from " + (isLong ? Long.MIN_VALUE + " to " + Long.MAX_VALUE
+                        : Integer.MIN_VALUE + " to " + Integer.MAX_VALUE));
     }
 
     private static Class<?> type(ArgSpec argument) {

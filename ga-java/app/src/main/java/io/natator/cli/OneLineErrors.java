@@ -24,9 +24,11 @@ final class OneLineErrors {
     /** What picocli calls an argument that is no option; in it, the name that the help has for it. */
     private static final Pattern PLACE = Pattern.compile("positional parameter at index \\S+ \\((.*?)\\)");
     /** How picocli tells of several arguments that it has too few of. */
-    private static final Pattern TOO_FEW = Pattern.compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
+    private static final Pattern TOO_FEW = Pattern
+            .compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
 
-    private static final Pattern NONE = Pattern.compile("(\\S+) requires at least (\\d+) values, but none were specified\\.");
+    private static final Pattern NONE = Pattern
+            .compile("(\\S+) requires at least (\\d+) values, but none were specified\\.");
 
     private OneLineErrors() {
     }
@@ -36,7 +38,8 @@ final class OneLineErrors {
         String unmatched = unmatched(error);
         String what = unmatched != null ? unknown(unmatched, command)
                 : NumberValues.isNone(error) ? NumberValues.message(error) : inOurWords(error.getMessage());
-        print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
+        print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName()
+                + " --help");
         return ExitCode.USAGE;
     }
 
@@ -60,7 +63,8 @@ final class OneLineErrors {
     private static String unknown(String argument, CommandLine command) {
         if (argument.startsWith("-")) {
             String name = argument.replaceFirst("=.*", "");
-            return name + " is no option of this command" + Closest.hint(name, command.getCommandSpec().optionsMap().keySet());
+            return name + " is no option of this command"
+                    + Closest.hint(name, command.getCommandSpec().optionsMap().keySet());
         }
         return command.getSubcommands().isEmpty() ? "'" + argument + "' is one argument too many"
                 : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());

@@ -34,10 +34,10 @@ import picocli.CommandLine.Spec;
 /** {@code natator page}: swims to be looked at anywhere. */
 @Command(name = "page", mixinStandardHelpOptions = true,
         description = {"Simulates the best swimmers and writes one HTML file that replays them, water and all.",
-            "It opens from disk in any browser of today, and loads nothing from anywhere."},
+                "It opens from disk in any browser of today, and loads nothing from anywhere."},
         footer = {"", "Examples:",
-            "  natator page runs/creature-1-seed-1 --output swim.html",
-            "  natator page runs/one runs/two --best 3 --no-water"})
+                "  natator page runs/creature-1-seed-1 --output swim.html",
+                "  natator page runs/one runs/two --best 3 --no-water"})
 final class PageCommand implements Callable<Integer> {
 
     private static final double MEGABYTE = 1e6;
@@ -90,14 +90,17 @@ final class PageCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         if (best < 1 || best > 1 && gait != null) {
-            throw new InvalidInputException("--best is " + best + "; expected a whole number from 1, and 1 with --gait");
+            throw new InvalidInputException(
+                    "--best is " + best + "; expected a whole number from 1, and 1 with --gait");
         }
         if (!(maxSize * MEGABYTE >= 1) || Double.isInfinite(maxSize)) {
-            throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
+            throw new InvalidInputException(
+                    "--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
         OutputFile.check(output);
         if (!force && Files.exists(output)) {
-            throw new InvalidInputException("output file " + output + " is already there; choose another by --output, or replace it by --force");
+            throw new InvalidInputException("output file " + output
+                    + " is already there; choose another by --output, or replace it by --force");
         }
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
@@ -125,12 +128,14 @@ final class PageCommand implements Callable<Integer> {
             return List.of(first);
         }
         if (first.run() == null) {
-            throw new InvalidInputException("--best is " + best + "; expected 1 with " + source + ", which is no run folder");
+            throw new InvalidInputException(
+                    "--best is " + best + "; expected 1 with " + source + ", which is no run folder");
         }
         RunReader run = RunReader.in(first.run());
         List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
-            throw new InvalidInputException("--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));
+            throw new InvalidInputException(
+                    "--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));
         }
         return gaits.stream().map(one -> SwimSource.of(run, one, one.equals(run.best().swimmer()) ? run.best() : null))
                 .toList();
@@ -147,7 +152,8 @@ final class PageCommand implements Callable<Integer> {
         if (stored != null) {
             warn(stored, swim.frames());
         }
-        String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
+        String name = swimmer.run() == null ? swimmer.name()
+                : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
         return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
                 + " s", swim.scene(), swim.json(), swim.frames(),
                 stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));

@@ -155,6 +155,7 @@ final class ProgressEstimate {
         Search search = settings.search();
         Budget budget = settings.budget();
         return budget.evaluations() != null ? budget.evaluations() : Math.round(search.starts() * search.population()
-                * (1 + CHILDREN_PER_SELECTED * budget.generations())) + (long) search.repeats() * (budget.generations() + 1);
+                * (1 + CHILDREN_PER_SELECTED * budget.generations()))
+                + (long) search.repeats() * (budget.generations() + 1);
     }
 }

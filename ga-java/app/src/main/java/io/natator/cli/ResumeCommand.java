@@ -25,9 +25,9 @@ import picocli.CommandLine.Spec;
 /** {@code natator resume}: continues a run. */
 @Command(name = "resume", mixinStandardHelpOptions = true,
         description = {"Continues a run that was interrupted, or gives one more generations.",
-            "Its outcome is that of an uninterrupted one, unless it continues on another backend."},
+                "Its outcome is that of an uninterrupted one, unless it continues on another backend."},
         footer = {"", "Examples:", "  natator resume runs/creature-1-seed-1",
-            "  natator resume runs/creature-1-seed-1 --generations 200"})
+                "  natator resume runs/creature-1-seed-1 --generations 200"})
 final class ResumeCommand implements Callable<Integer> {
 
     @Spec
@@ -49,8 +49,9 @@ final class ResumeCommand implements Callable<Integer> {
     private Double stopAfter;
 
     @Section(Topic.OUTPUT)
-    @Option(names = "--compact", description = "Drop the single evaluations of the finished run, some ten megabytes, which the same seed gives "
-            + "again; it can still go on to more generations.")
+    @Option(names = "--compact",
+            description = "Drop the single evaluations of the finished run, some ten megabytes, which the same seed gives "
+                    + "again; it can still go on to more generations.")
     private boolean compact;
 
     @Parameters(paramLabel = "RUN", description = "Run folder.")
@@ -64,7 +65,8 @@ final class ResumeCommand implements Callable<Integer> {
         EvolutionSettings settings = RunReader.settings(directory);
         Backend before = settings.budget().backend();
         // Asks the simulator, so that where there is none nothing is changed.
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(before)), settings);
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(before)),
+                settings);
         SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
         RunWriter folder = RunWriter.open(directory);
         if (generations != null) {
@@ -83,10 +85,12 @@ final class ResumeCommand implements Callable<Integer> {
     private static void changeGenerations(RunWriter folder, int generations) {
         EvolutionState state = folder.checkpoint();
         int done = state == null ? 0 : state.generation();
-        folder.refuse(generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
+        folder.refuse(generations < done
+                ? "--generations is " + generations + "; expected at least the " + done + " that are done"
                 : state != null && generations > done && state.isLastOf(folder.settings().withGenerations(generations))
-                ? folder.directory() + " ends after its " + Numbers.count(state.evaluations(), "evaluation")
-                        + ", however many --generations it may have" : null);
+                        ? folder.directory() + " ends after its " + Numbers.count(state.evaluations(), "evaluation")
+                                + ", however many --generations it may have"
+                        : null);
         if (generations != folder.settings().budget().generations()) {
             folder.changeGenerations(generations);
         }

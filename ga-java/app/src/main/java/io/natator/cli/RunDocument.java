@@ -30,7 +30,8 @@ import java.util.Objects;
 /** What {@code show --json} tells of a run, for programs: its report is made of it. */
 final class RunDocument {
 
-    private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "holds", Measure.Outcome.FAILS,
+    private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "holds",
+            Measure.Outcome.FAILS,
             "does not", Measure.Outcome.NOT_MEASURED, "not measured");
 
     private final RunReader run;
@@ -65,15 +66,19 @@ final class RunDocument {
                 : "worth by " + WeightedObjective.text(WeightedObjective.leading(settings.problem().objectives())));
         List<Individual> front = run.front();
         if (!front.isEmpty()) {
-            document.put("objectives", settings.problem().objectives().stream().map(one -> EnumNames.of(one.objective())).toList());
-            document.put("population", run.state().population().stream().map(Individual::objectives).filter(Objects::nonNull).toList());
+            document.put("objectives",
+                    settings.problem().objectives().stream().map(one -> EnumNames.of(one.objective())).toList());
+            document.put("population",
+                    run.state().population().stream().map(Individual::objectives).filter(Objects::nonNull).toList());
             document.put("front", front.stream().map(Individual::objectives).toList());
         }
         EliteMap elites = run.elites();
         if (elites != null && !elites.moving().isEmpty()) {
             List<Map<String, Object>> cells = new ArrayList<>();
-            elites.moving().forEach((cell, elite) -> cells.add(Map.of("beats", EliteMap.edge(cell.beats()), "cost", EliteMap.edge(cell.cost()),
-                    "worth", elite.score())));
+            elites.moving()
+                    .forEach((cell, elite) -> cells
+                            .add(Map.of("beats", EliteMap.edge(cell.beats()), "cost", EliteMap.edge(cell.cost()),
+                                    "worth", elite.score())));
             document.put("elites", cells);
         }
         return Json.line(document);
@@ -85,10 +90,14 @@ final class RunDocument {
 
     /** Null of a run that has come to its end. */
     private String unfinished() {
-        return run.state().isLastOf(run.settings()) ? null : "This run is not finished. Done are generation " + run.state().generation()
-                + (run.settings().budget().generations() == Budget.NO_LIMIT ? "" : " of " + run.settings().budget().generations()) + " and "
-                + Numbers.count(run.state().evaluations(), "evaluation") + "; this is the best gait so far. It goes on by natator resume "
-                + run.directory() + ".";
+        return run.state().isLastOf(run.settings()) ? null
+                : "This run is not finished. Done are generation " + run.state().generation()
+                        + (run.settings().budget().generations() == Budget.NO_LIMIT ? ""
+                                : " of " + run.settings().budget().generations())
+                        + " and "
+                        + Numbers.count(run.state().evaluations(), "evaluation")
+                        + "; this is the best gait so far. It goes on by natator resume "
+                        + run.directory() + ".";
     }
 
     /** What came of it, in a few sentences. */
@@ -100,7 +109,8 @@ final class RunDocument {
         sentences.add("The best gait " + (verdict.text().startsWith("not ") ? "is " : "") + verdict.text()
                 + (best.fresh() == null ? " (one run, not a mean)." : "."));
         if (best.fresh() != null && best.fresh().base().perBeat() != null) {
-            sentences.add("It gets " + Numbers.significant(best.fresh().base().perBeat().mean(), 3) + " body lengths further in a beat, at "
+            sentences.add("It gets " + Numbers.significant(best.fresh().base().perBeat().mean(), 3)
+                    + " body lengths further in a beat, at "
                     + Numbers.significant(best.gait().frequency(), 3) + " beats a second.");
         }
         sentences.add(controls == null ? "Its controls were not run; natator check " + run.directory() + " runs them."
@@ -109,7 +119,8 @@ final class RunDocument {
             sentences.add("At finer steps: " + facts.get("finer steps") + ".");
         }
         if (facts.containsKey("cost")) {
-            sentences.add(facts.get("cost").substring(0, 1).toUpperCase(Locale.ROOT) + facts.get("cost").substring(1) + ".");
+            sentences.add(
+                    facts.get("cost").substring(0, 1).toUpperCase(Locale.ROOT) + facts.get("cost").substring(1) + ".");
         }
         String refused = Refusals.of(run.state());
         if (refused != null) {
@@ -132,7 +143,8 @@ final class RunDocument {
         }
         if (run.settings().problem().evolve() != null) {
             ProfileBody scene = run.settings().problem().evolve().body();
-            BodyText.of(scene.with(best.body()), scene).forEach((name, text) -> rows.add(List.of("body: " + name, text)));
+            BodyText.of(scene.with(best.body()), scene)
+                    .forEach((name, text) -> rows.add(List.of("body: " + name, text)));
         }
         FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));
         if (best.fresh() == null) {

@@ -31,12 +31,15 @@ final class RunLauncher {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             try (Evaluator evaluator = EvolutionRun.open(limited);
-                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; " + how))) {
+                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+                            () -> say("interrupted; " + how))) {
                 EvolutionRun.Outcome outcome;
-                try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(), err,
+                try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(),
+                        err,
                         System.console() != null ? System.err : null)) {
                     outcome = new EvolutionRun(folder).run(limited, evaluator, limited.inBatches()
-                            ? new EvolutionListener[] {progress, shutdown.beforeLateGenerations()} : new EvolutionListener[] {progress});
+                            ? new EvolutionListener[] {progress, shutdown.beforeLateGenerations()}
+                            : new EvolutionListener[] {progress});
                 } catch (EvolutionStoppedException | InterruptedException e) {
                     if (shutdown.isTimeUp()) {
                         say("time is up; " + how);

@@ -38,12 +38,15 @@ final class RunReport {
      */
     void print(EvolutionSettings settings, EvolutionState state, BestGait best, Path folder) {
         if (best == null) {
-            out.println("no gait was measured in " + Numbers.count(state.evaluations(), "evaluation") + ": unstable, refused or failed");
+            out.println("no gait was measured in " + Numbers.count(state.evaluations(), "evaluation")
+                    + ": unstable, refused or failed");
             printRefusals(state);
             return;
         }
-        out.println("best " + (settings.problem().evolve() == null ? "gait" : "swimmer") + " of " + settings.problem().scene() + " after "
-                + Numbers.count(state.generation(), "generation") + " and " + Numbers.count(state.evaluations(), "evaluation"));
+        out.println("best " + (settings.problem().evolve() == null ? "gait" : "swimmer") + " of "
+                + settings.problem().scene() + " after "
+                + Numbers.count(state.generation(), "generation") + " and "
+                + Numbers.count(state.evaluations(), "evaluation"));
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));
         line("phase", row(best.gait().phase()));
@@ -103,8 +106,10 @@ final class RunReport {
     private void printFailures(EvolutionState state, Path folder) {
         int failed = state.history().stream().mapToInt(GenerationSummary::failed).sum();
         if (failed > 0) {
-            line("failed", failed + " of " + Numbers.count(state.evaluations(), "evaluation") + " gave no answer, so the same seed may "
-                    + "find another gait elsewhere; why: " + Main.asCalled() + " show " + ShellWord.of(folder));
+            line("failed",
+                    failed + " of " + Numbers.count(state.evaluations(), "evaluation")
+                            + " gave no answer, so the same seed may "
+                            + "find another gait elsewhere; why: " + Main.asCalled() + " show " + ShellWord.of(folder));
         }
     }
 

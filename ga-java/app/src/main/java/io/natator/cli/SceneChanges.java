@@ -32,7 +32,8 @@ class SceneChanges {
             return null;
         }
         if (isOtherJson(overrides)) {
-            throw new InvalidInputException("--overrides is " + overrides.strip() + "; expected a JSON object, or a file that holds one");
+            throw new InvalidInputException(
+                    "--overrides is " + overrides.strip() + "; expected a JSON object, or a file that holds one");
         }
         if (!overrides.stripLeading().startsWith("{")) {
             return Json.read(Path.of(overrides), ObjectNode.class, "--overrides");

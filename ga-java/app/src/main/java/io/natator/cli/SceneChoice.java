@@ -14,11 +14,13 @@ import picocli.CommandLine.ParameterException;
 @Section(Topic.SCENE)
 final class SceneChoice {
 
-    @Option(names = "--creature", paramLabel = "1..4|NAME", description = "Creature of the thesis, or another bundled body: "
-            + "eel, ray, tadpole, tuna. Default: 1.")
+    @Option(names = "--creature", paramLabel = "1..4|NAME",
+            description = "Creature of the thesis, or another bundled body: "
+                    + "eel, ray, tadpole, tuna. Default: 1.")
     private String creature;
 
-    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N; of evolve the preset's.")
+    @Option(names = "--scene", paramLabel = "NAME|FILE",
+            description = "Default: thesis/creature-N; of evolve the preset's.")
     private String scene;
 
     /** Whether either was given. */
@@ -29,7 +31,8 @@ final class SceneChoice {
     /** Whether a scene is the one that was named, or the chosen creature's as any preset has it; any if none was given. */
     boolean admits(String other) {
         return scene != null ? SceneOptions.scene("--scene", scene).equals(other)
-                : creature == null || Arrays.stream(Preset.values()).anyMatch(one -> one.sceneOf(creature).equals(other));
+                : creature == null
+                        || Arrays.stream(Preset.values()).anyMatch(one -> one.sceneOf(creature).equals(other));
     }
 
     /** The scene as {@link SceneOptions#scene} has it; by number, or if none is given, in the thesis' tank. */
@@ -50,7 +53,8 @@ final class SceneChoice {
     }
 
     /** What to say where the simulator refuses the chosen scene: which there are, if it has none of that name. */
-    InvalidInputException refused(String chosen, RefusedSceneException refusal, Path simulator) throws InterruptedException {
+    InvalidInputException refused(String chosen, RefusedSceneException refusal, Path simulator)
+            throws InterruptedException {
         return creature != null ? UnknownScene.creature(creature, chosen, refusal, simulator)
                 : UnknownScene.scene("--scene", chosen, refusal, simulator);
     }

@@ -44,21 +44,25 @@ final class SearchOptions {
     private Long evaluations;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--starts", paramLabel = "K", description = "Run every gait from so many starts, from 1, and the best "
-            + "of each generation again from others; 1 is the scene's own start, once. Default: the preset's.")
+    @Option(names = "--starts", paramLabel = "K",
+            description = "Run every gait from so many starts, from 1, and the best "
+                    + "of each generation again from others; 1 is the scene's own start, once. Default: the preset's.")
     private Integer starts;
 
-    @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean", description = "What the runs of a gait are worth: "
-            + "mean, median (from 3 starts) or lower-quartile (from 4). Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean",
+            description = "What the runs of a gait are worth: "
+                    + "mean, median (from 3 starts) or lower-quartile (from 4). Default: ${DEFAULT-VALUE}.")
     private Aggregate judge;
 
-    @Option(names = "--evolve", paramLabel = "WHAT", defaultValue = "gait", description = "gait, body or both: of a creature "
-            + "that is given by a profile, its length, sections, joints, stiffness and muscle strength too, with the scene's volume "
-            + "and strength in all. Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--evolve", paramLabel = "WHAT", defaultValue = "gait",
+            description = "gait, body or both: of a creature "
+                    + "that is given by a profile, its length, sections, joints, stiffness and muscle strength too, with the scene's volume "
+                    + "and strength in all. Default: ${DEFAULT-VALUE}.")
     private Evolved evolve;
 
-    @Option(names = "--gait", paramLabel = "FILE", description = "With --evolve body: what all bodies swim with, a JSON file with a "
-            + "gait or a run's best.json.")
+    @Option(names = "--gait", paramLabel = "FILE",
+            description = "With --evolve body: what all bodies swim with, a JSON file with a "
+                    + "gait or a run's best.json.")
     private Path gait;
 
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
@@ -82,9 +86,10 @@ final class SearchOptions {
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
 
-    @Option(names = "--objectives", paramLabel = "NAME[=WEIGHT],...", description = "What is rewarded instead of --fitness: "
-            + "distance, net, forward (by its own heading), straight, work, efficiency. One; several with weights, as a sum; "
-            + "for nsga2 several without.")
+    @Option(names = "--objectives", paramLabel = "NAME[=WEIGHT],...",
+            description = "What is rewarded instead of --fitness: "
+                    + "distance, net, forward (by its own heading), straight, work, efficiency. One; several with weights, as a sum; "
+                    + "for nsga2 several without.")
     private String objectives;
 
     @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
@@ -118,7 +123,8 @@ final class SearchOptions {
     EvolutionSettings in(EvolutionSettings settings, JsonNode overrides, Path simulator) throws InterruptedException {
         // With a number of evaluations alone, that is what ends the run.
         int last = generations != null ? generations : evaluations != null ? Budget.NO_LIMIT : preset.generations();
-        return settings.withSize(population != null ? population : preset.population(), last).withEvaluations(evaluations)
+        return settings.withSize(population != null ? population : preset.population(), last)
+                .withEvaluations(evaluations)
                 .withStarts(starts != null ? starts : preset.starts(), judge).withSeed(seed)
                 .withOptimizer(OptimizerKind.JGAP, operators, gaussianDeviation).withFitness(fitness, vacuumCheck)
                 .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
@@ -128,8 +134,9 @@ final class SearchOptions {
     /** What to change of the body; null for nothing. */
     private BodyEvolution body(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
         if ((evolve == Evolved.BODY) != (gait != null)) {
-            throw new InvalidInputException(gait == null ? "--evolve body has no gait that the bodies are to swim with; expected "
-                    + "--gait FILE, or --evolve both" : "--gait is for --evolve body; else gaits are evolved");
+            throw new InvalidInputException(
+                    gait == null ? "--evolve body has no gait that the bodies are to swim with; expected "
+                            + "--gait FILE, or --evolve both" : "--gait is for --evolve body; else gaits are evolved");
         }
         return evolve == Evolved.GAIT ? null : new BodyEvolution(evolve,
                 SceneInfo.bodyToEvolve(scene, overrides, simulator), gait == null ? null : GaitFile.read(gait).gait());

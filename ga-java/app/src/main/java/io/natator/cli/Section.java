@@ -14,13 +14,9 @@ import java.lang.annotation.Target;
 
     /** The headings, in their order. */
     enum Topic {
-        SCENE("What swims"),
-        SEARCH("How its gait is searched for"),
-        EXTENT("How much is done"),
-        COMPUTING("How it is computed"),
-        OUTPUT("What is written, and where"),
-        PAGE("Where the page is served"),
-        OTHER("Other options");
+        SCENE("What swims"), SEARCH("How its gait is searched for"), EXTENT("How much is done"), COMPUTING(
+                "How it is computed"), OUTPUT(
+                        "What is written, and where"), PAGE("Where the page is served"), OTHER("Other options");
 
         private final String heading;
 

@@ -21,7 +21,8 @@ final class SectionedHelp {
 
     /** For a command and all below it; where there are headings, the synopsis does not name every option as well. */
     static void install(CommandLine command) {
-        boolean sectioned = command.getCommandSpec().options().stream().map(SectionedHelp::topic).distinct().count() > 1;
+        boolean sectioned = command.getCommandSpec().options().stream().map(SectionedHelp::topic).distinct()
+                .count() > 1;
         command.getCommandSpec().usageMessage().abbreviateSynopsis(sectioned);
         command.getHelpSectionMap().put(UsageMessageSpec.SECTION_KEY_OPTION_LIST, SectionedHelp::options);
         command.getSubcommands().values().forEach(SectionedHelp::install);

@@ -30,7 +30,8 @@ final class SeedRuns implements RunQueue.Watcher {
     private final long started = System.nanoTime();
     private long said = started;
     private long done;
-    private Supplier<EvolutionListener> late = () -> new EvolutionListener() { };
+    private Supplier<EvolutionListener> late = () -> new EvolutionListener() {
+    };
 
     /**
      * From the settings' seed on.
@@ -63,7 +64,8 @@ final class SeedRuns implements RunQueue.Watcher {
     void run(ExecutionSettings execution, int atOnce, Double stopAfter) throws InterruptedException {
         RunQueue queue = new RunQueue(runs, execution.simulator());
         try (Evaluator evaluator = EvolutionRun.open(execution);
-                ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; the same command continues"))) {
+                ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+                        () -> say("interrupted; the same command continues"))) {
             if (execution.inBatches()) {
                 late = shutdown::beforeLateGenerations;
             }
@@ -83,7 +85,8 @@ final class SeedRuns implements RunQueue.Watcher {
         if ((now - said) / NANOSECONDS >= INTERVAL_SECONDS) {
             said = now;
             double rate = done / ((now - started) / NANOSECONDS);
-            say(String.format(Locale.ROOT, "%d of %d evaluations, %.1f evaluations/s, left %s", before + done, evaluations, rate,
+            say(String.format(Locale.ROOT, "%d of %d evaluations, %.1f evaluations/s, left %s", before + done,
+                    evaluations, rate,
                     ProgressEstimate.readable(Math.round(Math.max(evaluations - before - done, 0) / rate))));
         }
     }

@@ -50,8 +50,9 @@ final class ShowCommand implements Callable<Integer> {
     @Option(names = "--json", description = "As a line of JSON for programs: what python -m natator report draws.")
     private boolean json;
 
-    @Option(names = "--generation", paramLabel = "N", description = "Only the best gait of the generations up to N, and its body, "
-            + "as JSON: --gait of other commands takes it.")
+    @Option(names = "--generation", paramLabel = "N",
+            description = "Only the best gait of the generations up to N, and its body, "
+                    + "as JSON: --gait of other commands takes it.")
     private Integer generation;
 
     @Override
@@ -83,7 +84,8 @@ final class ShowCommand implements Callable<Integer> {
             }
             printFront(run, out);
             if (run.elites() != null) {
-                out.printf("map of gaits: the best of %s; natator view --run %s swims them, python -m natator report draws them%n",
+                out.printf(
+                        "map of gaits: the best of %s; natator view --run %s swims them, python -m natator report draws them%n",
                         Numbers.count(run.elites().moving().size(), "kind"), ShellWord.of(run.directory()));
             }
             printSavings(run, out);
@@ -96,7 +98,8 @@ final class ShowCommand implements Callable<Integer> {
     static String settings(EvolutionSettings settings) {
         StringBuilder text = new StringBuilder(settings.problem().scene());
         text.append(", ").append(EnumNames.of(settings.search().optimizer()))
-                .append(settings.search().optimizer() == OptimizerKind.JGAP ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
+                .append(settings.search().optimizer() == OptimizerKind.JGAP
+                        ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
         text.append(", population ").append(settings.search().population());
         if (settings.budget().generations() != Budget.NO_LIMIT) {
             text.append(", ").append(Numbers.count(settings.budget().generations(), "generation"));
@@ -104,19 +107,23 @@ final class ShowCommand implements Callable<Integer> {
         if (settings.budget().evaluations() != null) {
             text.append(", ").append(Numbers.count(settings.budget().evaluations(), "evaluation"));
         }
-        text.append(settings.problem().evolve() == null ? "" : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait"
-                : ", gaits and bodies");
+        text.append(settings.problem().evolve() == null ? ""
+                : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait"
+                        : ", gaits and bodies");
         text.append(", seed ").append(settings.search().seed());
         text.append(", ").append(EnumNames.of(settings.problem().encoding())).append(" genes");
         if (settings.search().optimizer() == OptimizerKind.JGAP && settings.search().gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.search().gaussianDeviation());
         }
-        text.append(settings.search().starts() == 1 ? "" : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts()
-                + " starts");
-        text.append(settings.problem().objectives() == null ? "" : ", objectives " + WeightedObjective.text(settings.problem().objectives()));
+        text.append(settings.search().starts() == 1 ? ""
+                : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts()
+                        + " starts");
+        text.append(settings.problem().objectives() == null ? ""
+                : ", objectives " + WeightedObjective.text(settings.problem().objectives()));
         text.append(settings.problem().fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.budget().backend().argument());
-        text.append(settings.problem().scheme() == null ? "" : ", scheme " + settings.problem().scheme().name().toLowerCase(Locale.ROOT));
+        text.append(settings.problem().scheme() == null ? ""
+                : ", scheme " + settings.problem().scheme().name().toLowerCase(Locale.ROOT));
         text.append(settings.problem().duration() == null ? "" : ", " + settings.problem().duration() + " s");
         text.append(settings.problem().overrides() == null ? "" : ", overrides " + settings.problem().overrides());
         return text.toString();
@@ -132,13 +139,15 @@ final class ShowCommand implements Callable<Integer> {
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 run.settings().problem().worthText(last.best()), run.settings().problem().worthText(last.mean()),
                 run.settings().problem().worthText(last.median()),
-                run.state().isLastOf(run.settings()) ? "finished" : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
+                run.state().isLastOf(run.settings()) ? "finished"
+                        : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
     /** Of a run without a checkpoint: that it has none yet, or has lost it. */
     private static String begun(RecordedEvaluations recorded) {
         long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
-        return recorded.end() > first ? "no checkpoint.json, " + Numbers.count(recorded.end(), "evaluation") + " of several generations"
+        return recorded.end() > first
+                ? "no checkpoint.json, " + Numbers.count(recorded.end(), "evaluation") + " of several generations"
                 : "no generation finished, " + Numbers.count(first, "evaluation") + " of the first";
     }
 
@@ -149,7 +158,8 @@ final class ShowCommand implements Callable<Integer> {
             return;
         }
         out.println("of several objectives, the gaits that no other is better than in all");
-        out.println("  " + run.settings().problem().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
+        out.println("  " + run.settings().problem().objectives().stream()
+                .map(one -> String.format("%-14s", EnumNames.of(one.objective())))
                 .collect(Collectors.joining()) + "runs  genes");
         for (Individual one : front) {
             out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", Numbers.worth(value)))
@@ -163,9 +173,12 @@ final class ShowCommand implements Callable<Integer> {
             out.println("not simulated");
             out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %s ended early, as if %.0f "
                     + "had not been made%n", 100 * statistics.shareOfEarlyStops(), statistics.stoppedEarly(),
-                    Numbers.count(statistics.simulations(), "evaluation"), statistics.shareOfEarlyStops() * statistics.simulations());
-            out.printf("  unchanged   %s, evaluated in an earlier generation%n", Numbers.count(statistics.unchanged(), "chromosome"));
-            out.printf("  cache       %s, made by an earlier run%n", Numbers.count(statistics.fromCache(), "evaluation"));
+                    Numbers.count(statistics.simulations(), "evaluation"),
+                    statistics.shareOfEarlyStops() * statistics.simulations());
+            out.printf("  unchanged   %s, evaluated in an earlier generation%n",
+                    Numbers.count(statistics.unchanged(), "chromosome"));
+            out.printf("  cache       %s, made by an earlier run%n",
+                    Numbers.count(statistics.fromCache(), "evaluation"));
         }
     }
 
@@ -182,7 +195,8 @@ final class ShowCommand implements Callable<Integer> {
         print(SimulationResult.Status.REFUSED, "bodies refused", evaluations, out);
     }
 
-    private static void print(SimulationResult.Status status, String what, List<EvaluationRecord> evaluations, PrintWriter out) {
+    private static void print(SimulationResult.Status status, String what, List<EvaluationRecord> evaluations,
+            PrintWriter out) {
         List<SimulationResult> found = evaluations.stream().map(EvaluationRecord::result)
                 .filter(result -> result.status() == status).toList();
         if (!found.isEmpty()) {

@@ -22,7 +22,8 @@ final class StartingFiles {
 
     private static final String LIKE = "--like";
     private static final String POOL = "pool/water";
-    private static final List<String> ORDER = List.of("mesh", "profile", "slices", "file", "length", "height", "width", "fin",
+    private static final List<String> ORDER = List.of("mesh", "profile", "slices", "file", "length", "height", "width",
+            "fin",
             "joints", "muscleSlices", "bend", "spacing", "particleMass");
     private static final String SWIMMER = "pool/eel";
     private static final String BODY = """
@@ -93,9 +94,11 @@ final class StartingFiles {
         ObjectNode creature = JsonNodeFactory.instance.objectNode().set("creature", scene.get("creature"));
         return new StartingFile(scene,
                 SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
-                ? List.of("natator-sim info " + ShellWord.of(file), view)
-                : List.of(Main.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file) + output(name, gait),
-                        view + " --gait " + ShellWord.of(gait)));
+                        ? List.of("natator-sim info " + ShellWord.of(file), view)
+                        : List.of(
+                                Main.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file)
+                                        + output(name, gait),
+                                view + " --gait " + ShellWord.of(gait)));
     }
 
     /**
@@ -152,7 +155,8 @@ final class StartingFiles {
 
     private ObjectNode bodyOf(String scene) throws InterruptedException {
         if (!(definition(scene).get("creature") instanceof ObjectNode creature)) {
-            throw new InvalidInputException(LIKE + " is " + scene + ", which has no creature; expected a scene with one");
+            throw new InvalidInputException(
+                    LIKE + " is " + scene + ", which has no creature; expected a scene with one");
         }
         if (creature.get("mesh") instanceof ObjectNode mesh) {
             mesh.remove("digest");

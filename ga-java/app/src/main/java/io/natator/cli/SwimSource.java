@@ -64,8 +64,10 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
      */
     static SwimSource of(RunReader run, Swimmer swimmer, BestGait best) {
         EvolutionSettings settings = run.settings();
-        return new SwimSource(run.directory(), SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
-                MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(), settings.problem().scheme(),
+        return new SwimSource(run.directory(),
+                SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
+                MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(),
+                settings.problem().scheme(),
                 settings.problem().duration(), best);
     }
 

@@ -19,7 +19,8 @@ final class ThesisGaits {
     static Gait in(String scene) {
         Gait found = null;
         try (InputStream in = ThesisGaits.class.getResourceAsStream("thesis.json")) {
-            for (JsonNode one : Json.parse(new String(in.readAllBytes(), StandardCharsets.UTF_8), JsonNode.class).get("gaits")) {
+            for (JsonNode one : Json.parse(new String(in.readAllBytes(), StandardCharsets.UTF_8), JsonNode.class)
+                    .get("gaits")) {
                 if (scene.replaceFirst("-vacuum$", "").equals("thesis/creature-" + one.get("creature").asInt())) {
                     found = Json.parse(one.get("gait").toString(), Gait.class);
                 }

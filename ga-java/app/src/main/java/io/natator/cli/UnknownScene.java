@@ -24,17 +24,21 @@ final class UnknownScene {
      * @param source  as typed
      * @param refusal of the simulator
      */
-    static InvalidInputException source(String source, RefusedSceneException refusal, Path simulator) throws InterruptedException {
+    static InvalidInputException source(String source, RefusedSceneException refusal, Path simulator)
+            throws InterruptedException {
         List<String> known = known(simulator);
         return isKnown(source, known) ? refusal
-                : new InvalidInputException(source + " is neither a run folder nor a scene" + Closest.scenes(source, known), refusal);
+                : new InvalidInputException(
+                        source + " is neither a run folder nor a scene" + Closest.scenes(source, known), refusal);
     }
 
     /** The refusal of the scene that an option names, likewise. */
-    static InvalidInputException scene(String option, String scene, RefusedSceneException refusal, Path simulator) throws InterruptedException {
+    static InvalidInputException scene(String option, String scene, RefusedSceneException refusal, Path simulator)
+            throws InterruptedException {
         List<String> known = known(simulator);
         return isKnown(scene, known) ? refusal : new InvalidInputException(option + " is " + scene
-                + "; expected a named scene (natator-sim info lists them) or a file NAME.json" + Closest.scenes(scene, known), refusal);
+                + "; expected a named scene (natator-sim info lists them) or a file NAME.json"
+                + Closest.scenes(scene, known), refusal);
     }
 
     /**
@@ -50,14 +54,16 @@ final class UnknownScene {
         }
         List<String> bodies = bodies(known);
         return new InvalidInputException("--creature is " + creature + "; expected "
-                + EnumNames.choice(Stream.concat(Stream.of("1", "2", "3", "4"), bodies.stream()).toList()) + Closest.hint(creature, bodies), refusal);
+                + EnumNames.choice(Stream.concat(Stream.of("1", "2", "3", "4"), bodies.stream()).toList())
+                + Closest.hint(creature, bodies), refusal);
     }
 
     /** Bodies without a number that are in the water of every preset. */
     private static List<String> bodies(List<String> known) {
         return known.stream().map(name -> name.substring(name.lastIndexOf('/') + 1)).distinct()
                 .filter(name -> !name.equals(WATER) && !name.startsWith("creature-"))
-                .filter(name -> Arrays.stream(Preset.values()).allMatch(preset -> known.contains(preset.sceneOf(name)))).toList();
+                .filter(name -> Arrays.stream(Preset.values()).allMatch(preset -> known.contains(preset.sceneOf(name))))
+                .toList();
     }
 
     /** Also where nobody can tell, or it is a file: then what the simulator said is all there is to say. */

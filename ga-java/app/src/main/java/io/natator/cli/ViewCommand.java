@@ -38,10 +38,10 @@ import picocli.CommandLine.Spec;
 /** {@code natator view}: shows a scene live in the browser, until it is told to end. */
 @Command(name = "view", mixinStandardHelpOptions = true,
         description = {"Shows a scene live in the browser, and any run's best gaits.",
-            "Ends with Ctrl-C. Only this machine can reach it unless --host is given."},
+                "Ends with Ctrl-C. Only this machine can reach it unless --host is given."},
         footer = {"", "Examples:",
-            "  natator view --creature 2",
-            "  natator view --run runs/one --run runs/two"})
+                "  natator view --creature 2",
+                "  natator view --run runs/one --run runs/two"})
 final class ViewCommand implements Callable<Integer> {
 
     private static final Logger LOG = LoggerFactory.getLogger(ViewCommand.class);
@@ -98,7 +98,8 @@ final class ViewCommand implements Callable<Integer> {
                 ThesisGaits::in, runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
-        ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> { });
+        ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> {
+        });
         try (ViewServer server = new ViewServer(settings)) {
             if (server.isOpenToOthers()) {
                 PrintWriter err = spec.commandLine().getErr();
@@ -140,8 +141,8 @@ final class ViewCommand implements Callable<Integer> {
             return start(RunReader.settings(run), given, RunReader.best(run), program);
         }
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
-        ObjectNode overrides =
-                InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
+        ObjectNode overrides = InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()),
+                sceneOptions.scheme());
         try {
             SceneInfo info = SceneInfo.of(scene, overrides, program);
             boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
@@ -158,7 +159,8 @@ final class ViewCommand implements Callable<Integer> {
     /** Before the page opens, where it would only be told that the simulator refuses it. */
     private static void checkGait(InitialScene start, Path program) throws InterruptedException {
         try {
-            StreamProcess.check(program, StreamOptions.live(start.scene(), start.overrides(), Json.tree(start.gait()), true));
+            StreamProcess.check(program,
+                    StreamOptions.live(start.scene(), start.overrides(), Json.tree(start.gait()), true));
         } catch (IOException e) {
             throw new UncheckedIOException("scene " + start.scene() + " cannot be shown: " + e.getMessage(), e);
         }
@@ -182,7 +184,8 @@ final class ViewCommand implements Callable<Integer> {
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.problem().scheme();
         Swimmer swimmer = given != null ? given : best != null ? best.swimmer() : new Swimmer(null, null);
         ObjectNode overrides = InitialScene.patch(
-                MergePatch.both(MergePatch.both(run.problem().overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
+                MergePatch.both(MergePatch.both(run.problem().overrides(), swimmer.body()), sceneOptions.overrides()),
+                scheme);
         InitialScene start = new InitialScene(run.problem().scene(), overrides, swimmer.gait());
         if (given != null) {
             checkGait(start, program);

@@ -54,8 +54,9 @@ public record MedianInterval(double median, double low, double high) {
 
     /** Median and interval with so many decimals, each times a factor: {@code 0.81 [0.70, 0.93]}. */
     public String text(double factor, int decimals) {
-        return Numbers.fixed(factor * median, decimals) + (Double.isNaN(low) ? "" : " [" + Numbers.fixed(factor * low, decimals)
-                + ", " + Numbers.fixed(factor * high, decimals) + "]");
+        return Numbers.fixed(factor * median, decimals)
+                + (Double.isNaN(low) ? "" : " [" + Numbers.fixed(factor * low, decimals)
+                        + ", " + Numbers.fixed(factor * high, decimals) + "]");
     }
 
     /** Whether both ends are known and on the same side of 0. */

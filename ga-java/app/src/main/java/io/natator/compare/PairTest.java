@@ -17,7 +17,8 @@ import java.util.stream.IntStream;
  * @param p          of the test, corrected for all pairs of these samples
  * @param enough     whether samples of these sizes could show a difference at all
  */
-public record PairTest(String first, String second, MedianInterval difference, RankTest test, double p, boolean enough) {
+public record PairTest(String first, String second, MedianInterval difference, RankTest test, double p,
+        boolean enough) {
 
     /** From this corrected p on, no difference is seen. */
     public static final double LEVEL = 0.05;
@@ -55,7 +56,8 @@ public record PairTest(String first, String second, MedianInterval difference, R
      * @return for each, in the same order, what to compare with the level
      */
     static double[] corrected(double... p) {
-        List<Integer> rising = IntStream.range(0, p.length).boxed().sorted(Comparator.comparingDouble(i -> p[i])).toList();
+        List<Integer> rising = IntStream.range(0, p.length).boxed().sorted(Comparator.comparingDouble(i -> p[i]))
+                .toList();
         double[] corrected = new double[p.length];
         double greatest = 0;
         for (int rank = 0; rank < p.length; rank++) {

@@ -21,6 +21,7 @@ public record RankTest(double p, double a, double leastP) {
         double a = result.getStatistic() / pairs;
         // Where all values are equal, the normal distribution has no width.
         double p = Double.isNaN(result.getPValue()) ? 1 : Math.min(1, result.getPValue());
-        return new RankTest(p, a, Math.min(1, 2 / BinomialCoefficientDouble.value(first.length + second.length, first.length)));
+        return new RankTest(p, a,
+                Math.min(1, 2 / BinomialCoefficientDouble.value(first.length + second.length, first.length)));
     }
 }

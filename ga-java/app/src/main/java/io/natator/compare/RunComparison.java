@@ -55,7 +55,8 @@ public final class RunComparison {
     public void run(Evaluator evaluator, Path simulator) throws InterruptedException {
         for (RunSummary run : runs) {
             List<List<Double>> genomes = genomes(run);
-            List<List<SimulationResult>> again = new FreshStarts(run.settings(), evaluator, simulator).each(genomes, starts);
+            List<List<SimulationResult>> again = new FreshStarts(run.settings(), evaluator, simulator).each(genomes,
+                    starts);
             Map<List<Double>, List<SimulationResult>> own = new HashMap<>();
             for (int i = 0; i < genomes.size(); i++) {
                 own.put(genomes.get(i), List.copyOf(again.get(i)));
@@ -80,10 +81,13 @@ public final class RunComparison {
             RunSummary run = runs.get(i);
             ObjectNode line = (ObjectNode) Json.tree(run);
             ArrayNode again = line.putArray("again");
-            swims.get(i).forEach((genes, results) -> again.addObject().putPOJO("genes", genes).putPOJO("runs", scores(results)));
+            swims.get(i).forEach(
+                    (genes, results) -> again.addObject().putPOJO("genes", genes).putPOJO("runs", scores(results)));
             if (rankStarts > 0) {
                 List<Individual> last = RunReader.state(Path.of(run.run())).population().stream()
-                        .collect(Collectors.toMap(Individual::genes, one -> one, (one, same) -> one, LinkedHashMap::new)).values().stream().toList();
+                        .collect(
+                                Collectors.toMap(Individual::genes, one -> one, (one, same) -> one, LinkedHashMap::new))
+                        .values().stream().toList();
                 List<List<SimulationResult>> found = new FreshStarts(run.settings(), evaluator, simulator)
                         .each(last.stream().map(Individual::genes).toList(), rankStarts);
                 ArrayNode ranked = line.putArray("last");

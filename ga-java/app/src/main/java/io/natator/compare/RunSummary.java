@@ -54,7 +54,8 @@ record RunSummary(String run, EvolutionSettings settings, JsonNode environment, 
             all.remove("settings");  // which stand beside it
         }
         return new RunSummary(directory.toString(), run.settings(), environment,
-                run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(), improvements);
+                run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(),
+                improvements);
     }
 
     /** How many evaluations it took. */

@@ -31,16 +31,16 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
-        "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
-        "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
-        "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
-        "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
-        "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
-        "evolve --seeds 2|--seeds goes with --output-dir; give both",
-        "evolve --output-dir NEVER --seeds 2 --dry-run|--seeds goes without --dry-run; leave one of them out",
-        "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
-        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
+            "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
+            "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
+            "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+            "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
+            "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
+            "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+            "evolve --seeds 2|--seeds goes with --output-dir; give both",
+            "evolve --output-dir NEVER --seeds 2 --dry-run|--seeds goes without --dry-run; leave one of them out",
+            "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+            "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
     void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
         assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(1);
@@ -52,13 +52,15 @@ class BadUsageTest extends FakeSimulatorTest {
     void anOutputFolderThatCannotBeIsSaidInWords() throws IOException {
         Path file = Files.writeString(folder.resolve("file"), "");
         Path link = Files.createSymbolicLink(folder.resolve("link"), Path.of("nowhere/at/all"));
-        Map<Path, String> reasons = Map.of(file, "is a file, not a folder", file.resolve("a/b"), file + " is a file, not a folder",
+        Map<Path, String> reasons = Map.of(file, "is a file, not a folder", file.resolve("a/b"),
+                file + " is a file, not a folder",
                 link, "is a link that leads nowhere", Path.of("/proc/run"), "/proc takes no new files or folders",
                 Path.of("/proc/a/run"), "/proc takes no new files or folders");
         for (var one : reasons.entrySet()) {
             err.getBuffer().setLength(0);
             assertThat(evolve(one.getKey().toString())).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
+            assertThat(err.toString()).isEqualTo(
+                    "natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
         }
     }
 
@@ -74,53 +76,53 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "--population 1|population is 1",
-        "--generations -1|generations is -1",
-        "--generations many|--generations is many; expected a whole number; see natator evolve --help",
-        "--seed 9223372036854775808|--seed is 9223372036854775808; expected a whole number from -9223372036854775808 to 9223372036854775807",
-        "--duration abc|--duration is abc; expected a number of seconds; see natator evolve --help",
-        "--duration 0x1p3|--duration is 0x1p3; expected a number of seconds; see natator evolve --help",
-        "--gaussian-deviation NaN|--gaussian-deviation is NaN; expected a number; see",
-        "--optimizer nsga2 --objectives distance=0x1p3,work|--objectives has 'distance=0x1p3'; expected a weight above 0",
-        "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
-        "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
-        "--creature 1 --scene thesis/creature-2|exclude each other",
-        "--workers 0|workers is 0",
-        "--device -1 --backend auto|device is -1",
-        "--device all|--device is all, but the backend is cpu, which has no GPUs; expected --backend cuda or auto with it",
-        "--device 0,1 --backend cpu|--device is 0,1, but the backend is cpu",
-        "--device all --backend cuda --simulator-command true|--device is all; expected none beside --simulator-command",
-        "--evaluations 0|evaluations is 0",
-        "--starts 0|starts is 0; expected a whole number from 1 to 1000",
-        "--starts 3 --judge lower-quartile|starts is 3; expected at least 4 with --judge lower-quartile",
-        "--judge median|starts is 1; expected at least 3 with --judge median",
-        "--objectives distance,work|optimizer jgap has one objective, not distance and work",
-        "--optimizer nsga2|optimizer nsga2 is for several objectives",
-        "--objectives speed|--objectives has 'speed'; expected some of",
-        "--judge max|expected mean, median or lower-quartile but was 'max'",
-        "--starts 4 --evaluations 3|evaluations is 3; expected at least the 4 starts of one gait",
-        "--stop-after 0|--stop-after is 0.0",
-        "--simulator thread|expected process, resident, batch or spark but was 'thread'",
-        "--backend gpu|expected cpu, cuda or auto but was 'gpu'; did you mean cuda?",
-        "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
-        "--fitness speed|expected distance or net",
-        "--timeout 0|--timeout is 0.0",
-        "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",
-        "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
-        "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
-        "--duration -1|duration is -1.0",
-        "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
-        "--gaussian-deviation 0|gaussian-deviation is 0.0",
-        "--operators magic|expected corrected or stock",
-        "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
-        "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",
-        "--scene no/such|expected a named scene or a file",
-        "--scene no/such.json|expected a named scene or an existing file",
-        "--overrides no-such.json|no-such.json does not exist",
-        "--overrides {\"solver\":|--overrides: ",
-        "--overrides [1]|--overrides is [1]; expected a JSON object, or a file that holds one",
-        "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
-        "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help"})
+            "--population 1|population is 1",
+            "--generations -1|generations is -1",
+            "--generations many|--generations is many; expected a whole number; see natator evolve --help",
+            "--seed 9223372036854775808|--seed is 9223372036854775808; expected a whole number from -9223372036854775808 to 9223372036854775807",
+            "--duration abc|--duration is abc; expected a number of seconds; see natator evolve --help",
+            "--duration 0x1p3|--duration is 0x1p3; expected a number of seconds; see natator evolve --help",
+            "--gaussian-deviation NaN|--gaussian-deviation is NaN; expected a number; see",
+            "--optimizer nsga2 --objectives distance=0x1p3,work|--objectives has 'distance=0x1p3'; expected a weight above 0",
+            "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
+            "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
+            "--creature 1 --scene thesis/creature-2|exclude each other",
+            "--workers 0|workers is 0",
+            "--device -1 --backend auto|device is -1",
+            "--device all|--device is all, but the backend is cpu, which has no GPUs; expected --backend cuda or auto with it",
+            "--device 0,1 --backend cpu|--device is 0,1, but the backend is cpu",
+            "--device all --backend cuda --simulator-command true|--device is all; expected none beside --simulator-command",
+            "--evaluations 0|evaluations is 0",
+            "--starts 0|starts is 0; expected a whole number from 1 to 1000",
+            "--starts 3 --judge lower-quartile|starts is 3; expected at least 4 with --judge lower-quartile",
+            "--judge median|starts is 1; expected at least 3 with --judge median",
+            "--objectives distance,work|optimizer jgap has one objective, not distance and work",
+            "--optimizer nsga2|optimizer nsga2 is for several objectives",
+            "--objectives speed|--objectives has 'speed'; expected some of",
+            "--judge max|expected mean, median or lower-quartile but was 'max'",
+            "--starts 4 --evaluations 3|evaluations is 3; expected at least the 4 starts of one gait",
+            "--stop-after 0|--stop-after is 0.0",
+            "--simulator thread|expected process, resident, batch or spark but was 'thread'",
+            "--backend gpu|expected cpu, cuda or auto but was 'gpu'; did you mean cuda?",
+            "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
+            "--fitness speed|expected distance or net",
+            "--timeout 0|--timeout is 0.0",
+            "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",
+            "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
+            "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
+            "--duration -1|duration is -1.0",
+            "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
+            "--gaussian-deviation 0|gaussian-deviation is 0.0",
+            "--operators magic|expected corrected or stock",
+            "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
+            "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",
+            "--scene no/such|expected a named scene or a file",
+            "--scene no/such.json|expected a named scene or an existing file",
+            "--overrides no-such.json|no-such.json does not exist",
+            "--overrides {\"solver\":|--overrides: ",
+            "--overrides [1]|--overrides is [1]; expected a JSON object, or a file that holds one",
+            "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
+            "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help"})
     void badUsageIsOneLineAndStatus2(String arguments, String message) {
         List<String> all = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve("never").toString()));
         all.addAll(List.of(arguments.split(" ")));
@@ -134,9 +136,10 @@ class BadUsageTest extends FakeSimulatorTest {
 
     /** Also what only a result tells, and by a dry run as well; a folder would be in the way of the corrected command. */
     @ParameterizedTest
-    @CsvSource(delimiter = '|', value = {"--optimizer nsga2 --objectives distance,goals|objective goals: the scene has none",
-        "--scene goals/turn --fitness net|--fitness net is for scenes without goals, and goals/turn has some",
-        "--scene fault/rejected|simulator: gait.frequency is 70; expected a number up to 60"})
+    @CsvSource(delimiter = '|', value = {
+            "--optimizer nsga2 --objectives distance,goals|objective goals: the scene has none",
+            "--scene goals/turn --fitness net|--fitness net is for scenes without goals, and goals/turn has some",
+            "--scene fault/rejected|simulator: gait.frequency is 70; expected a number up to 60"})
     void whatTheSceneDoesNotHaveLeavesNoFolder(String options, String message) {
         for (String more : List.of("", " --dry-run")) {
             forget();
@@ -155,7 +158,8 @@ class BadUsageTest extends FakeSimulatorTest {
         err.getBuffer().setLength(0);
 
         assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
+        assertThat(err.toString()).isEqualTo(
+                "natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
     /** What else is wrong with the run does not matter then. To finish what is finished would not help. */
@@ -186,38 +190,41 @@ class BadUsageTest extends FakeSimulatorTest {
 
         assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
 
-        assertThat(err.toString()).isEqualTo("natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
+        assertThat(err.toString()).isEqualTo(
+                "natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "evolve --scene EMPTY|natator evolve: --scene is empty", "evolve --scene=EMPTY|natator evolve: --scene is empty",
-        "evolve --seed=EMPTY|natator evolve: --seed is empty",
-        "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
-        "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
-        "show EMPTY|natator show: RUN is empty",
-        "compare a EMPTY|natator compare: RUN is empty",
-        "resume EMPTY|natator resume: RUN is empty"})
+            "evolve --scene EMPTY|natator evolve: --scene is empty",
+            "evolve --scene=EMPTY|natator evolve: --scene is empty",
+            "evolve --seed=EMPTY|natator evolve: --seed is empty",
+            "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
+            "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
+            "show EMPTY|natator show: RUN is empty",
+            "compare a EMPTY|natator compare: RUN is empty",
+            "resume EMPTY|natator resume: RUN is empty"})
     void anEmptyValueIsOneLine(String arguments, String message) {
         String[] given = Stream.of(arguments.split(" ")).map(one -> one.replace("EMPTY", "")).toArray(String[]::new);
 
         assertThat(natator(given)).isEqualTo(2);
-        assertThat(err.toString().strip()).isEqualTo(message + "; expected a value: is a variable of the shell not set? See "
-                + message.substring(0, message.indexOf(':')) + " --help");
+        assertThat(err.toString().strip())
+                .isEqualTo(message + "; expected a value: is a variable of the shell not set? See "
+                        + message.substring(0, message.indexOf(':')) + " --help");
         assertThat(out.toString()).isEmpty();
     }
 
     /** Not what is missing since it is mistyped. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "evaluate --sceen pool/creature-1 --gait 1|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
-        "evaluate --sceen pool/creature-1 --gait|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
-        "compare --startss 3|--startss is no option of this command; did you mean --starts? See natator compare --help",
-        "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
-        "show|Missing required parameter: 'RUN'; see natator show --help",
-        "show one two|'two' is one argument too many; see natator show --help",
-        "compare one|found 1 RUN; expected at least 2; see natator compare --help",
-        "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
+            "evaluate --sceen pool/creature-1 --gait 1|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
+            "evaluate --sceen pool/creature-1 --gait|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
+            "compare --startss 3|--startss is no option of this command; did you mean --starts? See natator compare --help",
+            "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
+            "show|Missing required parameter: 'RUN'; see natator show --help",
+            "show one two|'two' is one argument too many; see natator show --help",
+            "compare one|found 1 RUN; expected at least 2; see natator compare --help",
+            "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
         assertThat(execute(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
@@ -233,9 +240,10 @@ class BadUsageTest extends FakeSimulatorTest {
 
     private static Stream<Arguments> lacks() {
         return Stream.of(Arguments.of(new OutOfMemoryError(),
-                        "not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say"),
-                Arguments.of(new NoClassDefFoundError("io/natator/Part"), "a part of the program cannot be loaded: io/natator/Part; "
-                        + "expected more open files than ulimit -n allows, or the jar as it was at the start"));
+                "not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say"),
+                Arguments.of(new NoClassDefFoundError("io/natator/Part"),
+                        "a part of the program cannot be loaded: io/natator/Part; "
+                                + "expected more open files than ulimit -n allows, or the jar as it was at the start"));
     }
 
     @ParameterizedTest
@@ -250,13 +258,15 @@ class BadUsageTest extends FakeSimulatorTest {
     @Test
     void aDryRunThatCannotTryTellsWhy() {
         assertThat(evolve("run", "--scene", "fault/exit", "--dry-run")).isEqualTo(1);
-        assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck").hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck")
+                .hasLineCount(1);
         assertThat(out.toString()).isEmpty();
     }
 
     /** Whatever is asked of it: that a program does not work is no fault of the scene. */
     @ParameterizedTest
-    @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "page", "new scene minnow --like"})
+    @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "page",
+            "new scene minnow --like"})
     void aSimulatorThatDoesNotWorkIsAFailure(String command) throws IOException {
         Path simulator = folder.resolve("simulator");
         String[] arguments = (command + " pool/eel --simulator-path " + simulator).split(" ");

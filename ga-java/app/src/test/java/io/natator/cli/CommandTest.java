@@ -21,7 +21,8 @@ abstract class CommandTest {
 
     /** Runs a command as it is. */
     int execute(String... arguments) {
-        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments);
+        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true))
+                .execute(arguments);
     }
 
     /** Runs a command with the real simulator. */

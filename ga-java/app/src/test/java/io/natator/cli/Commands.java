@@ -17,7 +17,8 @@ public final class Commands {
     public static String natator(String... arguments) {
         StringWriter printed = new StringWriter();
         StringWriter errors = new StringWriter();
-        CommandLine command = Main.commandLine().setOut(new PrintWriter(printed, true)).setErr(new PrintWriter(errors, true));
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(printed, true))
+                .setErr(new PrintWriter(errors, true));
         assertThat(command.execute(arguments)).as(errors.toString()).isZero();
         return printed.toString();
     }

@@ -34,7 +34,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         Files.delete(folder.resolve("run/best.json"));
         out.getBuffer().setLength(0);
         assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
-        assertThat(out.toString()).containsPattern("no checkpoint.json, [1-9][0-9] evaluations of several generations; continue by: ");
+        assertThat(out.toString())
+                .containsPattern("no checkpoint.json, [1-9][0-9] evaluations of several generations; continue by: ");
     }
 
     @Test
@@ -55,16 +56,19 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(lines.get(10)).contains("distance ", " ± ", "4 fresh starts", "body lengths/s", "in vacuum", "phi ");
         assertThat(lines.get(11)).startsWith("   half step ");
         assertThat(lines.get(12)).contains("   selected ", " by one run, ", " again");
-        assertThat(lines.get(17)).isEqualTo("at equal evaluations (24), from 8 fresh starts: median distance [95 % bootstrap interval]");
+        assertThat(lines.get(17))
+                .isEqualTo("at equal evaluations (24), from 8 fresh starts: median distance [95 % bootstrap interval]");
         assertThat(lines.get(18)).matches(" {3}run 1 {2}-?\\d\\.\\d{4} \\[-?\\d\\.\\d{4}, -?\\d\\.\\d{4}]");
-        assertThat(lines.get(20)).matches(" {3}run 1 less run 2 {2}-?\\d.*]: (run [12] further than run [12]|no difference seen) "
-                + "\\(p [=<] 0\\.\\d+, A = \\d\\.\\d\\d\\)");
+        assertThat(lines.get(20))
+                .matches(" {3}run 1 less run 2 {2}-?\\d.*]: (run [12] further than run [12]|no difference seen) "
+                        + "\\(p [=<] 0\\.\\d+, A = \\d\\.\\d\\d\\)");
         assertThat(lines.get(21)).startsWith("at equal simulated time (");
         assertThat(lines).hasSize(25);
         assertThat(err.toString()).contains(" swims from fresh starts; --starts 0 leaves that out");
         out.getBuffer().setLength(0);
 
-        assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(), folder.resolve("long").toString()))
+        assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(),
+                folder.resolve("long").toString()))
                 .isZero();
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
     }
@@ -72,14 +76,18 @@ class CompareCommandTest extends FakeSimulatorTest {
     /** A cost is an objective that is never above 0. */
     @Test
     void whatTheBestIsWorthMayBeNegative() throws IOException {
-        assertThat(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16")).as(err.toString()).isZero();
+        assertThat(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16"))
+                .as(err.toString()).isZero();
         assertThat(evolve("two", "--optimizer", "cma-es", "--objectives", "work", "--evaluations", "16")).isZero();
         out.getBuffer().setLength(0);
 
-        assertThat(natator("compare", "--starts", "0", folder.resolve("one").toString(), folder.resolve("two").toString())).isZero();
+        assertThat(
+                natator("compare", "--starts", "0", folder.resolve("one").toString(), folder.resolve("two").toString()))
+                .isZero();
         String last = file("one", "generations.csv").lines().reduce((a, b) -> b).orElseThrow();
         assertThat(out.toString().lines().filter(line -> line.startsWith("         16")).findFirst()).get().asString()
-                .startsWith(String.format(Locale.ROOT, "         16%12.4f", Double.parseDouble(last.split(",")[1]))).contains("-0.");
+                .startsWith(String.format(Locale.ROOT, "         16%12.4f", Double.parseDouble(last.split(",")[1])))
+                .contains("-0.");
     }
 
     /** By what both were evolved for; where that differs, by distance. */
@@ -93,7 +101,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         }
         out.getBuffer().setLength(0);
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("from 2 fresh starts: median worth by work=0.5 [95 % bootstrap interval]\n   run 1  -")
+        assertThat(out.toString())
+                .contains("from 2 fresh starts: median worth by work=0.5 [95 % bootstrap interval]\n   run 1  -")
                 .doesNotContain("median distance");
 
         assertThat(evolve("far", "--evaluations", "16")).as(err.toString()).isZero();
@@ -106,17 +115,22 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void aSmallWorthIsNotNothing() throws IOException {
         for (String optimizer : List.of("random", "cma-es")) {
-            assertThat(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.00001", "--evaluations", "16"))
+            assertThat(
+                    evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.00001", "--evaluations", "16"))
                     .as(err.toString()).isZero();
         }
-        assertThat(out.toString()).containsPattern("selected +-0\\.0{4,}[1-9]\\d\\d by one run, -0\\.0{4,}[1-9]\\d\\d again");
+        assertThat(out.toString())
+                .containsPattern("selected +-0\\.0{4,}[1-9]\\d\\d by one run, -0\\.0{4,}[1-9]\\d\\d again");
         out.getBuffer().setLength(0);
         assertThat(natator("show", folder.resolve("random").toString())).isZero();
-        assertThat(out.toString()).containsPattern("best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
+        assertThat(out.toString()).containsPattern(
+                "best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
         out.getBuffer().setLength(0);
-        assertThat(natator("compare", "--starts", "2", folder.resolve("random").toString(), folder.resolve("cma-es").toString()))
+        assertThat(natator("compare", "--starts", "2", folder.resolve("random").toString(),
+                folder.resolve("cma-es").toString()))
                 .isZero();
-        assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d").containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
+        assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d")
+                .containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
     }
 
     @Test
@@ -128,8 +142,10 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(out.toString()).contains("\n  offset      " + both + "\n");
         out.getBuffer().setLength(0);
 
-        assertThat(natator("compare", "--starts", "0", folder.resolve("dense").toString(), folder.resolve("sparse").toString())).isZero();
-        assertThat(out.toString()).contains(", dense-steered genes, ", ", sparse-steered genes, ", ", offset " + both + "\n");
+        assertThat(natator("compare", "--starts", "0", folder.resolve("dense").toString(),
+                folder.resolve("sparse").toString())).isZero();
+        assertThat(out.toString()).contains(", dense-steered genes, ", ", sparse-steered genes, ",
+                ", offset " + both + "\n");
     }
 
     /** Two seeds of each: the runs are the sample. */
@@ -139,7 +155,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         for (String seed : List.of("1", "2")) {
             for (String optimizer : List.of("cma-es", "random")) {
                 String run = folder.resolve(optimizer + seed).toString();
-                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16",
+                        "--seed", seed,
                         "--output-dir", run)).as(err.toString()).isZero();
                 arguments.add(run);
             }
@@ -147,17 +164,20 @@ class CompareCommandTest extends FakeSimulatorTest {
         out.getBuffer().setLength(0);
 
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
+        assertThat(out.toString()).contains(
+                "at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
                 "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
     }
 
     /** What results/optimizers is made of. */
     @Test
     void writesWhatRunsAreComparedByAsJson() throws IOException {
-        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "4", "--rank-starts", "3", "--json", folder.resolve("runs.jsonl").toString()));
+        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "4", "--rank-starts", "3", "--json",
+                folder.resolve("runs.jsonl").toString()));
         for (String optimizer : List.of("cma-es", "random")) {
             String run = folder.resolve(optimizer).toString();
-            assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "40", "--output-dir", run)).isZero();
+            assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "40",
+                    "--output-dir", run)).isZero();
             arguments.add(run);
         }
 
@@ -166,7 +186,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(lines).hasSize(2);
         for (String line : lines) {
             JsonNode run = Json.parse(line, JsonNode.class);
-            JsonNode best = Json.parse(Files.readString(Path.of(run.get("run").textValue()).resolve("best.json")), JsonNode.class);
+            JsonNode best = Json.parse(Files.readString(Path.of(run.get("run").textValue()).resolve("best.json")),
+                    JsonNode.class);
             assertThat(run.get("best").get("genes")).isEqualTo(best.get("genes"));
             assertThat(run.get("improvements").size()).isPositive();
             assertThat(run.at("/improvements/0/evaluation").isInt()).isTrue();

@@ -41,7 +41,8 @@ class ConvergeCommandTest extends FakeSimulatorTest {
 
         assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
 
-        assertThat(out.toString()).endsWith("not known whether converged: no speed at half the spacing (2 runs unstable)\n");
+        assertThat(out.toString())
+                .endsWith("not known whether converged: no speed at half the spacing (2 runs unstable)\n");
     }
 
     @Test
@@ -62,7 +63,7 @@ class ConvergeCommandTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"time/3|time/3 is no level; expected one of time/2, time/4, spacing/2, both/2",
-        "time/2,time/2|--levels has time/2 twice; expected each once"})
+            "time/2,time/2|--levels has time/2 twice; expected each once"})
     void levelsAreThoseThatThereAre(String levels, String fault) {
         assertThat(natator("converge", "--levels", levels, run.toString())).isEqualTo(2);
         assertThat(err.toString()).contains(fault).hasLineCount(1);
@@ -73,7 +74,8 @@ class ConvergeCommandTest extends FakeSimulatorTest {
     void whatIsOfAnotherGaitIsNotShown() throws IOException {
         assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
         String found = file("run", "converge.json");
-        Files.writeString(run.resolve("converge.json"), found.replaceFirst("\"frequency\" : [0-9.]+", "\"frequency\" : 0.123"));
+        Files.writeString(run.resolve("converge.json"),
+                found.replaceFirst("\"frequency\" : [0-9.]+", "\"frequency\" : 0.123"));
         forget();
 
         assertThat(natator("show", run.toString())).isZero();

@@ -23,10 +23,13 @@ import org.junit.jupiter.params.provider.MethodSource;
 class DocumentedCommandsTest {
 
     private static final Path ROOT = Path.of("../..").toAbsolutePath().normalize();
-    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator", ROOT + "/build/release/bin/natator-sim"));
-    private static final Pattern NATATOR = Pattern.compile("^(?:\\$ )?(?:build/release/bin/natator|natator|java -jar ga-java/target/natator\\.jar"
-            + "|\\S*spark-submit .*natator-spark\\.jar) (.*)$");
-    private static final Pattern SIMULATES = Pattern.compile("^(?:\\$ )?(?:build/release/bin/)?natator-sim ([a-z]+)(.*)$");
+    private static final Path SIMULATOR = Path
+            .of(System.getProperty("natator.simulator", ROOT + "/build/release/bin/natator-sim"));
+    private static final Pattern NATATOR = Pattern
+            .compile("^(?:\\$ )?(?:build/release/bin/natator|natator|java -jar ga-java/target/natator\\.jar"
+                    + "|\\S*spark-submit .*natator-spark\\.jar) (.*)$");
+    private static final Pattern SIMULATES = Pattern
+            .compile("^(?:\\$ )?(?:build/release/bin/)?natator-sim ([a-z]+)(.*)$");
     private static final Pattern OPTION = Pattern.compile("(?<= )--[a-z-]+");
     private static final Pattern WORD = Pattern.compile("'([^']*)'|\"([^\"]*)\"|([^\\s'\"]+)");
 
@@ -43,7 +46,8 @@ class DocumentedCommandsTest {
 
     private static Stream<Path> documents() throws IOException {
         List<Path> files = new ArrayList<>(List.of(ROOT.resolve("README.md"), ROOT.resolve("CONTRIBUTING.md")));
-        for (String within : List.of("sim-native/docs", "sim-native/protocol", "sim-native/python", "ga-java/docs", "results")) {
+        for (String within : List.of("sim-native/docs", "sim-native/protocol", "sim-native/python", "ga-java/docs",
+                "results")) {
             try (Stream<Path> all = Files.walk(ROOT.resolve(within))) {
                 all.filter(file -> file.toString().endsWith(".md") || isScript(file)).forEach(files::add);
             }
@@ -76,7 +80,8 @@ class DocumentedCommandsTest {
 
     private static List<Shown> matching(Pattern pattern) throws IOException {
         return documents().flatMap(file -> code(file).stream())
-                .filter(shown -> pattern.matcher(shown.line).matches() && !shown.line.matches(".*[\\[…].*")).distinct().toList();
+                .filter(shown -> pattern.matcher(shown.line).matches() && !shown.line.matches(".*[\\[…].*")).distinct()
+                .toList();
     }
 
     static List<Shown> commands() throws IOException {
@@ -87,7 +92,8 @@ class DocumentedCommandsTest {
         List<String> words = new ArrayList<>();
         Matcher matcher = WORD.matcher(command.replaceAll(" [|&>].*$", ""));
         while (matcher.find()) {
-            words.add(matcher.group(1) != null ? matcher.group(1) : matcher.group(2) != null ? matcher.group(2) : matcher.group(3));
+            words.add(matcher.group(1) != null ? matcher.group(1)
+                    : matcher.group(2) != null ? matcher.group(2) : matcher.group(3));
         }
         return words;
     }
@@ -124,7 +130,8 @@ class DocumentedCommandsTest {
     /** What a command says of itself, and each of its own commands. */
     private String helpOf(String command) throws IOException, InterruptedException {
         StringBuilder text = new StringBuilder(run(command, "--help"));
-        Matcher below = Pattern.compile("(?m)^  ([a-z]+) {2,}\\S").matcher(text.substring(Math.max(0, text.indexOf("Subcommands:"))));
+        Matcher below = Pattern.compile("(?m)^  ([a-z]+) {2,}\\S")
+                .matcher(text.substring(Math.max(0, text.indexOf("Subcommands:"))));
         List<String> commands = new ArrayList<>();
         while (text.indexOf("Subcommands:") >= 0 && below.find()) {
             commands.add(below.group(1));
@@ -139,7 +146,8 @@ class DocumentedCommandsTest {
         List<String> command = new ArrayList<>(List.of(SIMULATOR.toString()));
         command.addAll(List.of(arguments));
         Path output = folder.resolve("output");
-        int status = new ProcessBuilder(command).redirectOutput(output.toFile()).redirectErrorStream(true).start().waitFor();
+        int status = new ProcessBuilder(command).redirectOutput(output.toFile()).redirectErrorStream(true).start()
+                .waitFor();
         String said = Files.readString(output);
         assertThat(status).as(String.join(" ", arguments) + ": " + said).isZero();
         return said;

@@ -54,8 +54,9 @@ class DocumentedFormatsTest {
     void scenesAndGaits() {
         String page = "sim-native/protocol/scenes.md";
         JsonNode scene = schema("scene");
-        List<JsonNode> objects = new ArrayList<>(List.of(scene.at("/properties/settling"), scene.at("/properties/stopping"),
-                scene.at("/$defs/solver"), scene.at("/$defs/fluid"), scene.at("/$defs/fluid/properties/mass")));
+        List<JsonNode> objects = new ArrayList<>(
+                List.of(scene.at("/properties/settling"), scene.at("/properties/stopping"),
+                        scene.at("/$defs/solver"), scene.at("/$defs/fluid"), scene.at("/$defs/fluid/properties/mass")));
         for (JsonNode object : objects) {
             assertThat(object.path("properties")).isNotEmpty();
             checkKeys(page, object);
@@ -77,7 +78,8 @@ class DocumentedFormatsTest {
             JsonNode each = (reference.isEmpty() ? key.getValue() : schema.at(reference)).path("items");
             if (each.has("minimum")) {
                 assertThat(rows(page, key.getKey())).as(key.getKey())
-                        .anyMatch(row -> row.contains("each in [" + each.path("minimum") + ", " + each.path("maximum") + "]"));
+                        .anyMatch(row -> row
+                                .contains("each in [" + each.path("minimum") + ", " + each.path("maximum") + "]"));
             }
         });
     }
@@ -92,7 +94,8 @@ class DocumentedFormatsTest {
             key.getValue().path("properties").fieldNames().forEachRemaining(keys::add);
         }
         keys.remove("id");
-        assertThat(keys).hasSizeGreaterThan(20).allSatisfy(key -> assertThat(text).containsPattern("`(\\w+\\.)?" + key + "[`.]"));
+        assertThat(keys).hasSizeGreaterThan(20)
+                .allSatisfy(key -> assertThat(text).containsPattern("`(\\w+\\.)?" + key + "[`.]"));
     }
 
     @Test
@@ -100,7 +103,8 @@ class DocumentedFormatsTest {
         String text = Files.readString(ROOT.resolve("ga-java/docs/run-folder.md"));
         Path run = ROOT.resolve("results/quick-evolution/default-seed-1");
         try (Stream<Path> files = Files.list(run)) {
-            assertThat(files.map(file -> file.getFileName().toString()).filter(name -> name.contains("."))).hasSizeGreaterThan(6)
+            assertThat(files.map(file -> file.getFileName().toString()).filter(name -> name.contains(".")))
+                    .hasSizeGreaterThan(6)
                     .allSatisfy(name -> assertThat(text).contains("| `" + name + "` |"));
         }
     }

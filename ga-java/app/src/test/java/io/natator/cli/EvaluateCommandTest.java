@@ -30,8 +30,9 @@ class EvaluateCommandTest extends FakeSimulatorTest {
         Files.writeString(best, Files.readString(best).replace(distance, "0.1234")
                 .replace(stored.get("result").get("hash").asText(), "00000000deadbeef"));
         assertThat(natator(again)).isZero();
-        assertThat(err.toString()).isEqualTo(String.format("%s: stored 0.1234, today's program %.4f (the same program: no "
-                + "reason is known)%n", folder.resolve("run"), stored.get("distance").asDouble()));
+        assertThat(err.toString())
+                .isEqualTo(String.format("%s: stored 0.1234, today's program %.4f (the same program: no "
+                        + "reason is known)%n", folder.resolve("run"), stored.get("distance").asDouble()));
 
         err.getBuffer().setLength(0);
         again[4] = "3";
@@ -66,14 +67,14 @@ class EvaluateCommandTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "thesis/creature-1|1.5 0.1 0.2|3 genes given; expected 4",
-        "thesis/creature-1|1.5 0.1 zero 0.3|gene 3 is 'zero'; expected a number",
-        "thesis/creature-1|best.json --duraton 2|Unknown option: '--duraton'",
-        "thesis/creature-1|2.5 0.1 0.2 0.3|gene 1 (frequency) is 2.5; expected a number from 0.5 to 2.0",
-        "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 is 'NaN'; expected a number",
-        "thesis/tank|1.5 0.1 0.2 0.3|--scene is thesis/tank, where nothing can move by itself: it has no actuators",
-        "thesis/creature-1|no-such.json|no-such.json does not exist",
-        "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})
+            "thesis/creature-1|1.5 0.1 0.2|3 genes given; expected 4",
+            "thesis/creature-1|1.5 0.1 zero 0.3|gene 3 is 'zero'; expected a number",
+            "thesis/creature-1|best.json --duraton 2|Unknown option: '--duraton'",
+            "thesis/creature-1|2.5 0.1 0.2 0.3|gene 1 (frequency) is 2.5; expected a number from 0.5 to 2.0",
+            "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 is 'NaN'; expected a number",
+            "thesis/tank|1.5 0.1 0.2 0.3|--scene is thesis/tank, where nothing can move by itself: it has no actuators",
+            "thesis/creature-1|no-such.json|no-such.json does not exist",
+            "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})
     void badGaitsAreNamed(String scene, String gait, String message) {
         List<String> all = new ArrayList<>(List.of("evaluate", "--scene", scene, "--gait"));
         all.addAll(List.of(gait.split(" ")));
@@ -85,26 +86,27 @@ class EvaluateCommandTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "{'frequency':'1','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"1\"; expected a number",
-        "{'frequency':'NaN','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"NaN\"; expected a number",
-        "{'frequency':1,'amplitude':[1,'1'],'phase':[0,0.5]}|amplitude[1] is \"1\"; expected a number",
-        "{'frequency':1,'amplitude':[1,true],'phase':[0,0.5]}|amplitude[1] is true; expected a number",
-        "{'frequency':1,'amplitude':[null,1],'phase':[0,0.5]}|amplitude[0] is null; expected a number",
-        "{'gait':{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'power':null}}|power is null; expected a number",
-        "{'frequency':1,'amplitude':1,'phase':[0,0.5]}|amplitude: expected a list",
-        "{'frequency':1,'phase':[0,0.5]}|amplitude is missing",
-        "{'amplitude':[1,1],'phase':[0,0.5]}|frequency: expected a number",
-        "{'frequency':1,'amplitude':[1],'phase':[0,0.5]}|gait has 1 amplitude and 2 phases; expected as many of both",
-        "{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'speed':1}|speed: unknown key; expected some of ",
-        "[null,1]|gait is [null,1]; expected an object with frequency, amplitude and phase",
-        "{'gait':null}|gait is null; expected an object with frequency, amplitude and phase",
-        "null|gait is null; expected an object with frequency, amplitude and phase"})
+            "{'frequency':'1','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"1\"; expected a number",
+            "{'frequency':'NaN','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"NaN\"; expected a number",
+            "{'frequency':1,'amplitude':[1,'1'],'phase':[0,0.5]}|amplitude[1] is \"1\"; expected a number",
+            "{'frequency':1,'amplitude':[1,true],'phase':[0,0.5]}|amplitude[1] is true; expected a number",
+            "{'frequency':1,'amplitude':[null,1],'phase':[0,0.5]}|amplitude[0] is null; expected a number",
+            "{'gait':{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'power':null}}|power is null; expected a number",
+            "{'frequency':1,'amplitude':1,'phase':[0,0.5]}|amplitude: expected a list",
+            "{'frequency':1,'phase':[0,0.5]}|amplitude is missing",
+            "{'amplitude':[1,1],'phase':[0,0.5]}|frequency: expected a number",
+            "{'frequency':1,'amplitude':[1],'phase':[0,0.5]}|gait has 1 amplitude and 2 phases; expected as many of both",
+            "{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'speed':1}|speed: unknown key; expected some of ",
+            "[null,1]|gait is [null,1]; expected an object with frequency, amplitude and phase",
+            "{'gait':null}|gait is null; expected an object with frequency, amplitude and phase",
+            "null|gait is null; expected an object with frequency, amplitude and phase"})
     void gaitFilesAreNoMoreThanGaits(String json, String message) throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"), json.replace('\'', '"'));
 
         assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evaluate: --gait " + gait + ": " + message).doesNotContain("line -1");
+        assertThat(err.toString()).startsWith("natator evaluate: --gait " + gait + ": " + message)
+                .doesNotContain("line -1");
     }
 
     @Test

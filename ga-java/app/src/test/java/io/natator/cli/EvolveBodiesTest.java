@@ -23,8 +23,8 @@ import org.junit.jupiter.params.provider.CsvSource;
 /** Runs whose bodies are evolved, with a simulator that swims by a formula: best at a length of 1.25. */
 class EvolveBodiesTest extends FakeSimulatorTest {
 
-    private static final List<String> RESULTS =
-            List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
+    private static final List<String> RESULTS = List.of("config.json", "generations.csv", "best.json",
+            "checkpoint.json", "evaluations.jsonl");
     /** Of the fake's eight actuators. */
     private static final Gait GAIT = new Gait(1.5, List.of(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             List.of(0.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3));
@@ -33,7 +33,8 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     int evolve(String name, String... more) {
         List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve(name).toString()));
         arguments.addAll(List.of(more));
-        for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"), List.of("--generations", "2"))) {
+        for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"),
+                List.of("--generations", "2"))) {
             if (!arguments.contains(usual.get(0))) {
                 arguments.addAll(usual);
             }
@@ -67,18 +68,21 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     /** Kinds of gaits are told apart by beats for a body length, which is each body's own. */
     @Test
     void everyBodyHasItsOwnLength() {
-        assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1")).as(err.toString()).isZero();
+        assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1"))
+                .as(err.toString()).isZero();
 
         RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
-            double length = run.settings().problem().bodyLength(run.settings().problem().genome().decode(one.genes()).body());
+            double length = run.settings().problem()
+                    .bodyLength(run.settings().problem().genome().decode(one.genes()).body());
             assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
         });
     }
 
     @Test
     void bodiesAloneGetBetterWithTheSameGait() throws IOException {
-        assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString()).isZero();
+        assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString())
+                .isZero();
 
         RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.evaluations()).allSatisfy(one -> assertThat(one.gait()).isEqualTo(GAIT));
@@ -89,7 +93,8 @@ class EvolveBodiesTest extends FakeSimulatorTest {
 
     @Test
     void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
-        assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString()).isZero();
+        assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString())
+                .isZero();
 
         List<EvaluationRecord> refused = RunReader.recorded(folder.resolve("run")).rows().stream()
                 .filter(one -> one.result().status() == Status.REFUSED).toList();
@@ -98,16 +103,20 @@ class EvolveBodiesTest extends FakeSimulatorTest {
             assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
             assertThat(one.result().fitness()).isZero();
         });
-        assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
+        assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8)
+                .hasSameSizeAs(refused);
         natator("show", folder.resolve("run").toString());
-        assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ", "does not fit into the tank",
-                "early stop  0.0 % of the time: 0 of " + (20 - refused.size()) + " evaluations ended early, as if 0 had not");
+        assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ",
+                "does not fit into the tank",
+                "early stop  0.0 % of the time: 0 of " + (20 - refused.size())
+                        + " evaluations ended early, as if 0 had not");
     }
 
     @Test
     void theModeAndAKillChangeNoByte() throws IOException {
         for (String mode : List.of("process", "resident", "batch")) {
-            assertThat(evolve(mode, "--evolve", "both", "--simulator", mode, "--population", "6")).as(err.toString()).isZero();
+            assertThat(evolve(mode, "--evolve", "both", "--simulator", mode, "--population", "6")).as(err.toString())
+                    .isZero();
         }
         assertSame("resident", "process");
         assertSame("batch", "process");
@@ -130,7 +139,8 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         assertThat(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait",
                 folder.resolve("run/best.json").toString())).as(err.toString()).isZero();
 
-        JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class, "result");
+        JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class,
+                "result");
         assertThat(result.path("distance").doubleValue()).isEqualTo(best.distance());
         assertThat(GaitFile.read(folder.resolve("run/best.json"))).isEqualTo(new Swimmer(best.gait(), best.body()));
         assertThat(SwimSource.of(folder.resolve("run").toString(), null).overrides()).isEqualTo(best.body());
@@ -151,17 +161,18 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         assertThat(natator("show", folder.resolve("run").toString())).isZero();
 
         assertThat(out.toString()).containsPattern("length +1\\.\\d+ units, the scene's 1\\.5\n")
-                .containsPattern("height +0\\.\\d+ .* units at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
+                .containsPattern(
+                        "height +0\\.\\d+ .* units at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
                 .contains("joints", "stiffness", "muscles", "particles");
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "pool/creature-1|both||scene pool/creature-1: the creature's body is not given by a profile",
-        "pool/eel|body||--evolve body has no gait that the bodies are to swim with; expected --gait FILE",
-        "pool/eel|both|gait.json|--gait is for --evolve body; else gaits are evolved",
-        "pool/eel|body|odd.json|--gait FOLDER/odd.json: body is 3; expected a JSON Merge Patch on the scene",
-        "pool/eel|body|short.json|gait of the bodies is for 1 actuator; expected one for the 8 of the scene's body"})
+            "pool/creature-1|both||scene pool/creature-1: the creature's body is not given by a profile",
+            "pool/eel|body||--evolve body has no gait that the bodies are to swim with; expected --gait FILE",
+            "pool/eel|both|gait.json|--gait is for --evolve body; else gaits are evolved",
+            "pool/eel|body|odd.json|--gait FOLDER/odd.json: body is 3; expected a JSON Merge Patch on the scene",
+            "pool/eel|body|short.json|gait of the bodies is for 1 actuator; expected one for the 8 of the scene's body"})
     void whatDoesNotFitIsOneLine(String scene, String what, String gait, String message) throws IOException {
         gaitFile();
         Files.writeString(folder.resolve("odd.json"), "{\"gait\":" + Json.line(GAIT) + ",\"body\":3}");
@@ -170,7 +181,8 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         assertThat(evolve("run", gait == null ? new String[] {"--evolve", what, "--scene", scene}
                 : new String[] {"--evolve", what, "--gait", folder.resolve(gait).toString()})).isEqualTo(2);
 
-        assertThat(err.toString()).startsWith("natator evolve: " + message.replace("FOLDER", folder.toString())).hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator evolve: " + message.replace("FOLDER", folder.toString()))
+                .hasLineCount(1);
         assertThat(folder.resolve("run")).doesNotExist();
     }
 }

@@ -19,10 +19,12 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void evolvesAndReports() throws IOException {
         assertThat(evolve("run")).as(err.toString()).isZero();
 
-        assertThat(out.toString()).startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
+        assertThat(out.toString())
+                .startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
                 .contains("  evaluations about 50\n", "  time        about ",
                         "best gait of pool/creature-1 after 3 generations",
-                        "  distance    -0.04", " in 2.00 s; 4 fresh starts, all completed\n", "  half step   ", "  selected    ",
+                        "  distance    -0.04", " in 2.00 s; 4 fresh starts, all completed\n", "  half step   ",
+                        "  selected    ",
                         " by one run, ", "  verdict     does not swim: moves -0.038 ± 0.0",
                         "  try more --generations", "natator view --run " + folder.resolve("run"),
                         "natator page " + folder.resolve("run"),
@@ -31,8 +33,9 @@ class EvolveCommandTest extends FakeSimulatorTest {
                         "  flow        Reynolds number 131, Strouhal number 0.313\n", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
-                .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
-                        + "elapsed \\d+s, left .*"));
+                .matches(
+                        "generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
+                                + "elapsed \\d+s, left .*"));
         JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
@@ -48,13 +51,15 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void aFolderWithASpaceIsQuotedInCommands() throws IOException {
         String run = "'" + folder.resolve("minnow one") + "'";
         assertThat(evolve("minnow one", "--optimizer", "map-elites")).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("natator view --run " + run + "\n", "natator page " + run + "\n", "run folder  " + folder.resolve("minnow one"));
+        assertThat(out.toString()).contains("natator view --run " + run + "\n", "natator page " + run + "\n",
+                "run folder  " + folder.resolve("minnow one"));
         assertThat(natator("show", folder.resolve("minnow one").toString())).isZero();
         assertThat(out.toString()).contains("natator view --run " + run + " swims them");
 
         Files.writeString(folder.resolve("slow"), "0.2");
         assertThat(evolve("one cut", "--workers", "1", "--stop-after", "4")).as(err.toString()).isZero();
-        assertThat(err.toString()).endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
+        assertThat(err.toString())
+                .endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
         assertThat(natator("show", folder.resolve("one cut").toString())).isZero();
         assertThat(out.toString()).contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
     }
@@ -108,7 +113,8 @@ class EvolveCommandTest extends FakeSimulatorTest {
     @Test
     void withoutOptionsItIsTheQuickPreset() {
         assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
-        assertThat(out.toString()).startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
+        assertThat(out.toString())
+                .startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
                 .contains(", backend cpu, 2.0 s\n", "evaluations about 100\n");
         out.getBuffer().setLength(0);
 
@@ -117,7 +123,8 @@ class EvolveCommandTest extends FakeSimulatorTest {
         out.getBuffer().setLength(0);
 
         assertThat(natator("evolve", "--dry-run", "--preset", "thesis")).isZero();
-        assertThat(out.toString()).startsWith("thesis/creature-1, ").contains("population 150, 100 generations", ", backend cpu\n");
+        assertThat(out.toString()).startsWith("thesis/creature-1, ").contains("population 150, 100 generations",
+                ", backend cpu\n");
     }
 
     @Test
@@ -131,7 +138,8 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
         assertThat(evolve("run", "--scene", "fault/mixed")).as(err.toString()).isZero();
 
-        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ", "best gait of fault/mixed");
+        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ",
+                "best gait of fault/mixed");
     }
 
     /** Many more at once than there are processors would only wait for each other. */
@@ -174,8 +182,9 @@ class EvolveCommandTest extends FakeSimulatorTest {
     /** The runs are those that each seed gives alone. */
     @Test
     void evolvesWithSeveralSeedsInPieces() throws IOException {
-        String[] study = {"evolve", "--creature", "1", "--seeds", "3", "--evaluations", "30", "--population", "6", "--simulator", "batch",
-            "--output-dir", folder.resolve("study").toString()};
+        String[] study = {"evolve", "--creature", "1", "--seeds", "3", "--evaluations", "30", "--population", "6",
+                "--simulator", "batch",
+                "--output-dir", folder.resolve("study").toString()};
         List<String> piece = new ArrayList<>(List.of(study));
         piece.addAll(List.of("--stop-after", "0.3"));
         Files.writeString(folder.resolve("slow"), "0.5");
@@ -185,13 +194,16 @@ class EvolveCommandTest extends FakeSimulatorTest {
         Files.delete(folder.resolve("slow"));
         assertThat(natator(study)).as(err.toString()).isZero();
         assertThat(out.toString()).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
-        assertThat(natator("evolve", "--creature", "1", "--seed", "2", "--evaluations", "30", "--population", "6", "--output-dir",
+        assertThat(natator("evolve", "--creature", "1", "--seed", "2", "--evaluations", "30", "--population", "6",
+                "--output-dir",
                 folder.resolve("alone").toString())).as(err.toString()).isZero();
-        assertThat(folder.resolve("study/seed-2/evaluations.jsonl")).hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
+        assertThat(folder.resolve("study/seed-2/evaluations.jsonl"))
+                .hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
 
         err.getBuffer().setLength(0);
         study[6] = "40";
         assertThat(natator(study)).isEqualTo(2);
-        assertThat(err.toString()).contains("seed-1 was begun with other settings: evaluations was 30, is now 40").hasLineCount(1);
+        assertThat(err.toString()).contains("seed-1 was begun with other settings: evaluations was 30, is now 40")
+                .hasLineCount(1);
     }
 }

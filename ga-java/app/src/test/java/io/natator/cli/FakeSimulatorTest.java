@@ -33,8 +33,9 @@ abstract class FakeSimulatorTest extends CommandTest {
     }
 
     int evolveTo(int generations, String runName, String... more) {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
-                "5", "--output-dir", folder.resolve(runName).toString()));
+        List<String> arguments = new ArrayList<>(
+                List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
+                        "5", "--output-dir", folder.resolve(runName).toString()));
         arguments.addAll(List.of(more));
         return natator(arguments.toArray(String[]::new));
     }

@@ -23,13 +23,15 @@ class HelpTest extends CommandTest {
         String help = command.getUsageMessage();
 
         List<OptionSpec> options = command.getCommandSpec().options();
-        assertThat(options).allSatisfy(option -> assertThat(help.split("(?m)^ +(-., )?" + option.longestName() + "(?![\\w-])"))
-                .as(option.longestName()).hasSize(2));
+        assertThat(options)
+                .allSatisfy(option -> assertThat(help.split("(?m)^ +(-., )?" + option.longestName() + "(?![\\w-])"))
+                        .as(option.longestName()).hasSize(2));
         if (options.size() > 8) {
             assertThat(help).contains("[OPTIONS]", "\nHow it is computed:\n", "natator "
                     + command.getCommandName() + " ");
             assertThat(help.contains("\nWhat swims:\n"))
-                    .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|scene|variants|water)")));
+                    .isEqualTo(options.stream()
+                            .anyMatch(option -> option.longestName().matches("--(gait|scheme|scene|variants|water)")));
         }
         assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
@@ -64,11 +66,11 @@ class HelpTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "evolv|natator: 'evolv' is no command; did you mean evolve? See natator --help",
-        "resum|natator: 'resum' is no command; did you mean resume? See natator --help",
-        "swim|natator: 'swim' is no command; see natator --help",
-        "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
-        "view --zzz|natator view: --zzz is no option of this command; see natator view --help"})
+            "evolv|natator: 'evolv' is no command; did you mean evolve? See natator --help",
+            "resum|natator: 'resum' is no command; did you mean resume? See natator --help",
+            "swim|natator: 'swim' is no command; see natator --help",
+            "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
+            "view --zzz|natator view: --zzz is no option of this command; see natator view --help"})
     void whatWasProbablyMeantIsNamed(String arguments, String line) {
         assertThat(execute(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString().strip()).isEqualTo(line);

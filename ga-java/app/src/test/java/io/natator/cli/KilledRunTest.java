@@ -28,10 +28,10 @@ import org.junit.jupiter.params.provider.ValueSource;
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class KilledRunTest {
 
-    private static final List<String> RESULTS =
-            List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
-    private static final List<String> HOW =
-            List.of("--simulator", "resident", "--workers", "2", "--no-cache", "--timeout", "3600");
+    private static final List<String> RESULTS = List.of("generations.csv", "best.json", "checkpoint.json",
+            "evaluations.jsonl");
+    private static final List<String> HOW = List.of("--simulator", "resident", "--workers", "2", "--no-cache",
+            "--timeout", "3600");
     private static final List<String> SETTINGS = List.of("--population", "30", "--evaluations", "400");
     /** Answers that a simulator gives at most until it waits to be killed: no run gets to its end between two kills. */
     private static final String ANSWERS = "4";
@@ -50,7 +50,8 @@ class KilledRunTest {
     }
 
     private List<String> command(String name, String... arguments) {
-        List<String> command = JavaCommand.of(Main.class, name, "--simulator-path", folder.resolve("fake-simulator.sh").toString());
+        List<String> command = JavaCommand.of(Main.class, name, "--simulator-path",
+                folder.resolve("fake-simulator.sh").toString());
         command.addAll(List.of(arguments));
         return command;
     }
@@ -100,8 +101,9 @@ class KilledRunTest {
         assertThat(ended(start(evolve(run, "--optimizer", optimizer, "--starts", starts)), run, random, true)).isTrue();
         for (int i = 1; i < kills * TIMES; i++) {
             boolean force = i % 8 != 4;
-            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout",
-                    "3600", run.toString()));
+            Process next = start(
+                    command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout",
+                            "3600", run.toString()));
             assertThat(ended(next, run, random, force)).as("end %d came before that of the run", i).isTrue();
         }
         Files.delete(folder.resolve("slow"));

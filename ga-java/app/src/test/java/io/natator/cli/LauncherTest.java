@@ -16,8 +16,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 /** The script {@code natator}, which starts this program: how it says that it was called. Its Java only tells its arguments. */
 class LauncherTest {
 
-    private static final Path SCRIPT =
-            Path.of(System.getProperty("natator.protocol"), "../cli/natator.sh").normalize();
+    private static final Path SCRIPT = Path.of(System.getProperty("natator.protocol"), "../cli/natator.sh").normalize();
 
     @TempDir
     private Path folder;
@@ -31,7 +30,8 @@ class LauncherTest {
     }
 
     private String said(String command) throws IOException, InterruptedException {
-        ProcessBuilder builder = new ProcessBuilder("sh", "-c", command).directory(folder.toFile()).redirectErrorStream(true);
+        ProcessBuilder builder = new ProcessBuilder("sh", "-c", command).directory(folder.toFile())
+                .redirectErrorStream(true);
         builder.environment().put("PATH", folder + ":" + System.getenv("PATH"));
         builder.environment().put("NATATOR_JAR", folder.resolve("natator.jar").toString());
         builder.environment().remove("JAVA_HOME");
@@ -62,9 +62,11 @@ class LauncherTest {
     @ValueSource(strings = {"C", "POSIX", "xx_XX.UTF-8", ""})
     void namesOfFilesNeedNoLocale(String locale) throws IOException, InterruptedException {
         String java = Path.of(System.getProperty("java.home"), "bin", "java").toString();
-        Files.writeString(folder.resolve("java"), "#!/bin/sh\nexec '" + java + "' -XshowSettings:properties -version 2>&1\n");
+        Files.writeString(folder.resolve("java"),
+                "#!/bin/sh\nexec '" + java + "' -XshowSettings:properties -version 2>&1\n");
 
-        assertThat(said("unset LANG LC_CTYPE; LC_ALL=" + locale + " ./natator show run")).contains("sun.jnu.encoding = UTF-8");
+        assertThat(said("unset LANG LC_CTYPE; LC_ALL=" + locale + " ./natator show run"))
+                .contains("sun.jnu.encoding = UTF-8");
     }
 
     @Test

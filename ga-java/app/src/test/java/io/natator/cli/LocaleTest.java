@@ -29,14 +29,17 @@ class LocaleTest {
     @ParameterizedTest
     @ValueSource(strings = {"show", "page --simulator-path /bin/sh"})
     void aNameThatJavaCannotReadIsToldInOneLine(String command) throws IOException, InterruptedException {
-        ProcessBuilder java = new ProcessBuilder("sh", "-c", "LC_ALL=C exec \"$0\" -cp \"$1\" io.natator.cli.Main " + command
-                + " \"$(printf '\\303\\251')\"", Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+        ProcessBuilder java = new ProcessBuilder("sh", "-c",
+                "LC_ALL=C exec \"$0\" -cp \"$1\" io.natator.cli.Main " + command
+                        + " \"$(printf '\\303\\251')\"",
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
                 System.getProperty("java.class.path")).redirectErrorStream(true);
         java.environment().remove("JAVA_TOOL_OPTIONS");
         Process process = java.start();
 
         assertThat(new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8)).hasLineCount(1)
-                .startsWith("natator " + command.replaceFirst(" .*", "") + ": ").contains("'\ufffd\ufffd' cannot be the name of a file in ANSI_X3.4-1968, ")
+                .startsWith("natator " + command.replaceFirst(" .*", "") + ": ")
+                .contains("'\ufffd\ufffd' cannot be the name of a file in ANSI_X3.4-1968, ")
                 .contains("expected LC_ALL=C.UTF-8 before java, or the command natator, which sets it");
         assertThat(process.waitFor()).isEqualTo(2);
     }

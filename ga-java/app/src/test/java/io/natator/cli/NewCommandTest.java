@@ -52,7 +52,8 @@ class NewCommandTest extends CommandTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"", "--like pool/eel", "--like endless/wide-water", "--like thesis/tank", "--like open-water/ray"})
+    @ValueSource(strings = {"", "--like pool/eel", "--like endless/wide-water", "--like thesis/tank",
+            "--like open-water/ray"})
     void aSceneSwimsByTheGaitThatIsMadeForIt(String options) throws IOException, InterruptedException {
         Path scene = written("scene", "minnow", options.isEmpty() ? new String[0] : options.split(" "));
         List<String> said = tried();
@@ -66,8 +67,9 @@ class NewCommandTest extends CommandTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"'',pool/water", "open-water/tuna,open-water/water", "pool/ray,pool/water", "thesis/creature-4,thesis/tank",
-        "bench/small-tank,pool/water"})
+    @CsvSource({"'',pool/water", "open-water/tuna,open-water/water", "pool/ray,pool/water",
+            "thesis/creature-4,thesis/tank",
+            "bench/small-tank,pool/water"})
     void aCreatureSwimsInWaterThatTakesIt(String like, String water) throws IOException, InterruptedException {
         Path creature = written("creature", "own", like.isEmpty() ? new String[0] : new String[] {"--like", like});
         List<String> said = tried();
@@ -97,12 +99,14 @@ class NewCommandTest extends CommandTest {
 
     @Test
     void aMeshIsFoundFromTheNewFile() throws IOException {
-        Path mesh = Files.copy(SIMULATOR.resolveSibling("../share/natator/creatures/ray.obj"), folder.resolve("own.obj"));
+        Path mesh = Files.copy(SIMULATOR.resolveSibling("../share/natator/creatures/ray.obj"),
+                folder.resolve("own.obj"));
         Path scene = Files.writeString(folder.resolve("swim.json"), """
                 {"base": "pool/water", "creature": {"rearCentre": [0.6, 0.5, 0.5], "particleMass": 0.421875,
                  "mesh": {"file": "%s", "length": 1.2, "joints": [0.3, 0.5]}}}""".formatted(mesh));
 
-        JsonNode creature = Json.read(written("creature", "own", "--like", scene.toString()), JsonNode.class, "creature");
+        JsonNode creature = Json.read(written("creature", "own", "--like", scene.toString()), JsonNode.class,
+                "creature");
         assertThat(creature.at("/mesh/file").asText()).isEqualTo(mesh.toString());
         assertThat(creature.at("/mesh/digest").isMissingNode()).isTrue();
     }
@@ -113,24 +117,26 @@ class NewCommandTest extends CommandTest {
     void aNameIsWrittenInAnyScript(String name) throws IOException, InterruptedException {
         Path scene = written("scene", name);
 
-        assertThat(Json.parse(Files.readString(scene), JsonNode.class).get("description").asText()).startsWith(name + ": ");
+        assertThat(Json.parse(Files.readString(scene), JsonNode.class).get("description").asText())
+                .startsWith(name + ": ");
         assertThat(tried()).hasSize(2);
         assertThat(folder.resolve(name + "-gait.json")).exists();
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "scene a/b|NAME is a/b; expected at most 64 letters, digits, - and _",
-        "scene ..|NAME is ..; expected", "scene é.x|NAME is é.x; expected", "scene \u0301|expected at most 64 letters", "scene 🐟|expected",
-        "fish x|expected scene, creature or gait but was 'fish'",
-        "scene x --output x.txt|--output is x.txt; expected a name that ends in .json",
-        "scene x --output TAKEN|taken.json is already there; expected a new file",
-        "scene x --output FOLDER/none/x.json|no such file or folder",
-        "scene x --like no/such|--like is no/such; expected a named scene (natator-sim info lists them) or a file NAME.json",
-        "creature x --like poool/eel|--like is poool/eel; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, ",
-        "gait x --like no.json|--like is no.json; expected a named scene or an existing file",
-        "gait x --like pool/water|has no muscles to drive: it has no creature",
-        "creature x --like pool/water|--like is pool/water, which has no creature"})
+            "scene a/b|NAME is a/b; expected at most 64 letters, digits, - and _",
+            "scene ..|NAME is ..; expected", "scene é.x|NAME is é.x; expected",
+            "scene \u0301|expected at most 64 letters", "scene 🐟|expected",
+            "fish x|expected scene, creature or gait but was 'fish'",
+            "scene x --output x.txt|--output is x.txt; expected a name that ends in .json",
+            "scene x --output TAKEN|taken.json is already there; expected a new file",
+            "scene x --output FOLDER/none/x.json|no such file or folder",
+            "scene x --like no/such|--like is no/such; expected a named scene (natator-sim info lists them) or a file NAME.json",
+            "creature x --like poool/eel|--like is poool/eel; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, ",
+            "gait x --like no.json|--like is no.json; expected a named scene or an existing file",
+            "gait x --like pool/water|has no muscles to drive: it has no creature",
+            "creature x --like pool/water|--like is pool/water, which has no creature"})
     void refusals(String arguments, String message) throws IOException {
         Path taken = Files.writeString(folder.resolve("taken.json"), "mine");
         String where = arguments.contains("--output") ? "" : " --output " + folder.resolve("x.json");

@@ -50,7 +50,8 @@ class PageCommandTest extends CommandTest {
                 run.toString())).as(err.toString()).isZero();
         err.getBuffer().setLength(0);
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
-        String[] again = {"page", run.toString(), "--no-water", "--force", "--output", folder.resolve("page.html").toString()};
+        String[] again = {"page", run.toString(), "--no-water", "--force", "--output",
+                folder.resolve("page.html").toString()};
         assertThat(natator(again)).as(err.toString()).isZero();
         assertThat(err.toString()).as("today's program made it").isEmpty();
 
@@ -58,16 +59,19 @@ class PageCommandTest extends CommandTest {
         Files.writeString(run.resolve("best.json"), best.replace("\"distance\" : " + swum, "\"distance\" : 0.5521"));
         assertThat(natator(again)).as(err.toString()).isZero();
         assertThat(err.toString().lines()).hasSize(1).allSatisfy(line -> assertThat(line).startsWith(
-                run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
+                run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4)
+                        + " (the same program: no reason is known)"));
     }
 
     @Test
     void aPageIsReplacedOnlyIfWanted() throws IOException {
         Path page = Files.writeString(folder.resolve("page.html"), "mine");
-        List<String> arguments = new ArrayList<>(List.of("page", "pool/creature-1", "--duration", "0.05", "--no-water", "--output", page.toString()));
+        List<String> arguments = new ArrayList<>(
+                List.of("page", "pool/creature-1", "--duration", "0.05", "--no-water", "--output", page.toString()));
 
         assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err).hasToString("natator page: output file " + page + " is already there; choose another by --output, or replace it by --force\n");
+        assertThat(err).hasToString("natator page: output file " + page
+                + " is already there; choose another by --output, or replace it by --force\n");
         assertThat(page).hasContent("mine");
 
         arguments.add("--force");
@@ -82,7 +86,10 @@ class PageCommandTest extends CommandTest {
         assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
         assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
         assertThat(natator("page", "thesis/creature-1", "--output", folder.toString())).isEqualTo(2);
-        assertThat(err.toString()).contains("output file is " + folder + ", which is a folder; expected the name of a file")
-                .contains("--best is 0; expected", "--best is 2; expected 1 with thesis/creature-1, which is no run folder\n").contains("--max-size is 0.0; expected").contains("no/such");
+        assertThat(err.toString())
+                .contains("output file is " + folder + ", which is a folder; expected the name of a file")
+                .contains("--best is 0; expected",
+                        "--best is 2; expected 1 with thesis/creature-1, which is no run folder\n")
+                .contains("--max-size is 0.0; expected").contains("no/such");
     }
 }

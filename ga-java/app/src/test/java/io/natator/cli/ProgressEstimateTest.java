@@ -18,8 +18,8 @@ import org.junit.jupiter.api.Test;
 
 class ProgressEstimateTest {
 
-    private static final EvolutionSettings SETTINGS =
-            EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, 2);
+    private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+            .withSize(10, 2);
 
     private final AtomicLong clock = new AtomicLong();
 

@@ -22,8 +22,8 @@ import org.junit.jupiter.api.Test;
 
 class ProgressTest {
 
-    private static final EvolutionSettings SETTINGS =
-            EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, 2);
+    private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+            .withSize(10, 2);
     private static final EvolutionState BEFORE = new EvolutionState(1, 29, List.of(),
             new Individual(List.of(), 1, result(7, 0.25)), List.of(new GenerationSummary(0, 0, 0, 0, 0, 10, 10, 0, 0),
                     new GenerationSummary(1, 0, 0, 0, 0, 29, 19, 0, 0)));
@@ -38,7 +38,8 @@ class ProgressTest {
 
     private void evaluate(Progress progress, double distance, long seconds) {
         clock.addAndGet(TimeUnit.SECONDS.toNanos(seconds));
-        progress.evaluated(new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)), result(0, distance)));
+        progress.evaluated(
+                new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)), result(0, distance)));
     }
 
     private Progress progress(EvolutionState from, long recorded, PrintStream terminal) {
@@ -53,8 +54,9 @@ class ProgressTest {
             assertThat(out.toString()).isEmpty();
             evaluate(progress, -1, 1);
         }
-        assertThat(out.toString().strip()).isEqualTo("generation 0 of 2 under way, best 0.0000, evaluations 2 of about 40, "
-                + "elapsed 10s, left 3m10s");
+        assertThat(out.toString().strip())
+                .isEqualTo("generation 0 of 2 under way, best 0.0000, evaluations 2 of about 40, "
+                        + "elapsed 10s, left 3m10s");
     }
 
     @Test

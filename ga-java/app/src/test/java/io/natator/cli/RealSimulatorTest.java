@@ -29,8 +29,10 @@ class RealSimulatorTest extends CommandTest {
     void aTinyEvolution() throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
-                "--duration", "0.1", "--output-dir", run.toString())).as(err.toString()).isZero();
+        assertThat(
+                natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
+                        "--duration", "0.1", "--output-dir", run.toString()))
+                .as(err.toString()).isZero();
 
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(4);
@@ -54,7 +56,8 @@ class RealSimulatorTest extends CommandTest {
     void aDurationBelowOneTimeStepIsRefused(String option) {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option)).isEqualTo(2);
+        assertThat(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option))
+                .isEqualTo(2);
 
         assertThat(err.toString()).contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
         assertThat(run).doesNotExist();
@@ -62,7 +65,8 @@ class RealSimulatorTest extends CommandTest {
 
     @Test
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
-        String[] swim = {"evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", "1.5", "0.6", "0.69", "0.5"};
+        String[] swim = {"evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", "1.5", "0.6", "0.69",
+                "0.5"};
         List<String> elsewhere = new ArrayList<>(List.of(swim));
         elsewhere.addAll(List.of("--simulator-command", "exec " + SIMULATOR + " serve"));
         assertThat(natator(swim)).as(err.toString()).isZero();
@@ -111,7 +115,8 @@ class RealSimulatorTest extends CommandTest {
         Path output = folder.resolve("out.html");
         for (String duration : List.of("1e6", "200000")) {
             err.getBuffer().setLength(0);
-            List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(), "--max-size", "1000000",
+            List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(),
+                    "--max-size", "1000000",
                     "thesis/creature-1-vacuum");
             assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isEqualTo(2);
             assertThat(err.toString()).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
@@ -123,7 +128,8 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration", "0.105",
+        assertThat(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration",
+                "0.105",
                 "--output-dir", run.toString())).as(err.toString()).isZero();
         err.getBuffer().setLength(0);
         assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
@@ -135,13 +141,16 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations", "0", "--duration", "0.1",
+        assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations",
+                "0", "--duration", "0.1",
                 "--output-dir", run.toString())).as(err.toString()).isZero();
         forget();
 
-        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString()).isZero();
+        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString())
+                .isZero();
         assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", " at time step and spacing 0, from ");
-        assertThat(err.toString().lines()).as("runs").hasSize(4).allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
+        assertThat(err.toString().lines()).as("runs").hasSize(4)
+                .allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4).contains("\"profile\"");
 
         String found = out.toString();
@@ -153,8 +162,8 @@ class RealSimulatorTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "--duration 0.1 --optimizer nsga2 --objectives forward,work|front|of several objectives, the gaits that no other is better than",
-        "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites|map of gaits: "})
+            "--duration 0.1 --optimizer nsga2 --objectives forward,work|front|of several objectives, the gaits that no other is better than",
+            "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites|map of gaits: "})
     void whatIsMoreThanOneGaitIsShown(String options, String key, String line) throws IOException {
         Path run = folder.resolve("run");
         List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
@@ -176,13 +185,15 @@ class RealSimulatorTest extends CommandTest {
     /** In scheme flex muscles have no work that could be measured. */
     @ParameterizedTest
     @CsvSource({"--objectives, work, objective work: this simulator does not measure it in scheme flex",
-        "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
+            "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
     void whatIsNotMeasuredIsNoObjective(String option, String value, String message) {
         assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
                 "--duration", "0.02", option, value, "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
 
-        assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow()).startsWith("natator evolve: " + message);
-        assertThat(out.toString()).as("not said in the plan as well").contains("  time        not known\n").doesNotContain("does not measure");
+        assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow())
+                .startsWith("natator evolve: " + message);
+        assertThat(out.toString()).as("not said in the plan as well").contains("  time        not known\n")
+                .doesNotContain("does not measure");
     }
 
     /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
@@ -192,8 +203,10 @@ class RealSimulatorTest extends CommandTest {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
-            assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "1",
-                    "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode, "--output-dir",
+            assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6",
+                    "--generations", "1",
+                    "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode,
+                    "--output-dir",
                     run.toString())).as(err.toString()).isZero();
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
@@ -208,7 +221,8 @@ class RealSimulatorTest extends CommandTest {
     void aSecondRunTakesItsResultsFromTheCache() throws IOException {
         for (String name : List.of("first", "second", "without")) {
             List<String> arguments = new ArrayList<>(List.of("evolve", "--scene", SMALL, "--scheme", "conserving",
-                    "--population", "4", "--generations", "1", "--duration", "0.05", "--output-dir", folder.resolve(name).toString()));
+                    "--population", "4", "--generations", "1", "--duration", "0.05", "--output-dir",
+                    folder.resolve(name).toString()));
             if (name.equals("without")) {
                 arguments.add("--no-cache");
             }
@@ -252,8 +266,8 @@ class RealSimulatorTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "thesis/creature-9|{}|thesis/creature-9",
-        "thesis/creature-1|{\"no such setting\":1}|no such setting"})
+            "thesis/creature-9|{}|thesis/creature-9",
+            "thesis/creature-1|{\"no such setting\":1}|no such setting"})
     void whatTheSimulatorRefusesIsOneLineAndStatus2(String scene, String overrides, String named) {
         assertThat(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
                 .isEqualTo(2);

@@ -35,7 +35,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         Files.writeString(folder.resolve("slow"), "0.4");
         assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
         for (int i = 0; i < 100 && !Files.exists(folder.resolve("run/evaluations.jsonl")); i++) {
-            assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "1", "--stop-after", "5")).isZero();
+            assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "1", "--stop-after", "5"))
+                    .isZero();
         }
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
@@ -103,7 +104,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         })).as("each once").containsExactly(
                 "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 8, column 5); taken from checkpoint.json instead",
-                "savings " + folder.resolve("run/savings.json") + ": ends too early; expected the rest of the JSON text "
+                "savings " + folder.resolve("run/savings.json")
+                        + ": ends too early; expected the rest of the JSON text "
                         + "(line 1, column 2); shown without it",
                 "check " + folder.resolve("run/check.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 1, column 2); shown without it");
@@ -163,7 +165,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         err.getBuffer().setLength(0);
 
         assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
-        assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow()).startsWith("generation 3 of 3, mean ")
+        assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow())
+                .startsWith("generation 3 of 3, mean ")
                 .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
     }
 
@@ -173,13 +176,15 @@ class ResumeCommandTest extends FakeSimulatorTest {
         String folderName = folder.resolve("run").toString();
         assertThat(natator("resume", folderName, "--generations", "5")).as(err.toString()).isZero();
         assertThat(evolveTo(5, "whole", "--starts", "2")).isZero();
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl", "savings.json")) {
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
+                "evaluations.jsonl", "savings.json")) {
             assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
         }
         err.getBuffer().setLength(0);
 
         assertThat(natator("resume", folderName, "--generations", "4")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: --generations is 4; expected at least the 5 that are done\n");
+        assertThat(err.toString())
+                .isEqualTo("natator resume: --generations is 4; expected at least the 5 that are done\n");
         assertThat(natator("resume", folderName, "--generations", "-1")).isEqualTo(2);
         assertThat(natator("resume", folderName, "--generations", "60", "--stop-after", "-1")).isEqualTo(2);
         assertThat(natator("resume", folderName, "--generations", "60", "--simulator-path", "/nowhere")).isNotZero();
@@ -195,7 +200,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         err.getBuffer().setLength(0);
 
         assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "9")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run") + " ends after its 20 evaluations, however many --generations "
+        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run")
+                + " ends after its 20 evaluations, however many --generations "
                 + "it may have\n");
         assertThat(file("run", "config.json")).isEqualTo(config);
     }
@@ -248,7 +254,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         String run = folder.resolve("run").toString();
         String config = file("run", "config.json");
         edit("run/config.json", settings -> {
-            settings.put("duration", 3).put("seed", 6).put("population", 9).put("encoding", "sparse").put("scene", "pool/creature-3").remove("judge");
+            settings.put("duration", 3).put("seed", 6).put("population", 9).put("encoding", "sparse")
+                    .put("scene", "pool/creature-3").remove("judge");
             settings.withObject("/overrides/solver").put("substeps", 2).remove("gravity");
         });
         Map<String, String> before = files();
@@ -264,7 +271,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(files()).isEqualTo(before);
         err.getBuffer().setLength(0);
         assertThat(natator("show", run)).isZero();
-        assertThat(err.toString()).startsWith("natator show: ").contains("config.json was edited after the run was begun: scene was").hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator show: ")
+                .contains("config.json was edited after the run was begun: scene was").hasLineCount(1);
 
         Files.writeString(folder.resolve("run/config.json"), config);
         assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
@@ -305,23 +313,27 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
         assertThat(natator(examined)).isEqualTo(2);
 
-        assertThat(err.toString()).startsWith("natator " + command + ": scene pool/creature-1 was changed after ").hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator " + command + ": scene pool/creature-1 was changed after ")
+                .hasLineCount(1);
         assertThat(files()).isEqualTo(before);
         Files.delete(scene);
         Files.writeString(config, settings.replaceFirst("\"seed\" : \\d+", "\"seed\" : 77"));
         err.getBuffer().setLength(0);
         assertThat(natator(examined)).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator " + command + ": " + config + " was edited after the run was begun: seed was ")
+        assertThat(err.toString())
+                .startsWith("natator " + command + ": " + config + " was edited after the run was begun: seed was ")
                 .hasLineCount(1);
     }
 
     @Test
     void aDescriptionOfTheSceneMayBeChanged() throws IOException {
-        Path scene = Files.writeString(folder.resolve("scene"), "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");
+        Path scene = Files.writeString(folder.resolve("scene"),
+                "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");
         assertThat(evolve("run")).as(err.toString()).isZero();
 
         Files.writeString(scene, "{\"creature\":{\"description\":\"a conger\",\"spacing\":1}}");
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString()).isZero();
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
+                .isZero();
         Files.writeString(scene, "{\"creature\":{\"spacing\":2}}");
         assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
     }
@@ -332,7 +344,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         edit("run/environment.json", environment -> environment.remove("sceneSha256"));
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString()).isZero();
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
+                .isZero();
 
         Files.delete(folder.resolve("scene"));
         assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
@@ -363,7 +376,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         Map<String, String> content = new TreeMap<>();
         try (Stream<Path> all = Files.list(folder.resolve("run"))) {
             for (Path file : all.filter(Files::isRegularFile).toList()) {
-                content.put(file.getFileName().toString(), new String(Files.readAllBytes(file), StandardCharsets.ISO_8859_1));
+                content.put(file.getFileName().toString(),
+                        new String(Files.readAllBytes(file), StandardCharsets.ISO_8859_1));
             }
         }
         return content;

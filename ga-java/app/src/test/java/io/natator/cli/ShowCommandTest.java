@@ -24,7 +24,8 @@ class ShowCommandTest extends FakeSimulatorTest {
     }
 
     private void evolved(String optimizer) {
-        String[] options = optimizer.equals("nsga2") ? new String[] {"--optimizer", optimizer, "--objectives", "distance,work"}
+        String[] options = optimizer.equals("nsga2")
+                ? new String[] {"--optimizer", optimizer, "--objectives", "distance,work"}
                 : new String[] {"--optimizer", optimizer};
         assertThat(evolve("run", options)).as(err.toString()).isZero();
         forget();
@@ -41,7 +42,8 @@ class ShowCommandTest extends FakeSimulatorTest {
             } else {
                 Files.write(file("evaluations.jsonl"), lines.subList(0, left));
             }
-            String damage = "warning: " + folder.resolve("run") + " is damaged: evaluations.jsonl has " + Math.max(left, 0)
+            String damage = "warning: " + folder.resolve("run") + " is damaged: evaluations.jsonl has "
+                    + Math.max(left, 0)
                     + " whole lines; expected at least the " + lines.size() + " of checkpoint.json\n";
 
             assertThat(natator("show", folder.resolve("run").toString())).isZero();
@@ -56,7 +58,8 @@ class ShowCommandTest extends FakeSimulatorTest {
         evolved("jgap");
         String checkpoint = Files.readString(file("checkpoint.json"));
         String evaluations = Files.readString(file("evaluations.jsonl"));
-        EvaluationRecord last = Json.parse(evaluations.lines().reduce((before, line) -> line).orElseThrow(), EvaluationRecord.class);
+        EvaluationRecord last = Json.parse(evaluations.lines().reduce((before, line) -> line).orElseThrow(),
+                EvaluationRecord.class);
         EvaluationRecord next = new EvaluationRecord(last.generation() + 1, last.genes(), last.gait(),
                 last.result().withId(last.result().id() + 1));
         CompactRun.compact(folder.resolve("run"));
@@ -79,8 +82,9 @@ class ShowCommandTest extends FakeSimulatorTest {
         for (int left : new int[] {5, 0}) {
             Files.write(file("evaluations.jsonl"), lines.subList(0, left));
             assertThat(natator("show", folder.resolve("run").toString())).isZero();
-            assertThat(out.toString().lines()).contains("no generation finished, " + left + " evaluations of the first; continue by: natator resume "
-                    + folder.resolve("run"));
+            assertThat(out.toString().lines()).contains(
+                    "no generation finished, " + left + " evaluations of the first; continue by: natator resume "
+                            + folder.resolve("run"));
             forget();
         }
         assertThat(err.toString()).isEmpty();
@@ -102,39 +106,42 @@ class ShowCommandTest extends FakeSimulatorTest {
     }
 
     @ParameterizedTest
-    @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|expected an object", "{'generation':0}|genes is missing",
-        "{'generation':0,'genes':[1]}|gait is missing",
-        "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]}}|result is missing",
-        "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]},'result':{'status':'failed','simulated':0}}|id is missing",
-        "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
+    @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|expected an object",
+            "{'generation':0}|genes is missing",
+            "{'generation':0,'genes':[1]}|gait is missing",
+            "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]}}|result is missing",
+            "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]},'result':{'status':'failed','simulated':0}}|id is missing",
+            "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
     void aLineThatIsNoEvaluationIsNamed(String line, String message) throws IOException {
         evolved("map-elites");
         Files.writeString(file("evaluations.jsonl"), line.replace('\'', '"') + "\n");
 
         assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: " + file("evaluations.jsonl") + ", line 1: " + message).hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator show: " + file("evaluations.jsonl") + ", line 1: " + message)
+                .hasLineCount(1);
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "config.json|scene|2|scene is missing",
-        "config.json|encoding|2|encoding is missing",
-        "checkpoint.json|history|2|history is missing",
-        "checkpoint.json|best/result|2|best: result is missing",
-        "checkpoint.json|best/result/id|2|best: id is missing",
-        "checkpoint.json|best/result/distance|2|best.result: distance is missing",
-        "best.json|scene|0|scene is missing",
-        "best.json|gait|0|gait is missing",
-        "best.json|result|0|result is missing",
-        "best.json|vacuum/simulated|0|vacuum: simulated is missing",
-        "best.json|fresh/judge|0|fresh: judge is missing",
-        "best.json|fresh/base|0|fresh: base is missing",
-        "best.json|fresh/base/speed|0|fresh.base: speed is missing",
-        "best.json|fresh/base/stopped|0|fresh.base: stopped is null; expected how many runs ended how"})
+            "config.json|scene|2|scene is missing",
+            "config.json|encoding|2|encoding is missing",
+            "checkpoint.json|history|2|history is missing",
+            "checkpoint.json|best/result|2|best: result is missing",
+            "checkpoint.json|best/result/id|2|best: id is missing",
+            "checkpoint.json|best/result/distance|2|best.result: distance is missing",
+            "best.json|scene|0|scene is missing",
+            "best.json|gait|0|gait is missing",
+            "best.json|result|0|result is missing",
+            "best.json|vacuum/simulated|0|vacuum: simulated is missing",
+            "best.json|fresh/judge|0|fresh: judge is missing",
+            "best.json|fresh/base|0|fresh: base is missing",
+            "best.json|fresh/base/speed|0|fresh.base: speed is missing",
+            "best.json|fresh/base/stopped|0|fresh.base: stopped is null; expected how many runs ended how"})
     void aKeyThatLacksIsNamed(String name, String key, int status, String message) throws IOException {
         evolved("jgap");
         ObjectNode content = Json.read(file(name), ObjectNode.class, name);
-        ((ObjectNode) content.at(key.contains("/") ? "/" + key.substring(0, key.lastIndexOf('/')) : "")).remove(key.substring(key.lastIndexOf('/') + 1));
+        ((ObjectNode) content.at(key.contains("/") ? "/" + key.substring(0, key.lastIndexOf('/')) : ""))
+                .remove(key.substring(key.lastIndexOf('/') + 1));
         Files.writeString(file(name), Json.document(content));
 
         assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isEqualTo(status);
@@ -145,13 +152,15 @@ class ShowCommandTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"0|dense encoding of 0 actuators; expected at least 1",
-        "2000000000|actuators is 2000000000; expected at most 100000"})
+            "2000000000|actuators is 2000000000; expected at most 100000"})
     void settingsOfAbsurdMusclesAreRefused(String actuators, String message) throws IOException {
         evolved("jgap");
-        Files.writeString(file("config.json"), Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : " + actuators));
+        Files.writeString(file("config.json"),
+                Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : " + actuators));
 
         assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json") + ": " + message).hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json") + ": " + message)
+                .hasLineCount(1);
     }
 
     @Test

@@ -27,7 +27,8 @@ class ShowJsonTest {
     @BeforeEach
     void evolve() {
         run = folder.resolve("run");
-        Commands.natator("evolve", "--simulator-path", SIMULATOR, "--scene", "pool/creature-1", "--population", "4", "--generations",
+        Commands.natator("evolve", "--simulator-path", SIMULATOR, "--scene", "pool/creature-1", "--population", "4",
+                "--generations",
                 "1", "--duration", "0.1", "--output-dir", run.toString());
     }
 
@@ -56,10 +57,12 @@ class ShowJsonTest {
         assertThat(shown.get("title").textValue()).isEqualTo("pool/creature-1, seed 1");
         assertThat(shown.get("unfinished").isNull()).isTrue();
         assertThat(answer(shown)).startsWith("The best gait does not swim: moves ").doesNotContain("NaN", "null")
-                .containsSubsequence("By its controls it does not swim: ", "ork of the muscles ", "To go on: try more --generations");
+                .containsSubsequence("By its controls it does not swim: ", "ork of the muscles ",
+                        "To go on: try more --generations");
         assertThat(outcomes(shown)).hasSize(6).contains("way, 4 fresh starts: does not", "resting muscles: does not",
                 "share of the body under water: holds").noneMatch(outcome -> outcome.endsWith("not measured"));
-        assertThat(shown.get("numbers")).anySatisfy(row -> assertThat(row.get(0).textValue()).isEqualTo("frequency (1/s)"));
+        assertThat(shown.get("numbers"))
+                .anySatisfy(row -> assertThat(row.get(0).textValue()).isEqualTo("frequency (1/s)"));
         assertThat(shown.at("/request/scene").textValue()).isEqualTo("pool/creature-1");
         assertThat(shown.get("generations")).hasSize(2);
     }
@@ -69,16 +72,19 @@ class ShowJsonTest {
         Path file = run.resolve("best.json");
         ObjectNode best = (ObjectNode) Json.parse(Files.readString(file), JsonNode.class);
         best.remove(List.of("fresh", "vacuum"));
-        best.put("distance", 0).put("speed", 0).set("result", Json.parse("{\"id\":3,\"status\":\"unstable\",\"stopped\":\"unstable\","
-                + "\"distance\":null,\"simulated\":0.05,\"frames\":3,\"scheme\":\"conserving\",\"precision\":\"float\","
-                + "\"unstable\":{\"particle\":7,\"stage\":\"frame\",\"time\":0.05,\"law\":\"shape\"}}", JsonNode.class));
+        best.put("distance", 0).put("speed", 0).set("result",
+                Json.parse("{\"id\":3,\"status\":\"unstable\",\"stopped\":\"unstable\","
+                        + "\"distance\":null,\"simulated\":0.05,\"frames\":3,\"scheme\":\"conserving\",\"precision\":\"float\","
+                        + "\"unstable\":{\"particle\":7,\"stage\":\"frame\",\"time\":0.05,\"law\":\"shape\"}}",
+                        JsonNode.class));
         Files.writeString(file, Json.document(best));
 
         JsonNode shown = shown();
 
         assertThat(answer(shown)).startsWith("The best gait is not judged: unstable at 0.05 s (broke law shape)")
                 .doesNotContain("NaN", "null").contains("natator check " + run + " runs them");
-        assertThat(outcomes(shown)).containsExactly("way, one run: does not", "half the time step: not measured", "without water: not measured",
+        assertThat(outcomes(shown)).containsExactly("way, one run: does not", "half the time step: not measured",
+                "without water: not measured",
                 "resting muscles: not measured", "mirrored: not measured");
     }
 }

@@ -54,7 +54,8 @@ class TutorialTest {
     }
 
     private static String shorter(String command) {
-        return command.replace("--duration 2", "--duration 0.5").replace("--population 12 --generations 3", "--population 4 --generations 1");
+        return command.replace("--duration 2", "--duration 0.5").replace("--population 12 --generations 3",
+                "--population 4 --generations 1");
     }
 
     private void runs(String command) throws IOException, InterruptedException {

@@ -15,24 +15,25 @@ class UnknownSceneTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "page runs/nothing|runs/nothing is neither a run folder nor a scene",
-        "page --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
-        "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray, lake/ray or pool/ray?",
-        "page tuna|tuna is neither a run folder nor a scene; did you mean lake/tuna, pool/tuna or open-water/tuna?",
-        "page gone.json|gone.json is neither a run folder nor a scene: there is no such file",
-        "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
-        "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
-        "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
-        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/tuna, "
-            + "lake/tuna or open-water/tuna?",
-        "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, "
-            + "lake/eel or endless/eel?"})
+            "page runs/nothing|runs/nothing is neither a run folder nor a scene",
+            "page --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
+            "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray, lake/ray or pool/ray?",
+            "page tuna|tuna is neither a run folder nor a scene; did you mean lake/tuna, pool/tuna or open-water/tuna?",
+            "page gone.json|gone.json is neither a run folder nor a scene: there is no such file",
+            "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
+            "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
+            "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
+            "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/tuna, "
+                    + "lake/tuna or open-water/tuna?",
+            "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, "
+                    + "lake/eel or endless/eel?"})
     void onlyWhatIsNearIsNamed(String arguments, String message) {
         List<String> all = new ArrayList<>(List.of(arguments.split(" ")));
         switch (all.get(0)) {
             case "page" -> all.addAll(1, List.of("--output", folder.resolve("new.html").toString()));
             case "view" -> all.addAll(1, List.of("--port", "0", "--no-browser"));
-            case "evaluate" -> { }
+            case "evaluate" -> {
+            }
             default -> all.addAll(1, List.of("--output-dir", folder.resolve("new").toString()));
         }
 
@@ -47,7 +48,8 @@ class UnknownSceneTest extends CommandTest {
         String page = folder.resolve("new.html").toString();
 
         assertThat(natator("page", "--output", page, file.toString())).isEqualTo(2);
-        assertThat(natator("page", "--output", page, "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
+        assertThat(natator("page", "--output", page, "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel"))
+                .isEqualTo(2);
         assertThat(err.toString().lines()).hasSize(2).allSatisfy(line -> assertThat(line).doesNotContain("neither"));
         assertThat(err.toString()).contains("no/such", "substeps");
     }

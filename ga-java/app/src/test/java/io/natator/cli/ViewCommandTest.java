@@ -46,7 +46,8 @@ class ViewCommandTest extends CommandTest {
     }
 
     private URI startAt(String host, String... arguments) throws IOException {
-        List<String> command = JavaCommand.of(Main.class, "view", "--simulator-path", SIMULATOR.toString(), "--port", "0", "--no-browser");
+        List<String> command = JavaCommand.of(Main.class, "view", "--simulator-path", SIMULATOR.toString(), "--port",
+                "0", "--no-browser");
         command.addAll(List.of(arguments));
         program = new ProcessBuilder(command).redirectError(folder.resolve("errors").toFile()).start();
         BufferedReader out = program.inputReader();
@@ -135,7 +136,8 @@ class ViewCommandTest extends CommandTest {
 
     @Test
     void theSceneCanBeChanged() throws IOException, InterruptedException {
-        JsonNode start = start(start("--creature", "2", "--overrides", "{\"solver\":{\"substeps\":2}}", "--scheme", "flex"));
+        JsonNode start = start(
+                start("--creature", "2", "--overrides", "{\"solver\":{\"substeps\":2}}", "--scheme", "flex"));
 
         assertThat(start.get("overrides").toString()).isEqualTo("{\"solver\":{\"substeps\":2},\"scheme\":\"flex\"}");
     }
@@ -203,16 +205,19 @@ class ViewCommandTest extends CommandTest {
     void whoOpensItToOthersIsWarned() throws IOException {
         startAt("[^/]+", "--creature", "1", "--host", "0.0.0.0");
 
-        assertThat(Files.readString(folder.resolve("errors"))).isEqualTo("warning: --host 0.0.0.0: whoever can reach this "
-                + "address can watch, and start up to 4 simulations on this machine; nobody is asked who they are\n");
+        assertThat(Files.readString(folder.resolve("errors")))
+                .isEqualTo("warning: --host 0.0.0.0: whoever can reach this "
+                        + "address can watch, and start up to 4 simulations on this machine; nobody is asked who they are\n");
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"[5,0.5]|[0,0.5]|amplitude[0] = 5: must be a number in [0, 2]",
-        "[0.5]|[0]|amplitude has length 1: must have length 2, one value per actuator of the creature"})
+            "[0.5]|[0]|amplitude has length 1: must have length 2, one value per actuator of the creature"})
     void aGaitThatTheSimulatorRefusesIsRefused(String amplitude, String phase, String message) throws IOException {
-        Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
-        for (String command : List.of("view --no-browser --port 0 --scene", "page --output " + folder.resolve("page.html"))) {
+        Path gait = Files.writeString(folder.resolve("gait.json"),
+                "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
+        for (String command : List.of("view --no-browser --port 0 --scene",
+                "page --output " + folder.resolve("page.html"))) {
             forget();
             List<String> all = new ArrayList<>(List.of(command.split(" ")));
             all.addAll(List.of("thesis/creature-1", "--gait", gait.toString()));
@@ -223,18 +228,18 @@ class ViewCommandTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "--port 70000|2|natator view: --port is 70000; expected a whole number from 0 to 65535",
-        "--creature 5|2|natator view: --creature is 5; expected 1, 2, 3 or 4",
-        "--scene no/such|2|natator view: --scene is no/such; expected a named scene ",
-        "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
-        "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
-        "--run no/such --run ./no/such|2|natator view: --run has no/such twice; expected each once",
-        "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
-        "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
-            + "address of this machine",
-        "--host 192.0.2.1|2|natator view: --host is 192.0.2.1; expected a name or address of this machine",
-        "--overrides {\"solver\":{\"substep\":1}}|2|natator view: scene \"thesis/creature-1\": solver.substep: unknown key ",
-        "--port TAKEN|1|natator view: cannot listen at port "})
+            "--port 70000|2|natator view: --port is 70000; expected a whole number from 0 to 65535",
+            "--creature 5|2|natator view: --creature is 5; expected 1, 2, 3 or 4",
+            "--scene no/such|2|natator view: --scene is no/such; expected a named scene ",
+            "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
+            "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
+            "--run no/such --run ./no/such|2|natator view: --run has no/such twice; expected each once",
+            "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
+            "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
+                    + "address of this machine",
+            "--host 192.0.2.1|2|natator view: --host is 192.0.2.1; expected a name or address of this machine",
+            "--overrides {\"solver\":{\"substep\":1}}|2|natator view: scene \"thesis/creature-1\": solver.substep: unknown key ",
+            "--port TAKEN|1|natator view: cannot listen at port "})
     void whatIsWrongIsOneLine(String arguments, int status, String message) throws IOException {
         try (ServerSocket taken = new ServerSocket(0)) {
             List<String> all = new ArrayList<>(List.of("view", "--no-browser"));

@@ -42,7 +42,8 @@ class ThirdPartyJarCheck {
             assertThat(fields).as(line).hasSize(4);
             String[] coordinates = fields[0].split(":");
             assertThat(coordinates).as(line).hasSize(3);
-            return new Library(coordinates[1], coordinates[2], List.of(fields[2].split(" ")), List.of(fields[3].split(" ")));
+            return new Library(coordinates[1], coordinates[2], List.of(fields[2].split(" ")),
+                    List.of(fields[3].split(" ")));
         }
     }
 
@@ -78,7 +79,8 @@ class ThirdPartyJarCheck {
         for (Library library : libraries()) {
             for (String name : library.texts()) {
                 String licence = text(Path.of(META, "licenses", name).normalize().toString());
-                assertThat(licence).as(library.name()).hasSizeGreaterThan(SHORTEST_LICENCE).containsIgnoringCase("copyright");
+                assertThat(licence).as(library.name()).hasSizeGreaterThan(SHORTEST_LICENCE)
+                        .containsIgnoringCase("copyright");
             }
             assertThat(library.places()).as(library.name()).allSatisfy(place -> assertThat(jar.stream())
                     .as(place).anyMatch(entry -> entry.getName().startsWith(place) && !entry.isDirectory()));
@@ -96,13 +98,15 @@ class ThirdPartyJarCheck {
 
     @Test
     void theNoticeIsOursAndKeepsTheirs() throws IOException {
-        assertThat(text(META + "NOTICE").lines().limit(2)).containsExactly("Natator", "Copyright 2026 the Natator maintainers");
+        assertThat(text(META + "NOTICE").lines().limit(2)).containsExactly("Natator",
+                "Copyright 2026 the Natator maintainers");
         assertThat(text(META + "NOTICE")).contains("# Jackson JSON processor");
         assertThat(text(META + "NOTICE.txt")).contains("Copyright 2016-2018 The Hipparchus project");
     }
 
     @Test
     void theNoticesOfTheWebServerAreThere() throws IOException {
-        assertThat(text(META + "NOTICE.md")).contains("# Notices for Jakarta Annotations", "# Notices for Jakarta Transactions");
+        assertThat(text(META + "NOTICE.md")).contains("# Notices for Jakarta Annotations",
+                "# Notices for Jakarta Transactions");
     }
 }

@@ -86,7 +86,8 @@ public final class BodyGenome {
     private void addSections(String name, Curve curve) {
         for (Point point : curve.points()) {
             if (isShown(point)) {
-                add(named(name, point), Math.max(thinnest(), THINNEST * point.value()), THICKEST * point.value(), point.value());
+                add(named(name, point), Math.max(thinnest(), THINNEST * point.value()), THICKEST * point.value(),
+                        point.value());
             }
         }
     }
@@ -147,7 +148,8 @@ public final class BodyGenome {
         scene.joints().forEach(joint -> joints.add(next.next()));
         Curve stiff = stiffness.map(point -> new Point(point.at(), next.next()));
         Curve strong = muscles.map(point -> new Point(point.at(), next.next()));
-        ProfileBody drawn = new ProfileBody(scene.spacing(), length, tall, wide, fin, scene.thickness(), joints, stiff, strong);
+        ProfileBody drawn = new ProfileBody(scene.spacing(), length, tall, wide, fin, scene.thickness(), joints, stiff,
+                strong);
         return withStrength(withParticles(withJoints(drawn)));
     }
 
@@ -184,7 +186,8 @@ public final class BodyGenome {
     /** The best so far, or what comes nearer with sections that grow by the tilt towards the tail. */
     private ProfileBody nearest(ProfileBody best, ProfileBody body, double tilt, int wanted) {
         ProfileBody nearest = best;
-        for (double scale : halved(1 / MOST_SCALE, MOST_SCALE, middle -> scaled(body, middle, tilt).particles() < wanted)) {
+        for (double scale : halved(1 / MOST_SCALE, MOST_SCALE,
+                middle -> scaled(body, middle, tilt).particles() < wanted)) {
             ProfileBody candidate = scaled(body, scale, tilt);
             nearest = off(candidate, wanted) < off(nearest, wanted) ? candidate : nearest;
         }
@@ -196,7 +199,8 @@ public final class BodyGenome {
     }
 
     private ProfileBody scaled(ProfileBody body, double scale, double tilt) {
-        ToDoubleFunction<Point> size = point -> Math.max(thinnest(), scale * (1 + tilt * (2 * point.at() - 1)) * point.value());
+        ToDoubleFunction<Point> size = point -> Math.max(thinnest(),
+                scale * (1 + tilt * (2 * point.at() - 1)) * point.value());
         return body.withSections(body.height().map(point -> new Point(point.at(), size.applyAsDouble(point))),
                 body.width().map(point -> new Point(point.at(), size.applyAsDouble(point))));
     }
@@ -208,7 +212,8 @@ public final class BodyGenome {
         if (body.muscles().points().stream().allMatch(point -> scale * point.value() <= 1)) {
             return stronger(body, scale);
         }
-        return stronger(body, halved(scale, 1 / LEAST_STIFFNESS, middle -> stronger(body, middle).strength() < wanted)[1]);
+        return stronger(body,
+                halved(scale, 1 / LEAST_STIFFNESS, middle -> stronger(body, middle).strength() < wanted)[1]);
     }
 
     /** The ends of an interval that is halved until they hardly differ: what lies below the place where {@code isBelow} ends, and above it. */

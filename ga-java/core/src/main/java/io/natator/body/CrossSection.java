@@ -20,7 +20,8 @@ final class CrossSection {
             int one = particles(height, width, oddRows, oddColumns);
             int other = particles(height, width, !oddRows, oddColumns);
             if (one > 0 || other > 0) {
-                return one > 0 && (other == 0 || Math.abs(other - area) >= Math.abs(one - area) - ROUNDING) ? one : other;
+                return one > 0 && (other == 0 || Math.abs(other - area) >= Math.abs(one - area) - ROUNDING) ? one
+                        : other;
             }
         }
         return 0;

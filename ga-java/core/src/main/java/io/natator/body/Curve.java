@@ -44,8 +44,9 @@ public record Curve(List<Point> points) {
         for (JsonNode point : node) {
             boolean ascends = points.isEmpty() || point.path(0).doubleValue() > points.get(points.size() - 1).at;
             if (!point.path(0).isNumber() || !point.path(1).isNumber() || !ascends) {
-                throw new InvalidInputException(name + " has " + point + "; expected points [part of the length, value], "
-                        + "ascending in the first");
+                throw new InvalidInputException(
+                        name + " has " + point + "; expected points [part of the length, value], "
+                                + "ascending in the first");
             }
             points.add(new Point(point.get(0).doubleValue(), point.get(1).doubleValue()));
         }
@@ -124,7 +125,8 @@ public record Curve(List<Point> points) {
     /** Slope at an end, beside the stretch {@code near}, behind which is {@code far}. */
     private double slopeAtEnd(int near, int far) {
         double own = mean(near);
-        double slope = ((2 * length(near) + length(far)) * own - length(near) * mean(far)) / (length(near) + length(far));
+        double slope = ((2 * length(near) + length(far)) * own - length(near) * mean(far))
+                / (length(near) + length(far));
         if (!(slope * own > 0)) {
             return 0;
         }

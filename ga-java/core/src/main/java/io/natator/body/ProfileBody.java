@@ -49,12 +49,14 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
         JsonNode profile = creature.path("profile");
         if (!profile.path("length").isNumber() || !profile.path("joints").isArray() || !profile.has("height")
                 || !profile.has("width")) {
-            throw new InvalidInputException("the creature's body is not given by a profile, so it has no genes; expected one that "
-                    + "is, as in open-water/eel, open-water/tadpole, open-water/tuna, and those in pool/ and endless/eel");
+            throw new InvalidInputException(
+                    "the creature's body is not given by a profile, so it has no genes; expected one that "
+                            + "is, as in open-water/eel, open-water/tadpole, open-water/tuna, and those in pool/ and endless/eel");
         }
         if (creature.has("muscleSlices")) {
-            throw new InvalidInputException("creature.muscleSlices names slices, which a longer body has elsewhere; expected a body "
-                    + "whose muscles run between its joints");
+            throw new InvalidInputException(
+                    "creature.muscleSlices names slices, which a longer body has elsewhere; expected a body "
+                            + "whose muscles run between its joints");
         }
         JsonNode fin = profile.path("fin");
         boolean hasFin = fin.has("height");

@@ -41,7 +41,7 @@ public final class EvaluationCache {
         String shared = System.getenv("XDG_CACHE_HOME");
         Path natator = own != null ? Path.of(own)
                 : shared != null && !shared.isEmpty() ? Path.of(shared, "natator")
-                : Path.of(System.getProperty("user.home"), ".cache", "natator");
+                        : Path.of(System.getProperty("user.home"), ".cache", "natator");
         return own != null && own.isEmpty() ? null : natator.resolve("evaluations");
     }
 

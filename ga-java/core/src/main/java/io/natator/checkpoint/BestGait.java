@@ -60,13 +60,15 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
      * @param own from the scene's own start
      */
     public BestGait examined(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
-        return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater, selected, runs,
+        return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater,
+                selected, runs,
                 again);
     }
 
     /** Whether this is an individual of a run with all that is found out at the end. */
     public boolean isExamined(Individual best) {
-        return fresh != null && vacuum != null && vacuum.status() == SimulationResult.Status.OK && genes.equals(best.genes())
+        return fresh != null && vacuum != null && vacuum.status() == SimulationResult.Status.OK
+                && genes.equals(best.genes())
                 && Double.valueOf(best.score()).equals(selected) && Integer.valueOf(best.runs()).equals(runs);
     }
 

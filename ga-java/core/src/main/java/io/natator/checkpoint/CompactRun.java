@@ -41,8 +41,9 @@ public final class CompactRun {
         try {
             if (!state.population().isEmpty()) {
                 CompressedJson.write(directory.resolve(WHOLE), state);
-                AtomicFile.write(checkpoint, Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
-                        state.best(), state.history())));
+                AtomicFile.write(checkpoint,
+                        Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
+                                state.best(), state.history())));
             }
             Files.deleteIfExists(directory.resolve(RunWriter.EVALUATIONS));
         } catch (IOException e) {

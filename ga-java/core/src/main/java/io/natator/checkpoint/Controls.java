@@ -29,7 +29,8 @@ import java.util.Objects;
  * @param underWater   share of the body's particles below the water's level, halfway and at the end; null without water
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water, SwimSample resting,
+public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water,
+        SwimSample resting,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
         String backend, Double underWater) implements AboutWinner {
 
@@ -57,7 +58,8 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
 
     /** With the share of the body that is under water. */
     public Controls withUnderWater(Double share) {
-        return new Controls(gait, body, scheme, duration, bodyLength, water, resting, vacuum, clampOff, halfStep, mirrored,
+        return new Controls(gait, body, scheme, duration, bodyLength, water, resting, vacuum, clampOff, halfStep,
+                mirrored,
                 otherBackend, backend, share);
     }
 

@@ -35,7 +35,8 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, A
      */
     public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Aggregate judge, double selected,
             int selectedRuns, List<Double> worths) {
-        return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, judge.of(worths), loss(judge, selected, worths));
+        return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, judge.of(worths),
+                loss(judge, selected, worths));
     }
 
     /**

@@ -23,7 +23,8 @@ public final class JudgedGaits {
     private final Map<List<Double>, Runs> gaits = new HashMap<>();
     /** Those that count, the best first, the earlier of equals. */
     private final NavigableSet<Runs> ranked = new TreeSet<>(
-            Comparator.comparingDouble((Runs one) -> one.estimate.score()).reversed().thenComparingInt(one -> one.number));
+            Comparator.comparingDouble((Runs one) -> one.estimate.score()).reversed()
+                    .thenComparingInt(one -> one.number));
     private int numbers;
 
     /** A gait's runs. */
@@ -87,8 +88,10 @@ public final class JudgedGaits {
 
     /** Whom the run would take for its winner, had it ended here; null without any. */
     JudgedGait best() {
-        List<Runs> best = ranked.stream().limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();
-        return best.isEmpty() ? null : best.get(LowerConfidenceBound.of(best.stream().map(one -> one.estimate).toList())).judged();
+        List<Runs> best = ranked.stream()
+                .limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();
+        return best.isEmpty() ? null
+                : best.get(LowerConfidenceBound.of(best.stream().map(one -> one.estimate).toList())).judged();
     }
 
     /** All that swam, the best first. */

@@ -19,8 +19,9 @@ final class RunDamage {
     static String editedSettings(Path directory, EvolutionSettings settings) {
         EvolutionSettings before = RunReader.settingsBefore(directory);
         String change = before == null ? "" : SettingsChange.withinRun(before, settings);
-        return change.isEmpty() ? null : directory.resolve(RunWriter.CONFIG) + " was edited after the run was begun: " + change
-                + "; expected the settings that it was begun with, or a new run";
+        return change.isEmpty() ? null
+                : directory.resolve(RunWriter.CONFIG) + " was edited after the run was begun: " + change
+                        + "; expected the settings that it was begun with, or a new run";
     }
 
     /**
@@ -29,10 +30,13 @@ final class RunDamage {
      */
     static String lostEvaluations(Path directory, EvolutionState checkpoint, long recorded) {
         if (checkpoint != null && checkpoint.evaluations() < 0) {
-            return directory + " is damaged: evaluations of " + RunWriter.CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
+            return directory + " is damaged: evaluations of " + RunWriter.CHECKPOINT + " is " + checkpoint.evaluations()
+                    + "; expected at least 0";
         }
-        return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + RunWriter.EVALUATIONS
-                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + RunWriter.CHECKPOINT;
+        return checkpoint == null || recorded >= checkpoint.evaluations() ? null
+                : directory + " is damaged: " + RunWriter.EVALUATIONS
+                        + " has " + Numbers.count(recorded, "whole line") + "; expected at least the "
+                        + checkpoint.evaluations() + " of " + RunWriter.CHECKPOINT;
     }
 
     /** Which evaluation stands where another should, in one line; null if none does. */
@@ -40,7 +44,8 @@ final class RunDamage {
         for (int i = 0; i < recorded.rows().size(); i++) {
             long id = recorded.rows().get(i).result().id();
             if (id != recorded.first() + i) {
-                return directory + " is damaged: " + RunWriter.EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
+                return directory + " is damaged: " + RunWriter.EVALUATIONS + ", line " + (i + 1) + ": id is " + id
+                        + "; expected "
                         + (recorded.first() + i);
             }
         }

@@ -32,7 +32,8 @@ final class RunDigests implements AutoCloseable {
     private static final String ABSENT = "";
     private static final int DIGITS = 16;
     private static final int LINE_BYTES = DIGITS + 1;
-    private static final String HINT = "; expected it as the run wrote it (without " + WHOLE + " and " + LINES + " it goes on as it is)";
+    private static final String HINT = "; expected it as the run wrote it (without " + WHOLE + " and " + LINES
+            + " it goes on as it is)";
     /** What follows from other files where it is not there, or cannot be read. */
     private static final List<String> REMADE = List.of(RunWriter.CHECKPOINT, RunWriter.BEST, RunWriter.SAVINGS);
 
@@ -132,7 +133,8 @@ final class RunDigests implements AutoCloseable {
      * @throws InvalidInputException if one was edited
      */
     void check(int recorded) {
-        try (BufferedReader log = Files.newBufferedReader(directory.resolve(RunWriter.EVALUATIONS), StandardCharsets.UTF_8)) {
+        try (BufferedReader log = Files.newBufferedReader(directory.resolve(RunWriter.EVALUATIONS),
+                StandardCharsets.UTF_8)) {
             long known = lines.length() / LINE_BYTES;
             lines.seek(0);
             last = "";
@@ -145,12 +147,14 @@ final class RunDigests implements AutoCloseable {
                 }
                 lines.readFully(digest);
                 if (!(last + "\n").equals(new String(digest, StandardCharsets.ISO_8859_1))) {
-                    throw new InvalidInputException(directory.resolve(RunWriter.EVALUATIONS) + ", line " + (row + 1) + " was edited" + HINT);
+                    throw new InvalidInputException(
+                            directory.resolve(RunWriter.EVALUATIONS) + ", line " + (row + 1) + " was edited" + HINT);
                 }
             }
             lines.setLength(lines.getFilePointer());
         } catch (IOException e) {
-            throw new InvalidInputException("cannot read " + AtomicFile.reason(directory.resolve(RunWriter.EVALUATIONS), e), e);
+            throw new InvalidInputException(
+                    "cannot read " + AtomicFile.reason(directory.resolve(RunWriter.EVALUATIONS), e), e);
         }
     }
 

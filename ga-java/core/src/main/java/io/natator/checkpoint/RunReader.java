@@ -119,8 +119,10 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         if (best != null) {
             return null;
         }
-        return state == null || !state.isLastOf(settings) ? directory + " has no best gait yet; finish it by natator resume"
-                : directory + " has no best gait: of its " + Numbers.count(state.evaluations(), "evaluation") + " none was measured, "
+        return state == null || !state.isLastOf(settings)
+                ? directory + " has no best gait yet; finish it by natator resume"
+                : directory + " has no best gait: of its " + Numbers.count(state.evaluations(), "evaluation")
+                        + " none was measured, "
                         + "all were unstable, refused or failed; evolve anew, where they were unstable with more solver.substeps in --overrides";
     }
 
@@ -227,7 +229,8 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         if (damage != null) {
             throw new InvalidInputException(damage);
         }
-        return BestGait.of(settings.problem().scene(), state.best(), settings.problem().genome().decode(state.best().genes()));
+        return BestGait.of(settings.problem().scene(), state.best(),
+                settings.problem().genome().decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */

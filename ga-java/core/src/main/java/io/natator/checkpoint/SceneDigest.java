@@ -29,11 +29,14 @@ public final class SceneDigest {
      */
     public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {
         try {
-            JsonNode scene = Json.parse(SceneInfo.definition(settings.problem().scene(), settings.problem().overrides(), simulator), JsonNode.class);
+            JsonNode scene = Json.parse(
+                    SceneInfo.definition(settings.problem().scene(), settings.problem().overrides(), simulator),
+                    JsonNode.class);
             scene.findParents(WITHOUT_EFFECT).forEach(part -> ((ObjectNode) part).remove(WITHOUT_EFFECT));
             return Sha256.of(Json.line(scene));
         } catch (JsonProcessingException e) {
-            throw new InvalidInputException("simulator does not define scene " + settings.problem().scene() + ": " + Json.reason(e), e);
+            throw new InvalidInputException(
+                    "simulator does not define scene " + settings.problem().scene() + ": " + Json.reason(e), e);
         }
     }
 
@@ -66,8 +69,9 @@ public final class SceneDigest {
 
     private static void check(Path directory, RunReader.Begun begun, String digest) {
         if (!begun.sceneSha256().equals(digest)) {
-            throw new InvalidInputException("scene " + begun.settings().problem().scene() + " was changed after " + directory
-                    + " was begun; expected the scene that it was begun with, or a new run");
+            throw new InvalidInputException(
+                    "scene " + begun.settings().problem().scene() + " was changed after " + directory
+                            + " was begun; expected the scene that it was begun with, or a new run");
         }
     }
 

@@ -33,7 +33,8 @@ import java.util.function.Function;
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
-        Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities, Double work,
+        Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities,
+        Double work,
         Double costOfTransport, Spread goals) {
 
     /**
@@ -69,7 +70,8 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         return new SwimSample(substeps, results.size(), stopped.getOrDefault("completed", 0) / (double) results.size(),
                 stopped, distance, speed, lengths, lengths == null ? null : lengths.times(1 / gait.frequency()),
                 meanNumber(results, SwimmingNumbers::reynolds), meanNumber(results, SwimmingNumbers::strouhal),
-                meanNumber(results, SwimmingNumbers::cavities), work, work == null || distance.mean() <= 0 ? null : work / distance.mean(),
+                meanNumber(results, SwimmingNumbers::cavities), work,
+                work == null || distance.mean() <= 0 ? null : work / distance.mean(),
                 results.stream().allMatch(one -> one.goals() == null) ? null
                         : Spread.of(results.stream().map(SimulationResult::goalScore).toList()));
     }

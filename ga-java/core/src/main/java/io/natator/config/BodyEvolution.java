@@ -28,8 +28,9 @@ public record BodyEvolution(Evolved what, ProfileBody body, Gait gait) {
                     + "; expected body or both, and the scene's body");
         }
         if ((gait == null) == (what == Evolved.BODY)) {
-            throw new InvalidInputException(gait == null ? "evolve body has no gait; expected one that the bodies are to swim with"
-                    : "evolve both has a gait; expected none, since gaits are evolved");
+            throw new InvalidInputException(
+                    gait == null ? "evolve body has no gait; expected one that the bodies are to swim with"
+                            : "evolve both has a gait; expected none, since gaits are evolved");
         }
     }
 

@@ -19,7 +19,8 @@ import java.util.stream.Collectors;
  * @param budget  how far, and on what
  */
 @RecordBuilder
-public record EvolutionSettings(Problem problem, Search search, Budget budget) implements EvolutionSettingsBuilder.With {
+public record EvolutionSettings(Problem problem, Search search, Budget budget)
+        implements EvolutionSettingsBuilder.With {
 
     /**
      * Checks what depends on several of them.
@@ -29,7 +30,8 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
     public EvolutionSettings {
         checkObjectives(search.optimizer(), problem.fitness(), search.judge(),
                 problem.objectives() == null ? List.of() : problem.objectives());
-        Limits.require(budget.evaluations() == null || budget.evaluations() >= search.starts(), "evaluations", budget.evaluations(),
+        Limits.require(budget.evaluations() == null || budget.evaluations() >= search.starts(), "evaluations",
+                budget.evaluations(),
                 "at least the " + search.starts() + " starts of one gait");
     }
 
@@ -50,11 +52,13 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
                 .collect(Collectors.joining(" and "));
         String name = optimizer.name().toLowerCase(Locale.ROOT).replace('_', '-');
         if (fitness != FitnessKind.DISTANCE && !objectives.isEmpty()) {
-            throw new InvalidInputException("--fitness and --objectives exclude each other; expected the objective net");
+            throw new InvalidInputException(
+                    "--fitness and --objectives exclude each other; expected the objective net");
         }
         if (weighted > 0 && weighted < objectives.size()) {
-            throw new InvalidInputException("objectives are " + names + ", of which " + weighted + " have weights; expected all "
-                    + "or none of them");
+            throw new InvalidInputException(
+                    "objectives are " + names + ", of which " + weighted + " have weights; expected all "
+                            + "or none of them");
         }
         if (optimizer == OptimizerKind.NSGA2 && (objectives.size() < 2 || weighted > 0)) {
             throw new InvalidInputException("optimizer nsga2 is for several objectives without weights, not "
@@ -71,7 +75,8 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
 
     /** The thesis' settings for a scene, with seed 1 and the corrected operators, on the processor. */
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
-        return new EvolutionSettings(ProblemBuilder.builder().scene(scene).encoding(encoding).actuators(actuators).build(),
+        return new EvolutionSettings(
+                ProblemBuilder.builder().scene(scene).encoding(encoding).actuators(actuators).build(),
                 SearchBuilder.builder().population(Preset.THESIS.population()).seed(1).gaussianDeviation(0.05).build(),
                 BudgetBuilder.builder().generations(Preset.THESIS.generations()).build());
     }
@@ -83,13 +88,15 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget) i
 
     /** These settings with another size. */
     public EvolutionSettings withSize(int newPopulation, int newGenerations) {
-        return new EvolutionSettings(problem, search.withPopulation(newPopulation), budget.withGenerations(newGenerations));
+        return new EvolutionSettings(problem, search.withPopulation(newPopulation),
+                budget.withGenerations(newGenerations));
     }
 
     /** These settings with another optimizer and, for JGAP, its operators. */
     public EvolutionSettings withOptimizer(OptimizerKind newOptimizer, OperatorSet newOperators,
             double newGaussianDeviation) {
-        return withSearch(search.with(to -> to.optimizer(newOptimizer).operators(newOperators).gaussianDeviation(newGaussianDeviation)));
+        return withSearch(search.with(
+                to -> to.optimizer(newOptimizer).operators(newOperators).gaussianDeviation(newGaussianDeviation)));
     }
 
     /** These settings with another reward, and with or without the check of new bests in vacuum. */

@@ -38,24 +38,27 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
             throw new InvalidInputException("simulator command is blank; expected a command line");
         }
         if (!commands.isEmpty() && (mode == SimulatorMode.PROCESS || mode == SimulatorMode.SPARK)) {
-            throw new InvalidInputException("simulator commands keep running; expected simulator mode resident or batch, "
-                    + "not " + Json.name(mode));
+            throw new InvalidInputException(
+                    "simulator commands keep running; expected simulator mode resident or batch, "
+                            + "not " + Json.name(mode));
         }
         if (master != null && mode != SimulatorMode.SPARK) {
             throw new InvalidInputException("master is " + master + "; expected simulator mode spark with it, not "
                     + Json.name(mode));
         }
         if (mode == SimulatorMode.SPARK && backend == Backend.AUTO) {
-            throw new InvalidInputException("backend is auto; expected cpu or cuda in simulator mode spark, the same on "
-                    + "all machines");
+            throw new InvalidInputException(
+                    "backend is auto; expected cpu or cuda in simulator mode spark, the same on "
+                            + "all machines");
         }
         if (devices.isEmpty() || devices.stream().anyMatch(device -> device < 0)
                 || devices.stream().distinct().count() < devices.size()) {
             throw new InvalidInputException("devices are " + devices + "; expected whole numbers from 0, each once");
         }
         if (devices.size() > 1 && mode == SimulatorMode.SPARK) {
-            throw new InvalidInputException("devices are " + devices + "; expected one in simulator mode spark, which gives "
-                    + "executors their GPUs");
+            throw new InvalidInputException(
+                    "devices are " + devices + "; expected one in simulator mode spark, which gives "
+                            + "executors their GPUs");
         }
         if (timeout != null && (timeout.isNegative() || timeout.isZero())) {
             throw new InvalidInputException("timeout is " + timeout.toMillis() / 1000.0

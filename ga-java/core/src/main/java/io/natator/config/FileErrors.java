@@ -55,10 +55,11 @@ public final class FileErrors {
     public static String reason(Path file, IOException e) {
         String why = e instanceof AccessDeniedException ? "permission denied"
                 : e instanceof NoSuchFileException ? "no such file or folder"
-                : e instanceof FileAlreadyExistsException
-                ? Files.exists(file) ? "is a file, not a folder" : "is a link that leads nowhere"
-                : e instanceof FileSystemException system && system.getReason() != null ? system.getReason()
-                : String.valueOf(e.getMessage());
+                        : e instanceof FileAlreadyExistsException
+                                ? Files.exists(file) ? "is a file, not a folder" : "is a link that leads nowhere"
+                                : e instanceof FileSystemException system && system.getReason() != null
+                                        ? system.getReason()
+                                        : String.valueOf(e.getMessage());
         String about = e instanceof FileSystemException system ? system.getFile() : null;
         return about == null || about.equals(file.toString()) || why.contains(about) ? why : about + ": " + why;
     }
@@ -74,7 +75,8 @@ public final class FileErrors {
         if (there != null && !Files.isDirectory(there)) {
             return there + " is a file, not a folder";
         }
-        return e instanceof NoSuchFileException && place != null && place.equals(there) ? place + " takes no new files or folders"
+        return e instanceof NoSuchFileException && place != null && place.equals(there)
+                ? place + " takes no new files or folders"
                 : reason(file, e);
     }
 }

@@ -31,9 +31,10 @@ public final class Json {
             .disable(DeserializationFeature.ACCEPT_FLOAT_AS_INT)
             .enable(DeserializationFeature.FAIL_ON_NUMBERS_FOR_ENUMS)
             .disable(MapperFeature.ALLOW_COERCION_OF_SCALARS)
-            .withCoercionConfig(LogicalType.Textual, text -> text.setCoercion(CoercionInputShape.Integer, CoercionAction.Fail)
-                    .setCoercion(CoercionInputShape.Float, CoercionAction.Fail)
-                    .setCoercion(CoercionInputShape.Boolean, CoercionAction.Fail))
+            .withCoercionConfig(LogicalType.Textual,
+                    text -> text.setCoercion(CoercionInputShape.Integer, CoercionAction.Fail)
+                            .setCoercion(CoercionInputShape.Float, CoercionAction.Fail)
+                            .setCoercion(CoercionInputShape.Boolean, CoercionAction.Fail))
             .enable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
             .disable(StreamReadFeature.INCLUDE_SOURCE_IN_LOCATION)
             .build();
@@ -144,7 +145,8 @@ public final class Json {
         String field = e instanceof JsonMappingException mapping ? mapping.getPath().stream()
                 .map(JsonMappingException.Reference::getFieldName).filter(Objects::nonNull)
                 .collect(Collectors.joining(".")) : "";
-        return (field.isEmpty() ? "" : field + ": ") + message + (e.getLocation() == null || e.getLocation().getLineNr() < 1 ? ""
-                : " (" + line + "column " + e.getLocation().getColumnNr() + ")");
+        return (field.isEmpty() ? "" : field + ": ") + message
+                + (e.getLocation() == null || e.getLocation().getLineNr() < 1 ? ""
+                        : " (" + line + "column " + e.getLocation().getColumnNr() + ")");
     }
 }

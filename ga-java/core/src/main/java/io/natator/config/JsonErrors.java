@@ -32,7 +32,8 @@ final class JsonErrors {
             if (e.getCause() instanceof InvalidInputException || e.getCause() instanceof IllegalArgumentException) {
                 return e.getCause().getMessage();
             }
-            return isMissing(e.getCause()) ? e.getCause().getMessage() + " is missing" : "expected an object with all its keys";
+            return isMissing(e.getCause()) ? e.getCause().getMessage() + " is missing"
+                    : "expected an object with all its keys";
         }
         String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
         if (message.startsWith("No content")) {
@@ -41,14 +42,16 @@ final class JsonErrors {
         if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
                 && !message.startsWith("Trailing token")) {
             return "expected " + described(mismatch.getTargetType())
-                    + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : taken(message));
+                    + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue())
+                            : taken(message));
         }
         return SyntaxErrors.plain(message);
     }
 
     /** Whether a record required a key by its name and did not get it. */
     private static boolean isMissing(Throwable cause) {
-        return cause instanceof NullPointerException && cause.getMessage() != null && cause.getMessage().matches("\\w+");
+        return cause instanceof NullPointerException && cause.getMessage() != null
+                && cause.getMessage().matches("\\w+");
     }
 
     /** The value that Jackson says it does not take for another type. */

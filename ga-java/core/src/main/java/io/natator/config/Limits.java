@@ -57,7 +57,8 @@ public final class Limits {
      */
     public static void checkDuration(String name, double value) {
         if (!(value > 0 && value <= DURATION)) {
-            throw new InvalidInputException(name + " is " + value + "; expected a number of seconds above 0, up to " + (long) DURATION);
+            throw new InvalidInputException(
+                    name + " is " + value + "; expected a number of seconds above 0, up to " + (long) DURATION);
         }
     }
 

@@ -24,7 +24,8 @@ import java.util.Objects;
  * @param evolve            bodies to be evolved; null for gaits of the scene's body alone
  */
 @RecordBuilder
-public record Problem(String scene, EncodingKind encoding, int actuators, Scheme scheme, Double duration, JsonNode overrides,
+public record Problem(String scene, EncodingKind encoding, int actuators, Scheme scheme, Double duration,
+        JsonNode overrides,
         FitnessKind fitness, Boolean vacuumCheck, List<WeightedObjective> objectives, BodyEvolution evolve)
         implements ProblemBuilder.With {
 
@@ -44,8 +45,10 @@ public record Problem(String scene, EncodingKind encoding, int actuators, Scheme
         fitness = fitness == null ? FitnessKind.DISTANCE : fitness;
         vacuumCheck = vacuumCheck != null && vacuumCheck;
         objectives = objectives == null || objectives.isEmpty() ? null : List.copyOf(objectives);
-        Limits.require(evolve == null || evolve.gait() == null || evolve.gait().actuators() == actuators, "gait of the bodies",
-                evolve == null || evolve.gait() == null ? "" : "for " + Numbers.count(evolve.gait().actuators(), "actuator"),
+        Limits.require(evolve == null || evolve.gait() == null || evolve.gait().actuators() == actuators,
+                "gait of the bodies",
+                evolve == null || evolve.gait() == null ? ""
+                        : "for " + Numbers.count(evolve.gait().actuators(), "actuator"),
                 "one for the " + actuators + " of the scene's body");
     }
 

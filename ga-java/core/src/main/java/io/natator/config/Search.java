@@ -17,7 +17,8 @@ import java.util.Locale;
  * @param judge             what several runs are worth
  */
 @RecordBuilder
-public record Search(OptimizerKind optimizer, int population, long seed, OperatorSet operators, double gaussianDeviation,
+public record Search(OptimizerKind optimizer, int population, long seed, OperatorSet operators,
+        double gaussianDeviation,
         Integer starts, Aggregate judge) implements SearchBuilder.With {
 
     /** Elites of 150 selected chromosomes (thesis 2.6). */
@@ -37,9 +38,11 @@ public record Search(OptimizerKind optimizer, int population, long seed, Operato
                 "a number above 0 and up to 1");
         starts = starts == null ? 1 : starts;
         judge = judge == null ? Aggregate.MEAN : judge;
-        Limits.require(starts >= 1 && starts <= Limits.STARTS, "starts", starts, "a whole number from 1 to " + Limits.STARTS);
+        Limits.require(starts >= 1 && starts <= Limits.STARTS, "starts", starts,
+                "a whole number from 1 to " + Limits.STARTS);
         Limits.require(starts >= judge.leastRuns(), "starts", starts,
-                "at least " + judge.leastRuns() + " with --judge " + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
+                "at least " + judge.leastRuns() + " with --judge "
+                        + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
     }
 
     /** Runs of a generation that go to the best gaits so far, to know them better; none with a single start. */

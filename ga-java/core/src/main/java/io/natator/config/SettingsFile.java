@@ -17,16 +17,21 @@ record SettingsFile(String scene, EncodingKind encoding, int actuators, Optimize
         return SettingsFileBuilder.builder().scene(settings.problem().scene()).encoding(settings.problem().encoding())
                 .actuators(settings.problem().actuators()).optimizer(settings.search().optimizer())
                 .population(settings.search().population()).generations(settings.budget().generations())
-                .evaluations(settings.budget().evaluations()).seed(settings.search().seed()).operators(settings.search().operators())
+                .evaluations(settings.budget().evaluations()).seed(settings.search().seed())
+                .operators(settings.search().operators())
                 .gaussianDeviation(settings.search().gaussianDeviation()).fitness(settings.problem().fitness())
-                .vacuumCheck(settings.problem().vacuumCheck()).backend(settings.budget().backend()).scheme(settings.problem().scheme())
-                .duration(settings.problem().duration()).overrides(settings.problem().overrides()).starts(settings.search().starts())
-                .judge(settings.search().judge()).objectives(settings.problem().objectives()).evolve(settings.problem().evolve()).build();
+                .vacuumCheck(settings.problem().vacuumCheck()).backend(settings.budget().backend())
+                .scheme(settings.problem().scheme())
+                .duration(settings.problem().duration()).overrides(settings.problem().overrides())
+                .starts(settings.search().starts())
+                .judge(settings.search().judge()).objectives(settings.problem().objectives())
+                .evolve(settings.problem().evolve()).build();
     }
 
     EvolutionSettings settings() {
         return new EvolutionSettings(
-                new Problem(scene, encoding, actuators, scheme, duration, overrides, fitness, vacuumCheck, objectives, evolve),
+                new Problem(scene, encoding, actuators, scheme, duration, overrides, fitness, vacuumCheck, objectives,
+                        evolve),
                 new Search(optimizer, population, seed, operators, gaussianDeviation, starts, judge),
                 new Budget(generations, evaluations, backend));
     }

@@ -12,7 +12,8 @@ final class SyntaxErrors {
     /** What the parser says, and that in plain words; the first that fits counts. */
     private static final List<Rule> RULES = List.of(
             rule("Unexpected end-of-input.*", "ends too early; expected the rest of the JSON text"),
-            rule(CHARACTER + ": was expecting double-quote to start field name.*", "found '$1'; expected a key in double quotes"),
+            rule(CHARACTER + ": was expecting double-quote to start field name.*",
+                    "found '$1'; expected a key in double quotes"),
             rule(CHARACTER + ": was expecting a colon.*", "found '$1'; expected a colon"),
             rule(CHARACTER + ": was expecting comma to separate Object.*", "found '$1'; expected a comma or '}'"),
             rule(CHARACTER + ": was expecting comma to separate Array.*", "found '$1'; expected a comma or ']'"),
@@ -28,11 +29,13 @@ final class SyntaxErrors {
             rule("Invalid numeric value: Leading zeroes.*", "found a number that begins with 0; expected it without"),
             rule("Illegal unquoted character \\(\\(CTRL-CHAR, code (\\d+)\\)\\).*",
                     "found a control character (code $1) in a text; expected an escape such as \\\\n"),
-            rule("Illegal character \\(\\(CTRL-CHAR, code (\\d+)\\)\\).*", "found a control character (code $1); expected JSON"),
+            rule("Illegal character \\(\\(CTRL-CHAR, code (\\d+)\\)\\).*",
+                    "found a control character (code $1); expected JSON"),
             rule("Unrecognized character escape '(.+)'.*", "found '\\\\$1'; expected an escape that JSON has"),
             rule("Duplicate field '(.*)'", "key '$1' stands twice; expected it once"),
             rule("Trailing token.*", "found another value after the first; expected one"),
-            rule("Numeric value \\((.*)\\) out of range of \\w+ \\((-?\\d+) - (\\d+)\\).*", "expected a whole number from $2 to $3, not '$1'"),
+            rule("Numeric value \\((.*)\\) out of range of \\w+ \\((-?\\d+) - (\\d+)\\).*",
+                    "expected a whole number from $2 to $3, not '$1'"),
             rule("([\\w ]+) \\((\\d+)\\) exceeds the maximum allowed \\((\\d+),.*", "$1 is $2; expected at most $3"));
 
     private record Rule(Pattern told, String said) {

@@ -52,8 +52,9 @@ public record WeightedObjective(Objective objective, Double weight) {
                 return one;
             }
         }
-        throw new InvalidInputException("--objectives has '" + part + "'; expected some of distance, net, forward, straight, "
-                + "work, efficiency, each with a weight or none: forward=1,straight=0.2");
+        throw new InvalidInputException(
+                "--objectives has '" + part + "'; expected some of distance, net, forward, straight, "
+                        + "work, efficiency, each with a weight or none: forward=1,straight=0.2");
     }
 
     private static double weight(String[] sides, String part) {

@@ -61,7 +61,8 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
      * the other side.
      */
     public Gait mirrored() {
-        return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(), power,
+        return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(),
+                power,
                 offset == null ? null : offset.stream().map(one -> -one).toList());
     }
 

@@ -42,8 +42,9 @@ public record GeneRange(String name, double lower, double upper) {
      */
     public static void check(List<GeneRange> ranges, List<Double> genes) {
         if (genes.size() != ranges.size()) {
-            throw new IllegalArgumentException(Numbers.count(genes.size(), "gene") + " given; expected " + ranges.size() + ": "
-                    + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
+            throw new IllegalArgumentException(
+                    Numbers.count(genes.size(), "gene") + " given; expected " + ranges.size() + ": "
+                            + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
         }
         for (int i = 0; i < ranges.size(); i++) {
             GeneRange range = ranges.get(i);

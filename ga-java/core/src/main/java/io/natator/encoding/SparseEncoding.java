@@ -24,7 +24,8 @@ public final class SparseEncoding implements Encoding {
      */
     public SparseEncoding(int actuators) {
         if (actuators < 2) {
-            throw new IllegalArgumentException("sparse encoding of " + Numbers.count(actuators, "actuator") + "; expected at least 2");
+            throw new IllegalArgumentException(
+                    "sparse encoding of " + Numbers.count(actuators, "actuator") + "; expected at least 2");
         }
         this.actuators = actuators;
     }

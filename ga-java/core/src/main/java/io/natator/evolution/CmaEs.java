@@ -103,8 +103,8 @@ final class CmaEs implements Optimizer {
     private double[] values() {
         double[] values = new double[known.size()];
         for (int first = 0; first < values.length; first += settings.search().population()) {
-            List<Individual> generation =
-                    known.subList(first, Math.min(first + settings.search().population(), known.size()));
+            List<Individual> generation = known.subList(first,
+                    Math.min(first + settings.search().population(), known.size()));
             double worst = generation.stream().filter(Individual::isMeasured).mapToDouble(Individual::score).min()
                     .orElse(0.0);
             for (int i = 0; i < generation.size(); i++) {

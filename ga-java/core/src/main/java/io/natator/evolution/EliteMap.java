@@ -48,8 +48,9 @@ public final class EliteMap {
         for (Individual one : individuals) {
             if (one.isMeasured()) {
                 if (one.effort() == null) {
-                    throw new EvolutionFailedException("the run's gaits are not told apart by beats per length and cost of "
-                            + "transport: another version made it; expected a new run");
+                    throw new EvolutionFailedException(
+                            "the run's gaits are not told apart by beats per length and cost of "
+                                    + "transport: another version made it; expected a new run");
                 }
                 elites.merge(cell(one.effort()), one, (elite, other) -> other.score() > elite.score() ? other : elite);
             }

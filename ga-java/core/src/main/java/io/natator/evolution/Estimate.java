@@ -43,7 +43,8 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
         more.forEach(one -> all.add(one.score()));
         int broken = (int) more.stream().filter(one -> one.status() == SimulationResult.Status.UNSTABLE).count()
                 + (unstable == null ? 0 : unstable);
-        return new Estimate(broken == 0 ? judge.of(all) : Math.min(Collections.min(all), 0), all, means(more), sum(more),
+        return new Estimate(broken == 0 ? judge.of(all) : Math.min(Collections.min(all), 0), all, means(more),
+                sum(more),
                 broken == 0 ? null : broken);
     }
 

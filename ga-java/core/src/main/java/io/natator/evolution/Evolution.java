@@ -67,8 +67,9 @@ public final class Evolution {
     public EvolutionState run(EvolutionState from) {
         evaluations = from == null ? 0 : from.evaluations();
         if (recorded.end() < evaluations) {
-            throw new IllegalArgumentException(Numbers.count(recorded.end(), "simulation") + " recorded; expected the " + evaluations
-                    + " up to where the evolution is to continue");
+            throw new IllegalArgumentException(
+                    Numbers.count(recorded.end(), "simulation") + " recorded; expected the " + evaluations
+                            + " up to where the evolution is to continue");
         }
         try (Optimizer optimizer = Optimizer.of(settings, genome.genes())) {
             optimizer.recall(newborns(recorded.between(0, evaluations)));
@@ -86,7 +87,8 @@ public final class Evolution {
     }
 
     private long budgetLeft() {
-        return settings.budget().evaluations() == null ? Long.MAX_VALUE : Math.max(settings.budget().evaluations() - evaluations, 0);
+        return settings.budget().evaluations() == null ? Long.MAX_VALUE
+                : Math.max(settings.budget().evaluations() - evaluations, 0);
     }
 
     /** The state after a generation, announced to the listeners. */
@@ -96,7 +98,8 @@ public final class Evolution {
         List<List<Double>> refused = null;
         Individual best = before == null ? null : before.best();
         if (settings.search().starts() > 1) {
-            Reevaluation again = new Reevaluation(settings, this::repeat, bred, before == null ? List.of() : before.champions(),
+            Reevaluation again = new Reevaluation(settings, this::repeat, bred,
+                    before == null ? List.of() : before.champions(),
                     before == null || before.refused() == null ? List.of() : before.refused());
             champions = again.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.search().starts()) {
@@ -114,9 +117,11 @@ public final class Evolution {
         }
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, population, simulated.size(),
-                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)).withUnchanged(unchanged(population))
+                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED))
+                .withUnchanged(unchanged(population))
                 .withLaws(broken()));
-        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions, refused);
+        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions,
+                refused);
         listeners.forEach(listener -> listener.generationFinished(state));
         return state;
     }
@@ -214,7 +219,8 @@ public final class Evolution {
         try {
             evaluator.evaluateAll(requests, Evaluator.inOrder(requests, result -> {
                 Run run = runs.get(simulated.size() - before);
-                accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(), result,
+                accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(),
+                        result,
                         run.start()));
             }));
         } catch (InterruptedException e) {

@@ -34,7 +34,8 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         population = List.copyOf(Objects.requireNonNull(population, "population"));
         history = List.copyOf(Objects.requireNonNull(history, "history"));
         if (generation < 0 || history.size() != generation + 1L) {
-            throw new InvalidInputException("history has " + Numbers.count(history.size(), "generation") + "; expected those from 0 to generation, "
+            throw new InvalidInputException("history has " + Numbers.count(history.size(), "generation")
+                    + "; expected those from 0 to generation, "
                     + generation);
         }
         champions = champions == null ? null : List.copyOf(champions);
@@ -56,6 +57,7 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
     /** Whether an evolution with these settings goes no further than this state: no more whole gait can be evaluated. */
     public boolean isLastOf(EvolutionSettings settings) {
         return generation >= settings.budget().generations()
-                || settings.budget().evaluations() != null && evaluations + settings.search().starts() > settings.budget().evaluations();
+                || settings.budget().evaluations() != null
+                        && evaluations + settings.search().starts() > settings.budget().evaluations();
     }
 }

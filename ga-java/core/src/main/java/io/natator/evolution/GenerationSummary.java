@@ -31,7 +31,7 @@ import java.util.stream.Stream;
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 @JsonPropertyOrder({"generation", "best", "mean", "median", "worst", "population", "evaluations", "unstable", "failed",
-    "unchanged", "laws"})
+        "unchanged", "laws"})
 public record GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
         int evaluations, int unstable, int failed, Integer unchanged, SortedMap<String, Integer> laws) {
 
@@ -42,7 +42,8 @@ public record GenerationSummary(int generation, double best, double mean, double
     }
 
     /** Summarises a population, at least one. */
-    static GenerationSummary of(int generation, List<Individual> population, int evaluations, int unstable, int failed) {
+    static GenerationSummary of(int generation, List<Individual> population, int evaluations, int unstable,
+            int failed) {
         List<Individual> measured = population.stream().filter(Individual::isMeasured).toList();
         boolean distances = measured.stream().allMatch(one -> one.objectives() == null && one.result().goals() == null);
         double[] scores = (distances ? population : measured).stream().mapToDouble(Individual::score).toArray();
@@ -68,17 +69,20 @@ public record GenerationSummary(int generation, double best, double mean, double
     }
 
     private GenerationSummary withPopulation(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed, unchanged, laws);
+        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed,
+                unchanged, laws);
     }
 
     /** The same with a count of the chromosomes that were not newly simulated. */
     GenerationSummary withUnchanged(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, count, laws);
+        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed,
+                count, laws);
     }
 
     /** The same with the laws that its simulations broke. */
     GenerationSummary withLaws(SortedMap<String, Integer> broken) {
-        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, unchanged,
+        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed,
+                unchanged,
                 broken.isEmpty() ? null : broken);
     }
 
@@ -94,9 +98,13 @@ public record GenerationSummary(int generation, double best, double mean, double
 
     /** One row per generation, as in {@code generations.csv}. Doubles have all their digits; nothing in it depends on time. */
     public static String csv(List<GenerationSummary> history) {
-        StringBuilder csv = new StringBuilder("generation,best,mean,median,worst,population,evaluations,unstable,failed\n");
-        history.forEach(row -> csv.append(Stream.of(row.generation, row.best, row.mean, row.median, row.worst, row.population, row.evaluations,
-                row.unstable, row.failed).map(Object::toString).collect(Collectors.joining(",", "", "\n"))));
+        StringBuilder csv = new StringBuilder(
+                "generation,best,mean,median,worst,population,evaluations,unstable,failed\n");
+        history.forEach(
+                row -> csv.append(Stream
+                        .of(row.generation, row.best, row.mean, row.median, row.worst, row.population, row.evaluations,
+                                row.unstable, row.failed)
+                        .map(Object::toString).collect(Collectors.joining(",", "", "\n"))));
         return csv.toString();
     }
 

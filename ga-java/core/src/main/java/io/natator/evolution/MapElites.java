@@ -31,7 +31,8 @@ final class MapElites implements Optimizer {
     public List<List<Double>> propose(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.search().seed(), generation));
         elites = new EliteMap(before).individuals();
-        return elites.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(random);
+        return elites.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random)
+                : children(random);
     }
 
     @Override
@@ -57,7 +58,8 @@ final class MapElites implements Optimizer {
         List<Double> genes = new ArrayList<>();
         for (int i = 0; i < ranges.size(); i++) {
             GeneRange range = ranges.get(i);
-            double gene = one.get(i) + GENE_STEP * range.width() * random.nextGaussian() + along * (other.get(i) - one.get(i));
+            double gene = one.get(i) + GENE_STEP * range.width() * random.nextGaussian()
+                    + along * (other.get(i) - one.get(i));
             genes.add(Math.min(Math.max(gene, range.lower()), range.upper()));
         }
         return List.copyOf(genes);

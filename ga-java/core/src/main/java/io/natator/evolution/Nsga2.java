@@ -42,21 +42,23 @@ final class Nsga2 implements Optimizer {
         List<DoubleSolution> candidates = ranking.solutions(before);
         parents = candidates.size() <= settings.search().population() ? candidates
                 : new RankingAndCrowdingSelection<DoubleSolution>(settings.search().population()).execute(candidates);
-        return parents.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random) : children(random);
+        return parents.isEmpty() ? RandomSearch.genomes(settings.search().population(), ranges, random)
+                : children(random);
     }
 
     @Override
     public List<Individual> population(List<Individual> newborns) {
         List<Individual> population = new ArrayList<>();
-        parents.forEach(parent -> population.add(ranking.individual(parent).withAge(ranking.individual(parent).age() + 1)));
+        parents.forEach(
+                parent -> population.add(ranking.individual(parent).withAge(ranking.individual(parent).age() + 1)));
         population.addAll(newborns);
         return population;
     }
 
     private List<List<Double>> children(SplittableRandom random) {
         RandomGenerator<Double> numbers = random::nextDouble;
-        SBXCrossover crossover =
-                new SBXCrossover(CROSSOVER_SHARE, INDEX, new RepairDoubleSolutionWithBoundValue(), numbers);
+        SBXCrossover crossover = new SBXCrossover(CROSSOVER_SHARE, INDEX, new RepairDoubleSolutionWithBoundValue(),
+                numbers);
         PolynomialMutation mutation = new PolynomialMutation(1.0 / ranges.size(), INDEX,
                 new RepairDoubleSolutionWithBoundValue(), numbers);
         Comparator<DoubleSolution> better = ranking.comparator(parents);

@@ -19,7 +19,8 @@ final class RandomSearch implements Optimizer {
 
     @Override
     public List<List<Double>> propose(int generation, List<Individual> before) {
-        return genomes(settings.search().population(), ranges, new SplittableRandom(Seeds.of(settings.search().seed(), generation)));
+        return genomes(settings.search().population(), ranges,
+                new SplittableRandom(Seeds.of(settings.search().seed(), generation)));
     }
 
     /** So many. */

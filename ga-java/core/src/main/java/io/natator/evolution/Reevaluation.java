@@ -59,7 +59,8 @@ final class Reevaluation {
 
     /** Who was unstable stays known, but is no more ranked: the runs before must not win for it. */
     private void enter(Individual entering) {
-        Individual one = refused.contains(entering.genes()) ? entering.withEstimate(entering.estimate().refused()) : entering;
+        Individual one = refused.contains(entering.genes()) ? entering.withEstimate(entering.estimate().refused())
+                : entering;
         if (!one.isStable() && one.result().status() == SimulationResult.Status.OK) {
             refused.add(one.genes());
         }
@@ -88,7 +89,8 @@ final class Reevaluation {
      */
     List<Individual> useUp(int runs) {
         List<Individual> ranked = ranked();
-        repeater.repeat(ranked.subList(0, Math.min(1, ranked.size())), 2 * settings.search().starts(), runs).forEach(this::enter);
+        repeater.repeat(ranked.subList(0, Math.min(1, ranked.size())), 2 * settings.search().starts(), runs)
+                .forEach(this::enter);
         return first(ranked());
     }
 

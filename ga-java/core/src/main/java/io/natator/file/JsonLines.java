@@ -115,7 +115,8 @@ public final class JsonLines<T> implements AutoCloseable {
 
     private void append(ByteArrayOutputStream line, byte[] bytes, int start, int end) {
         if (line.size() + end - start > Limits.LINE_BYTES) {
-            throw new InvalidInputException(file + ", line " + (rows.size() + 1) + " is longer than " + Limits.LINE_BYTES + " bytes");
+            throw new InvalidInputException(
+                    file + ", line " + (rows.size() + 1) + " is longer than " + Limits.LINE_BYTES + " bytes");
         }
         line.write(bytes, start, end - start);
     }

@@ -24,7 +24,8 @@ public final class OutputFile {
         String fault = isOther ? ", which is " + (Files.isDirectory(file) ? "a folder" : "a device or a pipe")
                 + "; expected the name of a file, new or to be replaced"
                 : !Files.isDirectory(folder) ? "; expected a folder that exists, unlike " + folder
-                : !Files.isWritable(folder) ? "; expected a folder that can be written to, unlike " + folder : null;
+                        : !Files.isWritable(folder) ? "; expected a folder that can be written to, unlike " + folder
+                                : null;
         if (fault != null) {
             throw new InvalidInputException("output file is " + file + fault);
         }

@@ -30,6 +30,7 @@ public final class OutputFolder {
 
     /** Says that it cannot be made, and why. */
     public static InvalidInputException cannotBeMade(Path folder, IOException e) {
-        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.whyNotMade(folder, e), e);
+        return new InvalidInputException(
+                "output folder " + folder + " cannot be made: " + FileErrors.whyNotMade(folder, e), e);
     }
 }

@@ -36,7 +36,8 @@ public final class BodyCheckEvaluator implements Evaluator {
      * @param settings  of the run whose bodies these are
      * @param simulator the native program
      */
-    public BodyCheckEvaluator(Evaluator evaluator, EvolutionSettings settings, Path simulator) throws InterruptedException {
+    public BodyCheckEvaluator(Evaluator evaluator, EvolutionSettings settings, Path simulator)
+            throws InterruptedException {
         this.evaluator = evaluator;
         this.simulator = simulator;
         this.scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), simulator);
@@ -65,10 +66,13 @@ public final class BodyCheckEvaluator implements Evaluator {
             return e.getMessage();
         }
         if (body.actuators() != scene.actuators()) {
-            return "body has " + Numbers.count(body.actuators(), "actuator") + "; expected the " + scene.actuators() + " of the scene's";
+            return "body has " + Numbers.count(body.actuators(), "actuator") + "; expected the " + scene.actuators()
+                    + " of the scene's";
         }
-        if (body.bodyParticles() != null && Math.abs(body.bodyParticles() - scene.bodyParticles()) > HELD * scene.bodyParticles()) {
-            return "body has " + Numbers.count(body.bodyParticles(), "particle") + "; expected the " + scene.bodyParticles()
+        if (body.bodyParticles() != null
+                && Math.abs(body.bodyParticles() - scene.bodyParticles()) > HELD * scene.bodyParticles()) {
+            return "body has " + Numbers.count(body.bodyParticles(), "particle") + "; expected the "
+                    + scene.bodyParticles()
                     + " of the scene's, within " + Math.round(100 * HELD) + " %";
         }
         return NOTHING;

@@ -101,7 +101,8 @@ public final class FitnessEvaluator implements Evaluator {
             }
         });
         if (!inVacuum.isEmpty()) {
-            evaluator.evaluateAll(inVacuum, vacuum -> whenDone.accept(judged(net(inWater.get(vacuum.id()), vacuum), asked.get(vacuum.id()))));
+            evaluator.evaluateAll(inVacuum,
+                    vacuum -> whenDone.accept(judged(net(inWater.get(vacuum.id()), vacuum), asked.get(vacuum.id()))));
         }
     }
 
@@ -118,7 +119,8 @@ public final class FitnessEvaluator implements Evaluator {
 
     private SimulationResult judged(SimulationResult result, SimulationRequest request) {
         SimulationResult worth = objectives.isEmpty() ? result : worth(result);
-        return bodyLength == null || result.status() != SimulationResult.Status.OK ? worth : worth.withEffort(effort(result, request));
+        return bodyLength == null || result.status() != SimulationResult.Status.OK ? worth
+                : worth.withEffort(effort(result, request));
     }
 
     private SimulationResult worth(SimulationResult result) {
@@ -140,7 +142,8 @@ public final class FitnessEvaluator implements Evaluator {
             case DISTANCE -> result.distance();
             case NET -> result.netDistance();
             case FORWARD -> known(result.course(), objective, result).forward();
-            case STRAIGHT -> -Math.abs(known(result.course(), objective, result).yaw()) - Math.abs(result.course().roll());
+            case STRAIGHT ->
+                -Math.abs(known(result.course(), objective, result).yaw()) - Math.abs(result.course().roll());
             case WORK -> -known(result.work(), objective, result);
             case EFFICIENCY -> known(result.work(), objective, result) > 0 ? result.distance() / result.work() : 0;
             case GOALS -> goals(result);
@@ -149,7 +152,8 @@ public final class FitnessEvaluator implements Evaluator {
 
     private static double goals(SimulationResult result) {
         if (result.goals() == null) {
-            throw new InvalidInputException("objective goals: the scene has none; expected a scene with goals, such as goals/turn");
+            throw new InvalidInputException(
+                    "objective goals: the scene has none; expected a scene with goals, such as goals/turn");
         }
         return result.goalScore();
     }
@@ -164,8 +168,10 @@ public final class FitnessEvaluator implements Evaluator {
 
     private Effort effort(SimulationResult result, SimulationRequest request) {
         if (result.work() == null) {
-            throw new InvalidInputException("optimizer map-elites: this simulator does not measure the muscles' work in scheme "
-                    + result.scheme() + ", by which kinds of gaits are told apart; expected --scheme conserving or lattice");
+            throw new InvalidInputException(
+                    "optimizer map-elites: this simulator does not measure the muscles' work in scheme "
+                            + result.scheme()
+                            + ", by which kinds of gaits are told apart; expected --scheme conserving or lattice");
         }
         return new Effort(request.gait().frequency() * result.simulated(),
                 result.distance() / bodyLength.applyAsDouble(request), result.distance(), result.work());

@@ -57,7 +57,8 @@ public final class ConvergeProgram {
      * @throws RequestRejectedException if it fails
      */
     public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
-        return call(request, starts, levels, List.of(), line -> { });
+        return call(request, starts, levels, List.of(), line -> {
+        });
     }
 
     /**
@@ -78,10 +79,12 @@ public final class ConvergeProgram {
         return call(request, starts, levels, List.of("--output", runs.toString()), lines);
     }
 
-    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more, Consumer<String> lines)
+    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more,
+            Consumer<String> lines)
             throws InterruptedException {
         List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
-                "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend", execution.backend().argument()));
+                "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend",
+                execution.backend().argument()));
         arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
                 : List.of("--device", "" + execution.device()));
         arguments.addAll(more);

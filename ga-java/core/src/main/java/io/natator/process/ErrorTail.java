@@ -51,7 +51,8 @@ public final class ErrorTail implements Runnable {
      * @throws IOException if the stream cannot be read
      */
     static String read(InputStream stderr) throws IOException {
-        return read(stderr, line -> { });
+        return read(stderr, line -> {
+        });
     }
 
     /**

@@ -92,7 +92,8 @@ final class NativeProgram implements AutoCloseable {
      * @throws InterruptedException     if interrupted meanwhile, or this virtual machine is shutting down; the program
      *                                  is then killed
      */
-    Output call(List<String> arguments, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
+    Output call(List<String> arguments, String input, Consumer<String> errorLines)
+            throws SimulatorFailure, InterruptedException {
         List<String> command = new ArrayList<>();
         command.add(program.toString());
         command.addAll(arguments);

@@ -52,7 +52,8 @@ public final class ProcessSimulator extends WorkerPool {
             String reason = "";
             for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
                 try {
-                    return answer(request, program.call(nextArguments(), input, line -> { }));
+                    return answer(request, program.call(nextArguments(), input, line -> {
+                    }));
                 } catch (SimulatorFailure e) {
                     reason = e.getMessage();
                     LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);

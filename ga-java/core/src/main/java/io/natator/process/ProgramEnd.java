@@ -33,7 +33,8 @@ public final class ProgramEnd implements AutoCloseable {
 
     /** Whether this program was told to end: what fails then may fail because its parts are being stopped. */
     public static boolean hasBegun() {
-        Thread probe = new Thread(() -> { });
+        Thread probe = new Thread(() -> {
+        });
         try {
             Runtime.getRuntime().addShutdownHook(probe);
             Runtime.getRuntime().removeShutdownHook(probe);

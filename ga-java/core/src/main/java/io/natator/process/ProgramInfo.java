@@ -64,13 +64,15 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         } else if (choice.matches("\\d{1,4}(,\\d{1,4})*")) {
             numbers = Arrays.stream(choice.split(",")).map(Integer::valueOf).toList();
         } else {
-            throw new InvalidInputException("--device is " + choice + "; expected a GPU's number, several with commas between "
-                    + "them, or all");
+            throw new InvalidInputException(
+                    "--device is " + choice + "; expected a GPU's number, several with commas between "
+                            + "them, or all");
         }
         List<String> kinds = numbers.stream().flatMap(number -> kind(number).stream()).distinct().toList();
         if (kinds.size() > 1) {
-            throw new InvalidInputException("--device " + choice + " are GPUs of several kinds (" + String.join("; ", kinds)
-                    + "), whose last digits differ; expected some of one kind");
+            throw new InvalidInputException(
+                    "--device " + choice + " are GPUs of several kinds (" + String.join("; ", kinds)
+                            + "), whose last digits differ; expected some of one kind");
         }
         return numbers;
     }
@@ -94,7 +96,8 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      */
     static String ask(Path simulator, List<String> arguments, String subject) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
-            NativeProgram.Output output = program.call(arguments, "", line -> { });
+            NativeProgram.Output output = program.call(arguments, "", line -> {
+            });
             if (output.exitStatus() != 0) {
                 throw output.failure(subject);
             }

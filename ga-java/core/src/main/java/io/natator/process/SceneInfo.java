@@ -75,8 +75,9 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
             throws InterruptedException {
         SceneInfo info = of(scene, overrides, simulator);
         if (info.actuators == 0) {
-            throw new InvalidInputException("scene " + scene + " cannot move by itself: it has no actuators; expected a "
-                    + "creature with at least two joints");
+            throw new InvalidInputException(
+                    "scene " + scene + " cannot move by itself: it has no actuators; expected a "
+                            + "creature with at least two joints");
         }
         try {
             encoding.forActuators(info.actuators);
@@ -91,7 +92,8 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      *
      * @throws InvalidInputException also if that has no genes
      */
-    public static ProfileBody bodyToEvolve(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
+    public static ProfileBody bodyToEvolve(String scene, JsonNode overrides, Path simulator)
+            throws InterruptedException {
         try {
             return ProfileBody.of(Json.parse(definition(scene, overrides, simulator), JsonNode.class).path("creature"));
         } catch (JsonProcessingException e) {

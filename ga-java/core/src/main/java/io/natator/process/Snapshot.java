@@ -39,7 +39,8 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
      * @throws RefusedSceneException    if the program refuses the request
      * @throws RequestRejectedException if it fails
      */
-    public static Snapshot of(SimulationRequest request, Double at, ExecutionSettings execution) throws InterruptedException {
+    public static Snapshot of(SimulationRequest request, Double at, ExecutionSettings execution)
+            throws InterruptedException {
         Path file = null;
         try (NativeProgram program = new NativeProgram(execution.simulator(), execution.timeout())) {
             file = Files.createTempFile("natator-", ".csv");
@@ -50,13 +51,15 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
             add(arguments, "--scheme", request.scheme() == null ? null : Json.name(request.scheme()));
             add(arguments, "--overrides", request.overrides());
             add(arguments, "--at", at);
-            NativeProgram.Output output = program.call(arguments, "", line -> { });
+            NativeProgram.Output output = program.call(arguments, "", line -> {
+            });
             if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
                 throw output.failure("scene " + request.scene());
             }
             return read(file);
         } catch (SimulatorFailure e) {
-            throw new RequestRejectedException("scene " + request.scene() + " cannot be recorded: " + e.getMessage(), false);
+            throw new RequestRejectedException("scene " + request.scene() + " cannot be recorded: " + e.getMessage(),
+                    false);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);
         } finally {
@@ -81,9 +84,11 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
             String[] row = line.split(",");
             try {
                 (row[columns.indexOf("kind")].equals("fluid") ? snapshot.fluid : snapshot.body)
-                        .add(new double[] {Double.parseDouble(row[x]), Double.parseDouble(row[x + 1]), Double.parseDouble(row[x + 2])});
+                        .add(new double[] {Double.parseDouble(row[x]), Double.parseDouble(row[x + 1]),
+                                Double.parseDouble(row[x + 2])});
             } catch (IndexOutOfBoundsException | NumberFormatException e) {
-                throw new InvalidInputException("no valid snapshot: found " + line + "; expected " + String.join(",", columns), e);
+                throw new InvalidInputException(
+                        "no valid snapshot: found " + line + "; expected " + String.join(",", columns), e);
             }
         }
         return snapshot;
@@ -102,7 +107,8 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
         double width = WIDTH * meanDistance();
         Map<List<Long>, Double> tops = new HashMap<>();
         for (double[] one : fluid) {
-            tops.merge(List.of((long) Math.floor(one[0] / width), (long) Math.floor(one[2] / width)), one[1], Math::max);
+            tops.merge(List.of((long) Math.floor(one[0] / width), (long) Math.floor(one[2] / width)), one[1],
+                    Math::max);
         }
         double[] sorted = tops.values().stream().mapToDouble(Double::doubleValue).sorted().toArray();
         double level = sorted[sorted.length / 2];

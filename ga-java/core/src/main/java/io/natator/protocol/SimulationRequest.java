@@ -44,7 +44,8 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
      * @param settings of the run
      */
     public static SimulationRequest of(long id, EvolutionSettings settings, Swimmer swimmer) {
-        return new SimulationRequest(id, settings.problem().scene(), swimmer.gait(), settings.problem().duration(), settings.problem().scheme(),
+        return new SimulationRequest(id, settings.problem().scene(), swimmer.gait(), settings.problem().duration(),
+                settings.problem().scheme(),
                 MergePatch.both(settings.problem().overrides(), swimmer.body()));
     }
 

@@ -40,7 +40,8 @@ import java.util.Objects;
 @RecordBuilder
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
-        SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift, List<Double> objectives, Double worth,
+        SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift,
+        List<Double> objectives, Double worth,
         Effort effort)
         implements SimulationResultBuilder.With {
 
@@ -62,14 +63,16 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
             String scheme, String precision, String hash, Instability unstable, String error, SwimmingNumbers swimming,
             Double work, Double vacuumDrift) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work, null, null,
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work,
+                null, null,
                 vacuumDrift, null, null, null);
     }
 
     /** A result as the simulator gives it where nothing of the swim's mechanics is known. */
     public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
             String scheme, String precision, String hash, Instability unstable, String error) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null, null, null);
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null, null,
+                null);
     }
 
     /** How an evaluation ended. */
@@ -154,7 +157,8 @@ public record SimulationResult(Long id, Status status, Double distance, String s
 
     /** The weighted sum of the scores of the scene's goals; 0 without any, and where the evaluation was unstable or failed. */
     public double goalScore() {
-        return goals == null || status != Status.OK ? 0 : goals.stream().mapToDouble(goal -> goal.weight() * goal.score()).sum();
+        return goals == null || status != Status.OK ? 0
+                : goals.stream().mapToDouble(goal -> goal.weight() * goal.score()).sum();
     }
 
     /**

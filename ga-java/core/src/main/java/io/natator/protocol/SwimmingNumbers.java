@@ -15,5 +15,6 @@ import com.fasterxml.jackson.annotation.JsonInclude;
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record SwimmingNumbers(Double tailAmplitude, Double strouhal, Double reynolds, Double swimmingNumber, Double cavities, Double across) {
+public record SwimmingNumbers(Double tailAmplitude, Double strouhal, Double reynolds, Double swimmingNumber,
+        Double cavities, Double across) {
 }

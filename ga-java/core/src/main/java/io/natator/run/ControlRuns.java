@@ -33,7 +33,8 @@ public final class ControlRuns {
      * @param execution with a time limit
      * @param starts    runs under each condition, at least 2
      */
-    public ControlRuns(EvolutionSettings settings, ExecutionSettings execution, int starts) throws InterruptedException {
+    public ControlRuns(EvolutionSettings settings, ExecutionSettings execution, int starts)
+            throws InterruptedException {
         this.settings = settings;
         this.execution = execution;
         this.starts = starts;
@@ -44,20 +45,26 @@ public final class ControlRuns {
     public Controls of(Swimmer swimmer) throws InterruptedException {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
             List<SimulationResult> inWater = evaluator.evaluate(again.requests(swimmer, starts, null));
-            String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst().orElse("");
+            String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst()
+                    .orElse("");
             SwimSample water = again.sample(inWater, swimmer, 1);
             // A body at rest makes no progress, which is to end no run of it.
             SwimSample resting = again.sample(
-                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping())), swimmer, 1);
+                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping())),
+                    swimmer, 1);
             SwimSample vacuum = again.sample(evaluator.evaluate(again.requests(swimmer, starts, null).stream()
                     .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList()), swimmer, 1);
             SwimSample clampOff = scheme.equals(FLEX)
-                    ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1) : null;
-            SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())), swimmer, 2);
+                    ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1)
+                    : null;
+            SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())),
+                    swimmer, 2);
             SwimSample mirrored = again.sample(
-                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null)), swimmer, 1);
+                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null)),
+                    swimmer, 1);
             Backend other = otherBackend();
-            return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer), water, resting,
+            return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer),
+                    water, resting,
                     vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
                     other == null ? null : other.argument(), null);
         }

@@ -55,7 +55,8 @@ public final class EvolutionRun {
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
             throws InterruptedException {
         return execution.timeout() != null ? execution : execution.withTimeout(TimeLimit.of(
-                SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator()), settings.problem().duration()));
+                SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator()),
+                settings.problem().duration()));
     }
 
     /** The same with the longest of the limits that suit several settings. */
@@ -110,7 +111,8 @@ public final class EvolutionRun {
         // Runs that share an evaluator count for themselves what they find in its cache.
         CachedEvaluator cached = evaluator instanceof CachedEvaluator shared ? shared.counting() : null;
         Evaluator own = cached == null ? evaluator : cached;
-        SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(), execution.simulator());
+        SceneInfo scene = SceneInfo.of(settings.problem().scene(), settings.problem().overrides(),
+                execution.simulator());
         double duration = settings.problem().duration() != null ? settings.problem().duration() : scene.duration();
         EvaluationCounter counter = new EvaluationCounter(folder, duration, cached == null ? () -> 0 : cached::found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
@@ -120,14 +122,16 @@ public final class EvolutionRun {
         all.addAll(List.of(listeners));
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all, folder.recorded())
+        EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all,
+                folder.recorded())
                 .run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
     }
 
     /** Writes what came of the run, its winner examined. */
-    private Outcome outcome(EvolutionState state, Evaluator evaluator, SceneInfo scene, Path simulator) throws InterruptedException {
+    private Outcome outcome(EvolutionState state, Evaluator evaluator, SceneInfo scene, Path simulator)
+            throws InterruptedException {
         BestGait known = RunReader.best(folder.directory());
         if (known != null && state.best() != null && known.isExamined(state.best())) {
             folder.writeTable(state);
@@ -136,7 +140,8 @@ public final class EvolutionRun {
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
-                    best.body() == null ? scene.bodyLength() : Double.valueOf(settings.problem().bodyLength(best.body())));
+                    best.body() == null ? scene.bodyLength()
+                            : Double.valueOf(settings.problem().bodyLength(best.body())));
             folder.write(best);
         }
         return new Outcome(state, best);

@@ -62,8 +62,9 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
     /** Why a run cannot go on by settings; null if it can. */
     private String refusal(EvolutionSettings stored, EvolutionSettings wanted) {
         EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.budget().generations()) : stored;
-        return extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
-                + "; choose another --output-dir, or the options that it was begun with";
+        return extended.equals(wanted) ? null
+                : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
+                        + "; choose another --output-dir, or the options that it was begun with";
     }
 
     /** Whether it has come to its end; one of fewer generations than this has not. */

@@ -57,7 +57,8 @@ public final class RunQueue {
      */
     public void run(ExecutionSettings execution, Evaluator evaluator, int atOnce, Watcher watcher)
             throws InterruptedException {
-        Queue<PlannedRun> waiting = new ConcurrentLinkedQueue<>(runs.stream().filter(run -> !run.isFinished()).toList());
+        Queue<PlannedRun> waiting = new ConcurrentLinkedQueue<>(
+                runs.stream().filter(run -> !run.isFinished()).toList());
         ExecutorService threads = Executors.newFixedThreadPool(atOnce);
         try {
             List<Future<?>> lanes = new ArrayList<>();
@@ -79,7 +80,8 @@ public final class RunQueue {
     }
 
     /** One after another as long as any wait, or until the evaluator is closed. */
-    private static void carryOut(Queue<PlannedRun> waiting, ExecutionSettings execution, Evaluator evaluator, Watcher watcher) {
+    private static void carryOut(Queue<PlannedRun> waiting, ExecutionSettings execution, Evaluator evaluator,
+            Watcher watcher) {
         try {
             for (PlannedRun run = waiting.poll(); run != null; run = waiting.poll()) {
                 carryOut(run, execution, evaluator, watcher);

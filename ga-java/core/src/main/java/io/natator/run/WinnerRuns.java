@@ -33,7 +33,8 @@ final class WinnerRuns {
         if (settings.problem().scheme() != null) {
             scheme.put("scheme", Json.name(settings.problem().scheme()));
         }
-        this.scene = SceneInfo.of(settings.problem().scene(), MergePatch.both(settings.problem().overrides(), scheme), simulator);
+        this.scene = SceneInfo.of(settings.problem().scene(), MergePatch.both(settings.problem().overrides(), scheme),
+                simulator);
         this.duration = scene.end(settings.problem().duration());
     }
 
@@ -44,7 +45,8 @@ final class WinnerRuns {
 
     /** Of a swimmer in scene units, or null. */
     Double bodyLength(Swimmer swimmer) {
-        return swimmer.body() == null ? scene.bodyLength() : Double.valueOf(settings.problem().bodyLength(swimmer.body()));
+        return swimmer.body() == null ? scene.bodyLength()
+                : Double.valueOf(settings.problem().bodyLength(swimmer.body()));
     }
 
     /** What half the time step changes in the scene. */

@@ -24,23 +24,29 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (net / unit < Verdict.LEAST_DISTANCE) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves "
                     + Numbers.withError(net / unit, controls.water().distance().sd() / unit, 3) + " " + name
-                    + " further than a resting body in " + Numbers.fixed(controls.duration(), 2) + " s, less than " + Verdict.LEAST_DISTANCE);
+                    + " further than a resting body in " + Numbers.fixed(controls.duration(), 2) + " s, less than "
+                    + Verdict.LEAST_DISTANCE);
         }
         if (drift(controls) - error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
-            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(drift(controls), 1)
-                    + " times as far in vacuum" + (controls.vacuum().distance().mean() < 0 ? ", the other way" : ""));
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM,
+                    "does not swim: moves " + Numbers.fixed(drift(controls), 1)
+                            + " times as far in vacuum"
+                            + (controls.vacuum().distance().mean() < 0 ? ", the other way" : ""));
         }
         SwimSample clampOff = controls.clampOff();
         if (clampOff != null && left(clampOff, controls) + error(clampOff, controls) < Verdict.LEAST_LEFT) {
-            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
-                    + percent(left(clampOff, controls)) + " of its way is left");
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM,
+                    "does not swim: the acceleration clamp moves it; without, "
+                            + percent(left(clampOff, controls)) + " of its way is left");
         }
-        String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2) + " " + name
+        String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2)
+                + " " + name
                 + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, length);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
-                : new ControlVerdict(Verdict.Kind.UNPROVEN, "may swim: " + speed + end + "; but " + String.join("; ", doubts));
+                : new ControlVerdict(Verdict.Kind.UNPROVEN,
+                        "may swim: " + speed + end + "; but " + String.join("; ", doubts));
     }
 
     private static List<String> doubts(Controls controls, double net, Verdict.Length length) {
@@ -57,7 +63,8 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         }
         SwimSample clampOff = controls.clampOff();
         if (clampOff != null && left(clampOff, controls) - error(clampOff, controls) < Verdict.LEAST_LEFT) {
-            doubts.add("without the acceleration clamp " + percent(left(clampOff, controls)) + " ± " + percent(error(clampOff, controls))
+            doubts.add("without the acceleration clamp " + percent(left(clampOff, controls)) + " ± "
+                    + percent(error(clampOff, controls))
                     + " of its way is left");
         }
         if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {

@@ -20,8 +20,10 @@ public final class ConvergenceText {
 
     /** On one line: whether the speed is converged, what it goes to, and by how much each finer level changes it. */
     public static String of(Convergence convergence) {
-        String changes = finer(convergence).stream().map(level -> change(level, convergence)).collect(Collectors.joining(", "));
-        return verdict(convergence) + ": " + (convergence.estimate() == null ? changes : speed(convergence) + ", from " + changes);
+        String changes = finer(convergence).stream().map(level -> change(level, convergence))
+                .collect(Collectors.joining(", "));
+        return verdict(convergence) + ": "
+                + (convergence.estimate() == null ? changes : speed(convergence) + ", from " + changes);
     }
 
     private static List<Convergence.Level> finer(Convergence convergence) {
@@ -49,7 +51,8 @@ public final class ConvergenceText {
 
     private static boolean speedMayBeNone(Convergence convergence) {
         Convergence.Value base = baseSpeed(convergence);
-        return base != null && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= SURE * base.error());
+        return base != null
+                && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= SURE * base.error());
     }
 
     private static Convergence.Value baseSpeed(Convergence convergence) {
@@ -57,7 +60,8 @@ public final class ConvergenceText {
     }
 
     private static String speed(Convergence convergence) {
-        return inLengths(convergence.estimate().speed(), convergence.estimate().error(), convergence) + " at time step and spacing 0";
+        return inLengths(convergence.estimate().speed(), convergence.estimate().error(), convergence)
+                + " at time step and spacing 0";
     }
 
     private static String change(Convergence.Level level, Convergence convergence) {
@@ -74,7 +78,8 @@ public final class ConvergenceText {
                     : Double.valueOf(Math.hypot(base.error(), level.speed().error()));
             return inLengths(level.speed().mean() - base.mean(), error, convergence) + " more";
         }
-        return level.change() == null ? "no speed" : withError(level.change().mean(), level.change().error(), share -> 100 * share, 1) + " %";
+        return level.change() == null ? "no speed"
+                : withError(level.change().mean(), level.change().error(), share -> 100 * share, 1) + " %";
     }
 
     private static String inLengths(double speed, Double error, Convergence convergence) {

@@ -38,11 +38,14 @@ public final class FreshText {
                     : "; " + spread(half.goals(), 4) + " at half the time step"));
         }
         lines.put("speed", spread(base.speed(), 4) + " units/s" + (base.bodyLengths() == null ? ""
-                : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3) + " per beat"));
+                : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3)
+                        + " per beat"));
         lines.put("selected", Numbers.worth(fresh.selected()) + " by " + (fresh.selectedRuns() == 1 ? "one run"
                 : judge(fresh.judge()) + " of " + fresh.selectedRuns() + " runs") + ", "
-                + (fresh.judge() == Aggregate.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again()) + " again"
-                + (fresh.selectionLoss() == null ? "" : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
+                + (fresh.judge() == Aggregate.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again())
+                + " again"
+                + (fresh.selectionLoss() == null ? ""
+                        : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
         return lines;
     }
 

@@ -23,7 +23,8 @@ final class HalfStep {
 
     /** In words how they do not agree; null if they do. */
     static String doubt(double way, double atHalf) {
-        return agrees(way, atHalf) ? null : (atHalf - way) * way > 0 ? "it gets more than half as far again at half the time step"
-                : "it loses more than half at half the time step";
+        return agrees(way, atHalf) ? null
+                : (atHalf - way) * way > 0 ? "it gets more than half as far again at half the time step"
+                        : "it loses more than half at half the time step";
     }
 }

@@ -61,8 +61,10 @@ public record Measure(String name, String value, String expected, Outcome outcom
         all.add(halfStep(fresh, way, unit, name));
         all.add(vacuum(best.vacuum(), best, way));
         if (fresh != null && fresh.selectionLoss() != null) {
-            all.add(new Measure("lost since it was chosen", Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %", "at most "
-                    + Math.round(100 * SMALL_LOSS) + " %", outcome(fresh.selectionLoss() <= SMALL_LOSS)));
+            all.add(new Measure("lost since it was chosen", Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %",
+                    "at most "
+                            + Math.round(100 * SMALL_LOSS) + " %",
+                    outcome(fresh.selectionLoss() <= SMALL_LOSS)));
         }
         all.addAll(controls == null ? List.of(missing("resting muscles", "moves less than the swimmer"),
                 missing("mirrored", HALF)) : controls(controls, unit, name));
@@ -93,12 +95,14 @@ public record Measure(String name, String value, String expected, Outcome outcom
     private static List<Measure> controls(Controls controls, double unit, String name) {
         List<Measure> all = new ArrayList<>();
         all.add(new Measure("resting muscles", spread(controls.resting().distance(), unit) + " " + name,
-                Verdict.LEAST_DISTANCE + " " + name + " less than the swimmer", outcome(controls.net() / unit >= Verdict.LEAST_DISTANCE)));
+                Verdict.LEAST_DISTANCE + " " + name + " less than the swimmer",
+                outcome(controls.net() / unit >= Verdict.LEAST_DISTANCE)));
         add(all, "mirrored", controls.mirrored(), controls);
         add(all, "without the acceleration clamp", controls.clampOff(), controls);
         add(all, "on " + controls.backend(), controls.otherBackend(), controls);
         if (controls.underWater() != null) {
-            all.add(new Measure("share of the body under water", Numbers.fixed(100 * controls.underWater(), 0) + " %", "at least half",
+            all.add(new Measure("share of the body under water", Numbers.fixed(100 * controls.underWater(), 0) + " %",
+                    "at least half",
                     outcome(controls.underWater() >= Verdict.LEAST_LEFT)));
         }
         return all;
@@ -107,7 +111,8 @@ public record Measure(String name, String value, String expected, Outcome outcom
     private static void add(List<Measure> all, String name, SwimSample sample, Controls controls) {
         if (sample != null) {
             double left = ControlVerdict.left(sample, controls);
-            all.add(new Measure(name, Numbers.fixed(100 * left, 0) + " % of its way", HALF, outcome(left >= Verdict.LEAST_LEFT)));
+            all.add(new Measure(name, Numbers.fixed(100 * left, 0) + " % of its way", HALF,
+                    outcome(left >= Verdict.LEAST_LEFT)));
         }
     }
 

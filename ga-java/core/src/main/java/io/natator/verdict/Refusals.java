@@ -28,6 +28,7 @@ public final class Refusals {
         laws.entrySet().stream().sorted(Map.Entry.<String, Integer>comparingByValue(Comparator.reverseOrder()))
                 .forEach(one -> parts.add(one.getValue() + (parts.isEmpty() ? " broke law " : " ") + one.getKey()));
         int all = laws.values().stream().mapToInt(Integer::intValue).sum();
-        return "refused " + all + " of " + Numbers.count(state.evaluations(), "evaluation") + ": " + String.join(", ", parts);
+        return "refused " + all + " of " + Numbers.count(state.evaluations(), "evaluation") + ": "
+                + String.join(", ", parts);
     }
 }

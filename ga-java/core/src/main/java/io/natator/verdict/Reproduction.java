@@ -50,7 +50,8 @@ public final class Reproduction {
      * @return one line, or null if today's program repeats the stored result
      */
     public String difference(SimulationResult today) throws InterruptedException {
-        if (!stored.isFromOwnStart() || today.status() != SimulationResult.Status.OK || today.hash().equals(stored.result().hash())) {
+        if (!stored.isFromOwnStart() || today.status() != SimulationResult.Status.OK
+                || today.hash().equals(stored.result().hash())) {
             return null;
         }
         return line(today.distance());
@@ -76,7 +77,8 @@ public final class Reproduction {
     }
 
     private String told(double today, String reason) {
-        return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program " + Numbers.fixed(today, DIGITS)
+        return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program "
+                + Numbers.fixed(today, DIGITS)
                 + " (" + reason + ")";
     }
 }

@@ -97,7 +97,8 @@ public record Verdict(Kind kind, String text, String advice) {
         if (vacuum.status() != SimulationResult.Status.OK) {
             return unproven("not judged: moves at " + moves + "; no result in vacuum, " + why(vacuum), null);
         }
-        return judged(water, vacuum, length, moves + ", " + Numbers.fixed(vacuum.speed() / length.unit(), 2) + " in vacuum");
+        return judged(water, vacuum, length,
+                moves + ", " + Numbers.fixed(vacuum.speed() / length.unit(), 2) + " in vacuum");
     }
 
     /** By the drift first, since that is no swimming wherever it leads. */
@@ -131,7 +132,8 @@ public record Verdict(Kind kind, String text, String advice) {
                     keepsMomentum ? LONGER : HONEST);
         }
         return keepsMomentum ? new Verdict(Kind.SWIMS, "swims: " + speeds + end, null)
-                : unproven("may swim: " + speeds + end + "; no proof, since scheme flex does not keep momentum", NEUTRAL);
+                : unproven("may swim: " + speeds + end + "; no proof, since scheme flex does not keep momentum",
+                        NEUTRAL);
     }
 
     /** Why fresh runs do not show that it swims; null if they do. */
@@ -149,12 +151,14 @@ public record Verdict(Kind kind, String text, String advice) {
         if (2 * failed > base.runs()) {
             return failed + " of " + base.runs() + " runs failed";
         }
-        return fresh.halfStep() == null ? null : HalfStep.doubt(base.distance().mean(), fresh.halfStep().distance().mean());
+        return fresh.halfStep() == null ? null
+                : HalfStep.doubt(base.distance().mean(), fresh.halfStep().distance().mean());
     }
 
     /** How many of the runs were unstable, which one is enough to doubt. */
     static String instability(SwimSample sample) {
-        return sample.unstable() + " of " + Numbers.count(sample.runs(), "run") + (sample.unstable() == 1 ? " was" : " were") + " unstable";
+        return sample.unstable() + " of " + Numbers.count(sample.runs(), "run")
+                + (sample.unstable() == 1 ? " was" : " were") + " unstable";
     }
 
     /**
@@ -217,7 +221,8 @@ public record Verdict(Kind kind, String text, String advice) {
 
         static Swim of(FreshRuns fresh, SimulationResult one) {
             SwimSample base = fresh.base();
-            return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(), one.scheme(),
+            return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(),
+                    one.scheme(),
                     fresh, null);
         }
     }
@@ -249,11 +254,13 @@ public record Verdict(Kind kind, String text, String advice) {
             }
             SwimSample half = swim.fresh().halfStep();
             return with(swim.speed(), swim.fresh().base().speed(), 2) + " " + name + "/s"
-                    + (half == null ? "" : ", " + Numbers.fixed(half.speed().mean() / unit, 2) + " at half the time step");
+                    + (half == null ? ""
+                            : ", " + Numbers.fixed(half.speed().mean() / unit, 2) + " at half the time step");
         }
 
         private String with(double value, Spread spread, int digits) {
-            return spread == null ? Numbers.fixed(value / unit, digits) : Numbers.withError(value / unit, spread.sd() / unit, digits);
+            return spread == null ? Numbers.fixed(value / unit, digits)
+                    : Numbers.withError(value / unit, spread.sd() / unit, digits);
         }
     }
 }

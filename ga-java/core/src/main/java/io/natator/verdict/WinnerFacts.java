@@ -58,11 +58,13 @@ public final class WinnerFacts {
         if (best.fresh() != null) {
             SwimSample base = best.fresh().base();
             put(facts, "cost", cost(base.work(), base.costOfTransport()));
-            put(facts, "flow", numbers(base.reynolds(), base.strouhal(), base.cavities(), across(best.result().swimming())));
+            put(facts, "flow",
+                    numbers(base.reynolds(), base.strouhal(), base.cavities(), across(best.result().swimming())));
         } else {
             SimulationResult one = best.result();
             SwimmingNumbers numbers = one.swimming();
-            put(facts, "cost", cost(one.work(), one.work() == null || one.distanceOrZero() <= 0 ? null : one.work() / one.distance()));
+            put(facts, "cost", cost(one.work(),
+                    one.work() == null || one.distanceOrZero() <= 0 ? null : one.work() / one.distance()));
             put(facts, "flow", numbers == null ? List.of()
                     : numbers(numbers.reynolds(), numbers.strouhal(), numbers.cavities(), across(numbers)));
         }

@@ -73,8 +73,10 @@ class BodyGenomeTest {
         assertThat(joints).hasSameSizeAs(scene.joints()).isSorted().doesNotHaveDuplicates();
         assertThat(joints.get(0)).isPositive();
         assertThat(body.part(joints.get(joints.size() - 1))).isLessThan(body.finBegin());
-        assertThat(body.height().points()).allSatisfy(point -> assertThat(point.value() / 0.075).isGreaterThanOrEqualTo(1.5));
-        assertThat(body.width().points()).allSatisfy(point -> assertThat(point.value() / 0.075).isGreaterThanOrEqualTo(1.5));
+        assertThat(body.height().points())
+                .allSatisfy(point -> assertThat(point.value() / 0.075).isGreaterThanOrEqualTo(1.5));
+        assertThat(body.width().points())
+                .allSatisfy(point -> assertThat(point.value() / 0.075).isGreaterThanOrEqualTo(1.5));
         assertThat(scene.with(body.patch())).isEqualTo(body);
     }
 
@@ -85,7 +87,8 @@ class BodyGenomeTest {
 
         BodyGenome genome = new BodyGenome(ProfileBody.of(creature));
 
-        assertThat(genome.genes()).extracting(GeneRange::name).contains("height at 0 %", "height at 25 %", "height at 50 %",
+        assertThat(genome.genes()).extracting(GeneRange::name).contains("height at 0 %", "height at 25 %",
+                "height at 50 %",
                 "height at 75 %", "height at 100 %", "muscle strength at 50 %");
         assertThat(genome.decode(genome.own()).particles()).isEqualTo(ProfileBody.of(creature).particles());
     }
@@ -119,7 +122,8 @@ class BodyGenomeTest {
         assertThat(both.genes()).hasSize(genes.size());
         assertThat(swimmer.gait()).isEqualTo(gaits.decode(genes.subList(0, 16)));
         assertThat(swimmer.body()).isEqualTo(bodies.decode(bodies.own()).patch());
-        assertThatThrownBy(() -> both.decode(genes.subList(1, genes.size()))).hasMessageStartingWith("39 genes given; expected 40");
+        assertThatThrownBy(() -> both.decode(genes.subList(1, genes.size())))
+                .hasMessageStartingWith("39 genes given; expected 40");
     }
 
     @Test

@@ -68,14 +68,16 @@ class RealBodyTest {
                 .withEvolve(new BodyEvolution(Evolved.BOTH, own, null));
         SplittableRandom random = new SplittableRandom(5);
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
-                settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random)))).toList();
+                settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random))))
+                .toList();
         ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
 
         List<String> alone = hashes(requests, execution);
 
         assertThat(alone).doesNotHaveDuplicates().doesNotContainNull();
         assertThat(hashes(requests, execution.withMode(SimulatorMode.BATCH))).isEqualTo(alone);
-        try (CachedEvaluator cached = new CachedEvaluator(Evaluator.open(execution), new EvaluationCache(folder), execution)) {
+        try (CachedEvaluator cached = new CachedEvaluator(Evaluator.open(execution), new EvaluationCache(folder),
+                execution)) {
             for (int found : List.of(0, 3)) {
                 assertThat(cached.evaluate(requests)).extracting(SimulationResult::hash).isEqualTo(alone);
                 assertThat(cached.found()).isEqualTo(found);
@@ -83,7 +85,8 @@ class RealBodyTest {
         }
     }
 
-    private static List<String> hashes(List<SimulationRequest> requests, ExecutionSettings execution) throws InterruptedException {
+    private static List<String> hashes(List<SimulationRequest> requests, ExecutionSettings execution)
+            throws InterruptedException {
         try (Evaluator evaluator = Evaluator.open(execution)) {
             return evaluator.evaluate(requests).stream().map(SimulationResult::hash).toList();
         }

@@ -79,8 +79,9 @@ class CachedEvaluatorTest {
     void failuresAreNotKept() throws InterruptedException {
         FakePool.Simulation failing = request -> SimulationResult.failed(request.id(), "crashed");
         SimulationRequest request = new SimulationRequest(1, "thesis/creature-1", GAIT, null, null, null);
-        try (Evaluator inner = new FakePool(failing, 1); CachedEvaluator cached = new CachedEvaluator(inner,
-                new EvaluationCache(folder.resolve("cache")), execution)) {
+        try (Evaluator inner = new FakePool(failing, 1);
+                CachedEvaluator cached = new CachedEvaluator(inner,
+                        new EvaluationCache(folder.resolve("cache")), execution)) {
             cached.evaluate(request);
         }
 

@@ -76,9 +76,11 @@ class CompactRunTest {
     @CsvSource({"jgap, 1", "jgap, 2", "random, 1", "map-elites, 2", "nsga2, 1"})
     void aCompactRunGoesOnAsIfItHadNeverStopped(String optimizer, int starts) throws Exception {
         OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withStarts(starts, Aggregate.MEAN)
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withStarts(starts, Aggregate.MEAN)
                 .withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
-                        : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
+                        : List.of(new WeightedObjective(Objective.DISTANCE, null),
+                                new WeightedObjective(Objective.WORK, null)));
         Path parts = folder.resolve("parts");
         evolve(parts, settings.withSize(8, 2));
         long dropped = RunReader.recorded(parts).end();
@@ -154,7 +156,8 @@ class CompactRunTest {
         CompactRun.compact(old);
         Files.delete(old.resolve("checkpoint.json.gz"));
         assertThatThrownBy(() -> evolve(old, settings.withSize(8, 3))).isInstanceOf(InvalidInputException.class)
-                .hasMessage(old + " has no population any more, which it would go on from: it lacks checkpoint.json.gz");
+                .hasMessage(
+                        old + " has no population any more, which it would go on from: it lacks checkpoint.json.gz");
 
         Path strategy = folder.resolve("strategy");
         EvolutionSettings other = settings.withObjectives(OptimizerKind.CMA_ES, null);

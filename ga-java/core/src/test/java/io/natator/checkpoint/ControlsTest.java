@@ -20,9 +20,11 @@ import org.junit.jupiter.params.provider.ValueSource;
 class ControlsTest {
 
     private static final Gait GAIT = new Gait(2, List.of(0.1), List.of(0.0));
-    private static final SwimSample SAMPLE = SwimSample.of(List.of(new SimulationResult(0L, SimulationResult.Status.OK, 1.0, "completed", 4.0,
-            240, "conserving", "float", null, null, null, null, null, null)), 4, GAIT, 4.0, null);
-    private static final Controls CONTROLS = new Controls(GAIT, null, "conserving", 4.0, null, SAMPLE, SAMPLE, SAMPLE, null, SAMPLE, SAMPLE,
+    private static final SwimSample SAMPLE = SwimSample
+            .of(List.of(new SimulationResult(0L, SimulationResult.Status.OK, 1.0, "completed", 4.0,
+                    240, "conserving", "float", null, null, null, null, null, null)), 4, GAIT, 4.0, null);
+    private static final Controls CONTROLS = new Controls(GAIT, null, "conserving", 4.0, null, SAMPLE, SAMPLE, SAMPLE,
+            null, SAMPLE, SAMPLE,
             null, null, null);
     private static final Swimmer WINNER = new Swimmer(GAIT, null);
     @TempDir

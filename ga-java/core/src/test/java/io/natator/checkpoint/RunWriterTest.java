@@ -70,7 +70,8 @@ class RunWriterTest {
 
     /** Whoever reads it would wait for ever. */
     @ParameterizedTest
-    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "savings.json", "check.json", "evaluations.jsonl", "timings.csv"})
+    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "savings.json", "check.json", "evaluations.jsonl",
+            "timings.csv"})
     @Timeout(value = 10, unit = TimeUnit.MINUTES, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
     void aPipeInPlaceOfAFileIsRefused(String name) throws IOException, InterruptedException {
         RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
@@ -81,8 +82,9 @@ class RunWriterTest {
 
     /** Before anything is computed that could not be written then. */
     @ParameterizedTest
-    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "best.json", "environment.json", "savings.json", "evaluations.jsonl",
-        "generations.csv", "timings.csv", "plots/fitness.png"})
+    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "best.json", "environment.json", "savings.json",
+            "evaluations.jsonl",
+            "generations.csv", "timings.csv", "plots/fitness.png"})
     void aFolderAndALinkThatLeadsNowhereInPlaceOfAFileAreRefused(String name) throws IOException {
         RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
         Path file = run.resolve(name);
@@ -106,7 +108,8 @@ class RunWriterTest {
         }
 
         assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessage("checkpoint " + run.resolve("checkpoint.json") + " cannot be read: larger than 1073741824 bytes");
+                .hasMessage("checkpoint " + run.resolve("checkpoint.json")
+                        + " cannot be read: larger than 1073741824 bytes");
     }
 
     @Test
@@ -139,7 +142,8 @@ class RunWriterTest {
     void holdsAllThatARunIsMadeOf() throws IOException {
         evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
 
-        assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json", "digests.json", "digests.txt",
+        assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json", "digests.json",
+                "digests.txt",
                 "evaluations.jsonl", "generations.csv");
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(6);
@@ -264,8 +268,9 @@ class RunWriterTest {
         evolve(RunWriter.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
         RunWriter broken = RunWriter.create(run, settings(OperatorSet.CORRECTED));
         ToySimulator toy = new ToySimulator();
-        try (broken; Evaluator pool = new FakePool(request -> request.id() < 15 ? toy.evaluate(request)
-                : SimulationResult.failed(request.id(), "no memory"), 2)) {
+        try (broken;
+                Evaluator pool = new FakePool(request -> request.id() < 15 ? toy.evaluate(request)
+                        : SimulationResult.failed(request.id(), "no memory"), 2)) {
             Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded());
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(EvolutionFailedException.class)
                     .hasMessageContaining("simulations failed, the first: no memory");
@@ -326,19 +331,20 @@ class RunWriterTest {
     /** Of a generation that is finished, and of one that is not. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "evaluations.jsonl|\"distance\":[-0-9.eE]+|\"distance\":-1.0|evaluations.jsonl, line 1 was edited",
-        "evaluations.jsonl|\"simulated\":[-0-9.eE]+|\"simulated\":1.25|evaluations.jsonl, line 1 was edited",
-        "evaluations.jsonl|(?s)^(.*\"distance\":)[-0-9.eE]+|$19.5|was edited",
-        "checkpoint.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|checkpoint.json was edited",
-        "checkpoint.json|\"mean\" : [-0-9.eE]+|\"mean\" : 9.5|checkpoint.json was edited",
-        "checkpoint.json|\"evaluations\" : [0-9]+|\"evaluations\" : 3|checkpoint.json was edited",
-        "best.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|best.json was edited"})
+            "evaluations.jsonl|\"distance\":[-0-9.eE]+|\"distance\":-1.0|evaluations.jsonl, line 1 was edited",
+            "evaluations.jsonl|\"simulated\":[-0-9.eE]+|\"simulated\":1.25|evaluations.jsonl, line 1 was edited",
+            "evaluations.jsonl|(?s)^(.*\"distance\":)[-0-9.eE]+|$19.5|was edited",
+            "checkpoint.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|checkpoint.json was edited",
+            "checkpoint.json|\"mean\" : [-0-9.eE]+|\"mean\" : 9.5|checkpoint.json was edited",
+            "checkpoint.json|\"evaluations\" : [0-9]+|\"evaluations\" : 3|checkpoint.json was edited",
+            "best.json|\"distance\" : [-0-9.eE]+|\"distance\" : 9.5|best.json was edited"})
     void whatWasEditedIsToldOf(String name, String from, String to, String message) throws IOException {
         Path folder = killed(2);
         edit(folder.resolve(name), from, to);
 
         assertThatThrownBy(() -> RunWriter.open(folder)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining(message).hasMessageContaining("; expected it as the run wrote it").hasMessageNotContaining("\n");
+                .hasMessageContaining(message).hasMessageContaining("; expected it as the run wrote it")
+                .hasMessageNotContaining("\n");
         Files.delete(folder.resolve("digests.json"));
         Files.delete(folder.resolve("digests.txt"));
         RunWriter.open(folder).close();
@@ -360,7 +366,8 @@ class RunWriterTest {
                 if (share < 0) {
                     Files.delete(copy.resolve(name));
                 } else {
-                    Files.writeString(copy.resolve(name), files.get(name).substring(0, (int) (share * files.get(name).length())));
+                    Files.writeString(copy.resolve(name),
+                            files.get(name).substring(0, (int) (share * files.get(name).length())));
                 }
                 try {
                     evolve(RunWriter.open(copy));
@@ -370,7 +377,8 @@ class RunWriterTest {
                 }
                 same++;
                 for (Map.Entry<String, String> file : lastingFiles(copy).entrySet()) {
-                    assertThat(List.of("digests.json", "config.json").contains(file.getKey()) || file.getValue().equals(whole.get(file.getKey())))
+                    assertThat(List.of("digests.json", "config.json").contains(file.getKey())
+                            || file.getValue().equals(whole.get(file.getKey())))
                             .as("%s, %s of %s", file.getKey(), share, name).isTrue();
                 }
             }

@@ -28,9 +28,9 @@ class AggregateTest {
 
     @ParameterizedTest
     @CsvSource({"MEAN, 0, 'starts is 0; expected a whole number from 1 to 1000'",
-        "MEAN, 1001, 'starts is 1001; expected a whole number from 1 to 1000'",
-        "MEDIAN, 2, 'starts is 2; expected at least 3 with --judge median'",
-        "LOWER_QUARTILE, 3, 'starts is 3; expected at least 4 with --judge lower-quartile'"})
+            "MEAN, 1001, 'starts is 1001; expected a whole number from 1 to 1000'",
+            "MEDIAN, 2, 'starts is 2; expected at least 3 with --judge median'",
+            "LOWER_QUARTILE, 3, 'starts is 3; expected at least 4 with --judge lower-quartile'"})
     void needsEnoughStarts(Aggregate judge, int starts, String message) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2);
         assertThatThrownBy(() -> settings.withStarts(starts, judge)).isInstanceOf(InvalidInputException.class)

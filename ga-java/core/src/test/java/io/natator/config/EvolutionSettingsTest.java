@@ -52,9 +52,9 @@ class EvolutionSettingsTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"{\"scene\":\"a\"}|actuators",
-        "{\"scene\":\"a\",\"encoding\":\"dense\",\"actuators\":2,\"population\":9,\"generations\":1,\"seed\":1,\"gaussianDeviation\":0.1,"
-            + "\"sed\":2}|sed",
-        "{\"scene\":\"a\",\"scene\":\"b\"}|scene", "{\"scene\":\"a\"|ends too early", "{\"population\":2.5}|2.5"})
+            "{\"scene\":\"a\",\"encoding\":\"dense\",\"actuators\":2,\"population\":9,\"generations\":1,\"seed\":1,\"gaussianDeviation\":0.1,"
+                    + "\"sed\":2}|sed",
+            "{\"scene\":\"a\",\"scene\":\"b\"}|scene", "{\"scene\":\"a\"|ends too early", "{\"population\":2.5}|2.5"})
     void damagedFilesSayWhereAndWhat(String json, String what) {
         assertThatThrownBy(() -> Json.parse(json, EvolutionSettings.class))
                 .isInstanceOfSatisfying(JsonProcessingException.class,

@@ -24,58 +24,59 @@ class JsonErrorsTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "{'frequency':'fast'}|frequency: expected a number, not 'fast' (line 1, column 14)",
-        "{'frequency':{}}|frequency: expected a number",
-        "{'frequency':null}|frequency: expected a number",
-        "{'amplitude':3}|amplitude: expected a list",
-        "{'amplitude':['x']}|amplitude: expected a number, not 'x'",
-        "{'frequency':'1'}|frequency: expected a number, not '1'",
-        "{'frequency':true}|frequency: expected a number",
-        "{'amplitude':['1']}|amplitude: expected a number, not '1'",
-        "{'frequency':1,'amplitude':[1],'phase':[0],'speed':1}|speed: unknown key; expected some of ",
-        "[]|expected an object",
-        "``|found nothing; expected a JSON text",
-        "{'frequency':1|ends too early; expected the rest of the JSON text",
-        "{'frequency':|ends too early; expected the rest of the JSON text",
-        "{'amplitude':[1,|amplitude: ends too early; expected the rest of the JSON text",
-        "{'frequency':1,'amplitude':[1],'phase':[0]} {}|found another value after the first; expected one",
-        "{frequency:1}|found 'f'; expected a key in double quotes",
-        "{'frequency' 1}|found '1'; expected a colon",
-        "{'frequency':1 'phase':[0]}|found '\"'; expected a comma or '}'",
-        "{'amplitude':[1 2]}|amplitude: found '2'; expected a comma or ']'",
-        "{'amplitude':[1}|amplitude: found '}'; expected a comma or ']'",
-        "{'amplitude':[1,,2]}|amplitude: found ','; expected a value",
-        "{'frequency':1.}|found '}'; expected a digit",
-        "{'frequency':01}|found a number that begins with 0; expected it without",
-        "{'frequency':NaN}|found 'NaN'; expected a number",
-        "{'frequency':1e400}|frequency: found the number 1e400; expected one within 1.8e308",
-        "{'amplitude':[-1e999]}|amplitude: found the number -1e999; expected one within 1.8e308",
-        "{'frequency':1,'frequency':2}|key 'frequency' stands twice; expected it once",
-        "/* gait */ {}|found '/'; expected JSON",
-        "}|found '}', which closes nothing; expected JSON",
-        "\ufeff{}|found a byte order mark; expected JSON",
-        "nonsense|found 'nonsense'; expected JSON"})
+            "{'frequency':'fast'}|frequency: expected a number, not 'fast' (line 1, column 14)",
+            "{'frequency':{}}|frequency: expected a number",
+            "{'frequency':null}|frequency: expected a number",
+            "{'amplitude':3}|amplitude: expected a list",
+            "{'amplitude':['x']}|amplitude: expected a number, not 'x'",
+            "{'frequency':'1'}|frequency: expected a number, not '1'",
+            "{'frequency':true}|frequency: expected a number",
+            "{'amplitude':['1']}|amplitude: expected a number, not '1'",
+            "{'frequency':1,'amplitude':[1],'phase':[0],'speed':1}|speed: unknown key; expected some of ",
+            "[]|expected an object",
+            "``|found nothing; expected a JSON text",
+            "{'frequency':1|ends too early; expected the rest of the JSON text",
+            "{'frequency':|ends too early; expected the rest of the JSON text",
+            "{'amplitude':[1,|amplitude: ends too early; expected the rest of the JSON text",
+            "{'frequency':1,'amplitude':[1],'phase':[0]} {}|found another value after the first; expected one",
+            "{frequency:1}|found 'f'; expected a key in double quotes",
+            "{'frequency' 1}|found '1'; expected a colon",
+            "{'frequency':1 'phase':[0]}|found '\"'; expected a comma or '}'",
+            "{'amplitude':[1 2]}|amplitude: found '2'; expected a comma or ']'",
+            "{'amplitude':[1}|amplitude: found '}'; expected a comma or ']'",
+            "{'amplitude':[1,,2]}|amplitude: found ','; expected a value",
+            "{'frequency':1.}|found '}'; expected a digit",
+            "{'frequency':01}|found a number that begins with 0; expected it without",
+            "{'frequency':NaN}|found 'NaN'; expected a number",
+            "{'frequency':1e400}|frequency: found the number 1e400; expected one within 1.8e308",
+            "{'amplitude':[-1e999]}|amplitude: found the number -1e999; expected one within 1.8e308",
+            "{'frequency':1,'frequency':2}|key 'frequency' stands twice; expected it once",
+            "/* gait */ {}|found '/'; expected JSON",
+            "}|found '}', which closes nothing; expected JSON",
+            "\ufeff{}|found a byte order mark; expected JSON",
+            "nonsense|found 'nonsense'; expected JSON"})
     void whatIsWrongIsSaidWithoutOurInnards(String json, String start) {
         assertThat(reason(json, Gait.class)).startsWith(start).contains("(line 1, column ")
-                .doesNotContain("java.", "natator", "JsonToken", "Feature", "Source", "deserialize", "construct", "Unexpected",
+                .doesNotContain("java.", "natator", "JsonToken", "Feature", "Source", "deserialize", "construct",
+                        "Unexpected",
                         "oken", "code ");
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "{'backend':'gpu'}|backend: expected one of cpu, cuda, auto, not 'gpu'",
-        "{'population':1.5}|population: expected a whole number",
-        "{'population':9999999999}|population: expected a whole number from -2147483648 to 2147483647, not '9999999999'",
-        "{'scene':'a\tb'}|scene: found a control character (code 9) in a text; expected an escape such as \\n",
-        "{'scene':'\\q'}|scene: found '\\q'; expected an escape that JSON has",
-        "{'population':'40'}|population: expected a whole number, not '40'",
-        "{'vacuumCheck':'true'}|vacuumCheck: expected true or false, not 'true'",
-        "{'vacuumCheck':1}|vacuumCheck: expected true or false, not '1'",
-        "{'backend':0}|backend: expected one of cpu, cuda, auto, not '0'",
-        "{'scene':5}|scene: expected a text, not '5'",
-        "{'vacuumCheck':'perhaps'}|vacuumCheck: expected true or false, not 'perhaps'",
-        "{'scene':'x','encoding':'dense','actuators':2,'population':1,'generations':1,'seed':1,'operators':'stock',"
-            + "'gaussianDeviation':0.05}|population is 1; expected a whole number from 2 to 100000"})
+            "{'backend':'gpu'}|backend: expected one of cpu, cuda, auto, not 'gpu'",
+            "{'population':1.5}|population: expected a whole number",
+            "{'population':9999999999}|population: expected a whole number from -2147483648 to 2147483647, not '9999999999'",
+            "{'scene':'a\tb'}|scene: found a control character (code 9) in a text; expected an escape such as \\n",
+            "{'scene':'\\q'}|scene: found '\\q'; expected an escape that JSON has",
+            "{'population':'40'}|population: expected a whole number, not '40'",
+            "{'vacuumCheck':'true'}|vacuumCheck: expected true or false, not 'true'",
+            "{'vacuumCheck':1}|vacuumCheck: expected true or false, not '1'",
+            "{'backend':0}|backend: expected one of cpu, cuda, auto, not '0'",
+            "{'scene':5}|scene: expected a text, not '5'",
+            "{'vacuumCheck':'perhaps'}|vacuumCheck: expected true or false, not 'perhaps'",
+            "{'scene':'x','encoding':'dense','actuators':2,'population':1,'generations':1,'seed':1,'operators':'stock',"
+                    + "'gaussianDeviation':0.05}|population is 1; expected a whole number from 2 to 100000"})
     void settingsToo(String json, String start) {
         assertThat(reason(json, EvolutionSettings.class)).startsWith(start);
     }
@@ -84,19 +85,22 @@ class JsonErrorsTest {
     @Test
     void aPlaceThatIsNotKnownIsLeftOut() {
         assertThat(Json.reason(catchThrowableOfType(JsonProcessingException.class,
-                () -> Json.tree(Json.parse("{\"frequency\":1}", JsonNode.class), Gait.class)))).isEqualTo("amplitude is missing");
+                () -> Json.tree(Json.parse("{\"frequency\":1}", JsonNode.class), Gait.class))))
+                .isEqualTo("amplitude is missing");
     }
 
     /** Notepad and PowerShell write one; the simulator skips it, too. */
     @Test
     void aFileMayBeginWithAByteOrderMark(@TempDir Path folder) throws IOException {
-        Path file = Files.writeString(folder.resolve("gait.json"), "\ufeff{\"frequency\":1,\"amplitude\":[1],\"phase\":[0]}\r\n");
+        Path file = Files.writeString(folder.resolve("gait.json"),
+                "\ufeff{\"frequency\":1,\"amplitude\":[1],\"phase\":[0]}\r\n");
         assertThat(Json.read(file, Gait.class, "--gait").frequency()).isEqualTo(1);
     }
 
     @Test
     void noNumberIsInfinite() {
-        assertThat(reason("{'duration':1e400}", JsonNode.class)).contains("found the number 1e400; expected one within 1.8e308 (line 1");
+        assertThat(reason("{'duration':1e400}", JsonNode.class))
+                .contains("found the number 1e400; expected one within 1.8e308 (line 1");
     }
 
     @ParameterizedTest

@@ -21,8 +21,10 @@ class WeightedObjectiveTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"speed|has 'speed'; expected some of", "distance=0|expected a weight above 0",
-        "distance=x|expected a weight above 0", "distance=|expected a weight above 0", "distance=1=2|expected a weight",
-        "distance=Infinity|expected a weight above 0", "work,work|has work twice", "work,|has ''; expected some of"})
+            "distance=x|expected a weight above 0", "distance=|expected a weight above 0",
+            "distance=1=2|expected a weight",
+            "distance=Infinity|expected a weight above 0", "work,work|has work twice",
+            "work,|has ''; expected some of"})
     void othersAreRefused(String text, String message) {
         assertThatThrownBy(() -> WeightedObjective.parse(text)).isInstanceOf(InvalidInputException.class)
                 .hasMessageStartingWith("--objectives ").hasMessageContaining(message);
@@ -30,11 +32,11 @@ class WeightedObjectiveTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "JGAP|distance,work|optimizer jgap has one objective, not distance and work; expected a weight for each",
-        "CMA_ES|distance,work|optimizer cma-es has one objective",
-        "JGAP|distance=1,work|of which 1 have weights; expected all or none",
-        "NSGA2|distance|optimizer nsga2 is for several objectives without weights, not distance",
-        "NSGA2|distance=1,work=1|optimizer nsga2 is for several objectives without weights"})
+            "JGAP|distance,work|optimizer jgap has one objective, not distance and work; expected a weight for each",
+            "CMA_ES|distance,work|optimizer cma-es has one objective",
+            "JGAP|distance=1,work|of which 1 have weights; expected all or none",
+            "NSGA2|distance|optimizer nsga2 is for several objectives without weights, not distance",
+            "NSGA2|distance=1,work=1|optimizer nsga2 is for several objectives without weights"})
     void anOptimizerHasOneObjectiveOrSeveral(OptimizerKind optimizer, String objectives, String message) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2);
         assertThatThrownBy(() -> settings.withObjectives(optimizer, WeightedObjective.parse(objectives)))

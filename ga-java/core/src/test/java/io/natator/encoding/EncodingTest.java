@@ -55,7 +55,7 @@ class EncodingTest {
 
     @ParameterizedTest
     @CsvSource({"0.49, 0.5, frequency", "2.01, 0.5, frequency", "NaN, 0.5, frequency", "1, -0.1, amplitude 1",
-        "1, 1.1, amplitude 1", "1, Infinity, amplitude 1"})
+            "1, 1.1, amplitude 1", "1, Infinity, amplitude 1"})
     void genesOutsideTheirRangeAreNamed(double frequency, double amplitude, String name) {
         assertThatThrownBy(() -> new DenseEncoding(1).decode(List.of(frequency, amplitude)))
                 .isInstanceOf(IllegalArgumentException.class).hasMessageContaining(name)

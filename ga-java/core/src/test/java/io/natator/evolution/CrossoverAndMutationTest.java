@@ -84,7 +84,8 @@ class CrossoverAndMutationTest {
                 present.addAll(GeneticAlgorithm.genesOf(chromosome));
             }
             for (IChromosome child : children(OperatorSet.CORRECTED, 1, population)) {
-                changed += (int) GeneticAlgorithm.genesOf(child).stream().filter(gene -> !present.contains(gene)).count();
+                changed += (int) GeneticAlgorithm.genesOf(child).stream().filter(gene -> !present.contains(gene))
+                        .count();
             }
         }
 

@@ -69,14 +69,16 @@ class FaultInjectionTest {
 
     @ParameterizedTest
     @CsvSource({"RESIDENT, 1050, 1000", "PROCESS, 300, 280"})
-    void aThousandFaultsCostOnlyTheirOwnEvaluations(SimulatorMode mode, long count, int faults) throws IOException, InterruptedException {
+    void aThousandFaultsCostOnlyTheirOwnEvaluations(SimulatorMode mode, long count, int faults)
+            throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
                 .withSize(100, Budget.NO_LIMIT).withEvaluations(count);
-        ExecutionSettings execution =
-                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5)).withMode(mode);
+        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5))
+                .withMode(mode);
         long filesBefore = openFiles();
 
-        List<EvaluationRecord> evaluations = evolve(settings, execution, done -> { });
+        List<EvaluationRecord> evaluations = evolve(settings, execution, done -> {
+        });
 
         assertThat(evaluations).extracting(one -> one.result().id())
                 .containsExactlyElementsOf(LongStream.range(0, count).boxed().toList());
@@ -109,13 +111,15 @@ class FaultInjectionTest {
     void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
                 .withSize(20, Budget.NO_LIMIT).withEvaluations(40L);
-        ExecutionSettings execution =
-                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5)).withMode(mode);
+        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5))
+                .withMode(mode);
 
-        assertThat(evolve(settings, execution, done -> { })).hasSize(40).allSatisfy(evaluation -> {
+        assertThat(evolve(settings, execution, done -> {
+        })).hasSize(40).allSatisfy(evaluation -> {
             SimulationResult result = evaluation.result();
             boolean idle = List.of(17L, 18L).contains(result.id());
-            assertThat(result.status()).as("evaluation %d: %s", result.id(), result.error()).isEqualTo(idle ? Status.FAILED : Status.OK);
+            assertThat(result.status()).as("evaluation %d: %s", result.id(), result.error())
+                    .isEqualTo(idle ? Status.FAILED : Status.OK);
         });
         assertThatNoChildIsLeft();
     }

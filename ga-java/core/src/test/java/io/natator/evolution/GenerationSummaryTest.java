@@ -32,8 +32,9 @@ class GenerationSummaryTest {
     }
 
     private static Individual swim(double distance) {
-        return new Individual(List.of(0.5), 0, new SimulationResult(1L, SimulationResult.Status.OK, distance, "completed", 1.0, 60,
-                null, null, null, null, null));
+        return new Individual(List.of(0.5), 0,
+                new SimulationResult(1L, SimulationResult.Status.OK, distance, "completed", 1.0, 60,
+                        null, null, null, null, null));
     }
 
     private static Individual failed() {
@@ -49,10 +50,13 @@ class GenerationSummaryTest {
     /** What it is worth by objectives is not as a swim is, and among worths below 0 a 0 would be the best. */
     @Test
     void whatFailedIsLeftOutAmongOtherWorths() {
-        List<Individual> population = Stream.of(swim(-0.5), swim(-1.5), failed()).map(one -> new Individual(one.genes(), 0,
-                one.result().withWorth(List.of(0.0), one.isMeasured() ? one.score() : -200000))).toList();
+        List<Individual> population = Stream.of(swim(-0.5), swim(-1.5), failed())
+                .map(one -> new Individual(one.genes(), 0,
+                        one.result().withWorth(List.of(0.0), one.isMeasured() ? one.score() : -200000)))
+                .toList();
 
-        assertThat(GenerationSummary.of(0, population, 3, 0, 1)).isEqualTo(new GenerationSummary(0, -0.5, -1, -1, -1.5, 3, 3, 0, 1));
+        assertThat(GenerationSummary.of(0, population, 3, 0, 1))
+                .isEqualTo(new GenerationSummary(0, -0.5, -1, -1, -1.5, 3, 3, 0, 1));
     }
 
     @Test

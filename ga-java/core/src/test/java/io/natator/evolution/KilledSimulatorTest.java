@@ -36,17 +36,19 @@ class KilledSimulatorTest {
     void theRealSimulatorUnderKill9() throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
                 .withSize(40, Budget.NO_LIMIT).withEvaluations(160L).withScene(null, 0.05, null);
-        ExecutionSettings execution =
-                new ExecutionSettings(REAL, 2, Duration.ofMinutes(5)).withMode(SimulatorMode.RESIDENT);
+        ExecutionSettings execution = new ExecutionSettings(REAL, 2, Duration.ofMinutes(5))
+                .withMode(SimulatorMode.RESIDENT);
         long filesBefore = openFiles();
         AtomicInteger kills = new AtomicInteger();
-        List<EvaluationRecord> evaluations = FaultInjectionTest.evolve(settings, execution, count -> killNowAndThen(count, kills));
+        List<EvaluationRecord> evaluations = FaultInjectionTest.evolve(settings, execution,
+                count -> killNowAndThen(count, kills));
         assertThat(evaluations).hasSize(160);
         assertThat(kills.get()).as("processes killed").isGreaterThan(10);
         assertThatNoChildIsLeft();
         assertThatOpenFilesAreAtMost(filesBefore + 4);
         List<SimulationRequest> requests = evaluations.stream()
-                .map(one -> new SimulationRequest(one.result().id(), settings.problem().scene(), one.gait(), 0.05, null, null))
+                .map(one -> new SimulationRequest(one.result().id(), settings.problem().scene(), one.gait(), 0.05, null,
+                        null))
                 .toList();
         Map<Long, SimulationResult> inPeace = new HashMap<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {

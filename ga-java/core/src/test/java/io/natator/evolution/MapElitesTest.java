@@ -57,7 +57,8 @@ class MapElitesTest {
         elites.forEach((cell, elite) -> {
             Gait gait = ENCODING.decode(elite.genes());
             double way = Math.abs(ToySimulator.distance(gait));
-            assertThat(4 * gait.frequency() / (way / ToyEvolution.BODY_LENGTH)).isBetween(end(cell.beats(), 0), end(cell.beats(), 1));
+            assertThat(4 * gait.frequency() / (way / ToyEvolution.BODY_LENGTH)).isBetween(end(cell.beats(), 0),
+                    end(cell.beats(), 1));
             assertThat(ToySimulator.work(gait) / way).isBetween(end(cell.cost(), 0), end(cell.cost(), 1));
         });
     }
@@ -73,7 +74,8 @@ class MapElitesTest {
         assertThat(EliteMap.cell(new Effort(8, -1, -2, 12))).as("backwards").isEqualTo(new EliteMap.Cell(6, 5));
         assertThat(EliteMap.edge(6)).isEqualTo(8);
         assertThat(EliteMap.cell(new Effort(8, 8, 8, 0.6))).as("below 1").isEqualTo(new EliteMap.Cell(0, -8));
-        assertThat(List.of(new Effort(8, 0.06, 0.1, 3), new Effort(8, 0, 0, 3), new Effort(8, 1, 1, 0), new Effort(8, 0, 0, 0)))
+        assertThat(List.of(new Effort(8, 0.06, 0.1, 3), new Effort(8, 0, 0, 3), new Effort(8, 1, 1, 0),
+                new Effort(8, 0, 0, 0)))
                 .allSatisfy(effort -> assertThat(EliteMap.cell(effort)).isEqualTo(EliteMap.Cell.NOWHERE));
     }
 
@@ -84,11 +86,15 @@ class MapElitesTest {
         EvolutionState end = recorder.states.get(4);
 
         assertThat(end.champions()).isNotEmpty().allSatisfy(one -> {
-            List<EvaluationRecord> own = recorder.evaluations.stream().filter(run -> run.genes().equals(one.genes())).toList();
+            List<EvaluationRecord> own = recorder.evaluations.stream().filter(run -> run.genes().equals(one.genes()))
+                    .toList();
             assertThat(own).hasSizeGreaterThan(3);
-            assertThat(one.effort().distance()).isCloseTo(own.stream().mapToDouble(run -> run.result().distance()).sum(), within(1e-12));
-            assertThat(one.effort().beats()).isCloseTo(4 * own.size() * ENCODING.decode(one.genes()).frequency(), within(1e-9));
-            assertThat(one.effort().work()).isCloseTo(own.size() * ToySimulator.work(ENCODING.decode(one.genes())), within(1e-9));
+            assertThat(one.effort().distance())
+                    .isCloseTo(own.stream().mapToDouble(run -> run.result().distance()).sum(), within(1e-12));
+            assertThat(one.effort().beats()).isCloseTo(4 * own.size() * ENCODING.decode(one.genes()).frequency(),
+                    within(1e-9));
+            assertThat(one.effort().work()).isCloseTo(own.size() * ToySimulator.work(ENCODING.decode(one.genes())),
+                    within(1e-9));
         });
         assertThat(Json.line(end)).contains("\"effort\":{\"beats\":");
     }
@@ -96,13 +102,15 @@ class MapElitesTest {
     /** As scheme flex, which cannot tell what its muscles do. */
     @Test
     void withoutWorkThereAreNoKinds() {
-        FakePool.Simulation flex = request -> new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0, "completed", 4.0, 240, "flex", "float",
-                    null, null, null);
+        FakePool.Simulation flex = request -> new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0,
+                "completed", 4.0, 240, "flex", "float",
+                null, null, null);
         try (Evaluator pool = new FakePool(flex, 1)) {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
                     new RecordedEvaluations(0, List.of()));
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
-                    .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
+                    .hasMessageStartingWith(
+                            "optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
         }
     }
 
@@ -113,6 +121,7 @@ class MapElitesTest {
         List<Individual> old = state.population().stream()
                 .map(one -> new Individual(one.genes(), one.age(), one.result().withEffort(null))).toList();
 
-        assertThatThrownBy(() -> new EliteMap(old)).isInstanceOf(EvolutionFailedException.class).hasMessageContaining("another version");
+        assertThatThrownBy(() -> new EliteMap(old)).isInstanceOf(EvolutionFailedException.class)
+                .hasMessageContaining("another version");
     }
 }

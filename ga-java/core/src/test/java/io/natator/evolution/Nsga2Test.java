@@ -21,7 +21,8 @@ class Nsga2Test {
     private static final Encoding ENCODING = EncodingKind.DENSE.forActuators(2);
 
     private static EvolutionState run(int generations, int starts) {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(24, generations)
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withSize(24, generations)
                 .withSeed(3).withStarts(starts, Aggregate.MEAN)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
         try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
@@ -47,7 +48,8 @@ class Nsga2Test {
             Gait gait = ENCODING.decode(one.genes());
             assertThat(one.objectives()).isEqualTo(List.of(ToySimulator.distance(gait), -ToySimulator.work(gait)));
         }
-        assertThat(end.population().stream().filter(one -> front.stream().noneMatch(best -> best.genes().equals(one.genes()))))
+        assertThat(end.population().stream()
+                .filter(one -> front.stream().noneMatch(best -> best.genes().equals(one.genes()))))
                 .allMatch(one -> end.population().stream().anyMatch(other -> dominates(other, one)));
         assertThat(front).isSortedAccordingTo((a, b) -> Double.compare(b.objectives().get(0), a.objectives().get(0)));
     }
@@ -58,7 +60,8 @@ class Nsga2Test {
         List<Individual> first = run(0, 1).population();
         List<Individual> front = ParetoRanking.front(run(15, 1).population(), ENCODING.genes());
 
-        assertThat(first.stream().filter(one -> front.stream().anyMatch(best -> dominates(best, one)))).hasSizeGreaterThan(20);
+        assertThat(first.stream().filter(one -> front.stream().anyMatch(best -> dominates(best, one))))
+                .hasSizeGreaterThan(20);
         // Fast ones at one end, thrifty ones at the other.
         assertThat(front.get(0).objectives().get(0)).isGreaterThan(0.45);
         assertThat(front.get(front.size() - 1).objectives().get(1)).isGreaterThan(-0.12);
@@ -72,7 +75,8 @@ class Nsga2Test {
         assertThat(end.champions()).allSatisfy(one -> {
             assertThat(one.runs()).isGreaterThan(3);
             assertThat(one.objectives().get(0)).isCloseTo(Aggregate.MEAN.of(one.estimate().runs()), within(1e-12));
-            assertThat(one.objectives().get(1)).isCloseTo(-ToySimulator.work(ENCODING.decode(one.genes())), within(1e-12));
+            assertThat(one.objectives().get(1)).isCloseTo(-ToySimulator.work(ENCODING.decode(one.genes())),
+                    within(1e-12));
         });
     }
 
@@ -80,7 +84,8 @@ class Nsga2Test {
     @Test
     void weightsMakeOneObjective() {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
-                .withObjectives(OptimizerKind.CMA_ES, WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
+                .withObjectives(OptimizerKind.CMA_ES,
+                        WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
         try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
             EvolutionState end = new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
                     new RecordedEvaluations(0, List.of())).run(null);

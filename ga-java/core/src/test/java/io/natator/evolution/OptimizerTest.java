@@ -47,10 +47,12 @@ class OptimizerTest {
         for (EvolutionState state : recorder.states) {
             for (long more : List.of(0L, 7L)) {
                 int kept = (int) Math.min(state.evaluations() + more, recorder.evaluations.size());
-                assertThat(ToyEvolution.run(settings, 2, state, recorder.evaluations.subList(0, kept))).isEqualTo(whole);
+                assertThat(ToyEvolution.run(settings, 2, state, recorder.evaluations.subList(0, kept)))
+                        .isEqualTo(whole);
             }
         }
-        assertThat(ToyEvolution.run(settings(optimizer, 250, 9), 2, null, List.of()).population()).isNotEqualTo(whole.population());
+        assertThat(ToyEvolution.run(settings(optimizer, 250, 9), 2, null, List.of()).population())
+                .isNotEqualTo(whole.population());
     }
 
     /** The toy's optimum, 0.5, lies inside the ranges of all ten genes; a hundredth off in each gives 0.499. */
@@ -87,8 +89,10 @@ class OptimizerTest {
     @EnumSource(OptimizerKind.class)
     void evolvesBodiesAsItDoesGaits(OptimizerKind optimizer) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("open-water/eel", EncodingKind.SPARSE, 8)
-                .withEvolve(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4).withSeed(3));
+        EvolutionSettings settings = ToyEvolution.by(optimizer,
+                EvolutionSettings.of("open-water/eel", EncodingKind.SPARSE, 8)
+                        .withEvolve(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4)
+                        .withSeed(3));
         EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
         EvolutionState second = recorder.states.get(1);
         int more = (int) second.evaluations() + 3;

@@ -49,7 +49,8 @@ class RepeatsTest {
             assertThat(ToyEvolution.run(settings, 2, from, recorder.evaluations.subList(0, kept))).as("after %d", kept)
                     .isEqualTo(whole);
         }
-        assertThat(ToyEvolution.run(settings.withSeed(7), 2, null, List.of()).champions()).isNotEqualTo(whole.champions());
+        assertThat(ToyEvolution.run(settings.withSeed(7), 2, null, List.of()).champions())
+                .isNotEqualTo(whole.champions());
     }
 
     @ParameterizedTest
@@ -70,7 +71,8 @@ class RepeatsTest {
                             Collectors.mapping(EvaluationRecord::start, Collectors.toSet())));
             assertThat(newborns).hasSizeGreaterThanOrEqualTo(20);
             assertThat(newborns.values()).containsOnly(first);
-            own.stream().map(EvaluationRecord::start).distinct().forEach(start -> assertThat(earlier).doesNotContain(start));
+            own.stream().map(EvaluationRecord::start).distinct()
+                    .forEach(start -> assertThat(earlier).doesNotContain(start));
             own.forEach(one -> earlier.add(one.start()));
         }
     }
@@ -82,7 +84,8 @@ class RepeatsTest {
         EvolutionState end = ToyEvolution.run(settings(optimizer, 5), 2, null, List.of(), recorder);
 
         for (EvolutionState state : recorder.states) {
-            assertThat(state.champions()).hasSize(4).isSortedAccordingTo((a, b) -> Double.compare(b.score(), a.score()));
+            assertThat(state.champions()).hasSize(4)
+                    .isSortedAccordingTo((a, b) -> Double.compare(b.score(), a.score()));
             assertThat(state.champions()).contains(state.best());
             assertThat(state.best().runs()).isGreaterThan(STARTS);
         }
@@ -103,7 +106,8 @@ class RepeatsTest {
         double luckiest = 0;
         for (long seed = 1; seed <= 8; seed++) {
             ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-            EvolutionState end = ToyEvolution.run(settings(OptimizerKind.JGAP, 6).withSeed(seed), 2, null, List.of(), recorder);
+            EvolutionState end = ToyEvolution.run(settings(OptimizerKind.JGAP, 6).withSeed(seed), 2, null, List.of(),
+                    recorder);
             lost += (end.best().score() - truth(end.best())) / 8;
             EvaluationRecord single = recorder.evaluations.stream().reduce(
                     (a, b) -> b.result().score() > a.result().score() ? b : a).orElseThrow();
@@ -146,7 +150,8 @@ class RepeatsTest {
     void theJudgeHasItsSay() {
         EvolutionSettings mean = settings(OptimizerKind.RANDOM, 2);
         EvolutionState byMean = ToyEvolution.run(mean, 2, null, List.of());
-        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Aggregate.LOWER_QUARTILE), 2, null, List.of());
+        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Aggregate.LOWER_QUARTILE), 2, null,
+                List.of());
 
         assertThat(byQuartile.champions()).allSatisfy(
                 one -> assertThat(one.score()).isEqualTo(Aggregate.LOWER_QUARTILE.of(one.estimate().runs())));

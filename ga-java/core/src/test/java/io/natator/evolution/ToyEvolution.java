@@ -28,7 +28,8 @@ final class ToyEvolution {
     static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
         try (Evaluator pool = new FakePool(new ToySimulator(), workers)) {
-            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), new RecordedEvaluations(0, recorded)).run(from);
+            return new Evolution(settings, evaluator(settings, pool), List.of(listeners),
+                    new RecordedEvaluations(0, recorded)).run(from);
         }
     }
 

@@ -24,7 +24,8 @@ public final class ToySimulator implements FakePool.Simulation {
         double distance = isVacuum(request) ? drift(request.gait())
                 : distance(request.gait()) + luck(request.gait(), request.start());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
-                "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2), null, null,
+                "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2),
+                null, null,
                 null, null, null);
     }
 
@@ -32,7 +33,8 @@ public final class ToySimulator implements FakePool.Simulation {
     static double distance(Gait gait) {
         double distance = 0.5 - Math.pow(gait.frequency() - 1.2, 2);
         for (int i = 0; i < gait.actuators(); i++) {
-            distance -= Math.pow(gait.amplitude().get(i) - 0.6, 2) + (i == 0 ? 0 : Math.pow(gait.phase().get(i) - 0.3, 2));
+            distance -= Math.pow(gait.amplitude().get(i) - 0.6, 2)
+                    + (i == 0 ? 0 : Math.pow(gait.phase().get(i) - 0.3, 2));
         }
         return distance;
     }

@@ -57,7 +57,8 @@ class UnstableGaitsTest {
             }
             int start = request.start() == null ? 0 : request.start();
             return Math.floorMod(start + request.gait().hashCode() / 2, oneOf) == 0
-                    ? unstable(request.id(), LAWS.get(Math.floorMod(start, LAWS.size()))) : result.withDistance(result.distance() + 10);
+                    ? unstable(request.id(), LAWS.get(Math.floorMod(start, LAWS.size())))
+                    : result.withDistance(result.distance() + 10);
         }
 
         static boolean cheats(Gait gait) {
@@ -73,7 +74,8 @@ class UnstableGaitsTest {
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder), new RecordedEvaluations(0, List.of()))
+            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder),
+                    new RecordedEvaluations(0, List.of()))
                     .run(null);
         }
         return recorder;
@@ -89,13 +91,15 @@ class UnstableGaitsTest {
     @ParameterizedTest
     @MethodSource("ways")
     void noOtherRunsWinForAGaitThatWasUnstable(OptimizerKind optimizer, Aggregate judge, int oneOf) {
-        EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, 4).withSeed(6).withStarts(4, judge));
+        EvolutionSettings settings = ToyEvolution.by(optimizer,
+                EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                        .withSize(20, 4).withSeed(6).withStarts(4, judge));
         ToyEvolution.Recorder recorder = run(settings, oneOf);
 
         for (EvolutionState state : recorder.states) {
             Set<List<Double>> broken = recorder.evaluations.subList(0, (int) state.evaluations()).stream()
-                    .filter(one -> one.result().status() == Status.UNSTABLE).map(EvaluationRecord::genes).collect(Collectors.toSet());
+                    .filter(one -> one.result().status() == Status.UNSTABLE).map(EvaluationRecord::genes)
+                    .collect(Collectors.toSet());
             assertThat(broken).isNotEmpty();
             List<Individual> chosen = new ArrayList<>(state.champions());
             if (state.best() != null) {
@@ -122,8 +126,10 @@ class UnstableGaitsTest {
     @ParameterizedTest
     @ValueSource(ints = {1, 4})
     void aRunTellsWhichLawsItsEvaluationsBroke(int starts) throws JsonProcessingException {
-        ToyEvolution.Recorder recorder = run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 3)
-                .withSeed(2).withStarts(starts, Aggregate.MEAN), starts);
+        ToyEvolution.Recorder recorder = run(
+                EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 3)
+                        .withSeed(2).withStarts(starts, Aggregate.MEAN),
+                starts);
 
         EvolutionState end = recorder.states.get(3);
         TreeMap<String, Integer> laws = new TreeMap<>();
@@ -132,15 +138,18 @@ class UnstableGaitsTest {
         assertThat(laws).isNotEmpty();
         int all = laws.values().stream().mapToInt(Integer::intValue).sum();
         assertThat(end.history().stream().mapToInt(GenerationSummary::unstable).sum()).isEqualTo(all);
-        assertThat(Refusals.of(end)).startsWith("refused " + all + " of " + end.evaluations() + " evaluations: ").doesNotContain("\n")
+        assertThat(Refusals.of(end)).startsWith("refused " + all + " of " + end.evaluations() + " evaluations: ")
+                .doesNotContain("\n")
                 .contains(" broke law ");
-        laws.forEach((law, count) -> assertThat(Refusals.of(end)).containsPattern("\\b" + count + "( broke law)? " + law + "\\b"));
+        laws.forEach((law, count) -> assertThat(Refusals.of(end))
+                .containsPattern("\\b" + count + "( broke law)? " + law + "\\b"));
         assertThat(Json.parse(Json.document(end), EvolutionState.class)).as("kept in a checkpoint").isEqualTo(end);
     }
 
     @Test
     void whatIsUnstableInVacuumHasNoNetDistance() throws InterruptedException {
-        SimulationRequest request = SimulationRequest.of("thesis/creature-1", new Gait(1.5, List.of(0.6), List.of(0.3))).withId(7);
+        SimulationRequest request = SimulationRequest.of("thesis/creature-1", new Gait(1.5, List.of(0.6), List.of(0.3)))
+                .withId(7);
         FakePool.Simulation simulator = new Cheats(1) {
             @Override
             public SimulationResult evaluate(SimulationRequest one) throws InterruptedException {
@@ -148,8 +157,10 @@ class UnstableGaitsTest {
             }
         };
         try (Evaluator pool = new FakePool(simulator, 1)) {
-            SimulationResult result = FitnessEvaluator.of(pool, EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                    .withFitness(FitnessKind.NET, false).problem()).evaluate(request);
+            SimulationResult result = FitnessEvaluator
+                    .of(pool, EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                            .withFitness(FitnessKind.NET, false).problem())
+                    .evaluate(request);
 
             assertThat(result.status()).isEqualTo(Status.UNSTABLE);
             assertThat(result.id()).isEqualTo(7);
@@ -162,8 +173,9 @@ class UnstableGaitsTest {
     /** Folders of programs that looked for finite numbers alone. */
     @Test
     void runsWithoutLawsAreReadAsBefore() throws JsonProcessingException {
-        GenerationSummary old = Json.parse("{\"generation\":0,\"best\":1,\"mean\":0,\"median\":0,\"worst\":-1,\"population\":10,"
-                + "\"evaluations\":10,\"unstable\":2,\"failed\":0}", GenerationSummary.class);
+        GenerationSummary old = Json
+                .parse("{\"generation\":0,\"best\":1,\"mean\":0,\"median\":0,\"worst\":-1,\"population\":10,"
+                        + "\"evaluations\":10,\"unstable\":2,\"failed\":0}", GenerationSummary.class);
         Estimate estimate = Json.parse("{\"score\":1,\"runs\":[1,1]}", Estimate.class);
         Instability instability = Json.parse("{\"particle\":3,\"stage\":\"springs\",\"time\":0.5}", Instability.class);
 
@@ -172,13 +184,15 @@ class UnstableGaitsTest {
         assertThat(Json.document(estimate)).doesNotContain("table");
         assertThat(instability.law()).isNull();
         assertThat(unstable(0, null).whyUnstable()).isEqualTo("unstable at 0.50 s");
-        Individual one = new Individual(List.of(1.0), 0, new SimulationResult(0L, Status.OK, 1.0, "completed", 4.0, 240, "flex", "float", null,
-                null, null));
+        Individual one = new Individual(List.of(1.0), 0,
+                new SimulationResult(0L, Status.OK, 1.0, "completed", 4.0, 240, "flex", "float", null,
+                        null, null));
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old), List.of())))
                 .isEqualTo("refused 2 of 10 evaluations: 2 broke law finite");
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one,
                 List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3)), List.of()))).isNull();
         assertThat(new EliteMap(List.of(new Individual(List.of(1.0), 0, unstable(1, "tank")),
-                new Individual(List.of(2.0), 0, one.result().withEffort(new Effort(8, 1, 2, 12))))).elites()).hasSize(1);
+                new Individual(List.of(2.0), 0, one.result().withEffort(new Effort(8, 1, 2, 12))))).elites())
+                .hasSize(1);
     }
 }

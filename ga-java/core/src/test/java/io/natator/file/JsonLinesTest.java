@@ -102,7 +102,8 @@ class JsonLinesTest {
         }
         String message = file + ", line 301 is longer than 16777216 bytes";
         assertThatThrownBy(this::lines).isInstanceOf(InvalidInputException.class).hasMessage(message);
-        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class).hasMessage(message);
+        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
+                .hasMessage(message);
     }
 
     @Test

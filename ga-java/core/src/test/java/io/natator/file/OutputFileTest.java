@@ -49,7 +49,8 @@ class OutputFileTest {
         assertThat(folder.toFile().setWritable(false)).isTrue();
         try {
             assumeFalse(Files.isWritable(folder), "who may write anywhere cannot try it");
-            assertThatThrownBy(() -> OutputFile.check(folder.resolve("page.html"))).isInstanceOf(InvalidInputException.class)
+            assertThatThrownBy(() -> OutputFile.check(folder.resolve("page.html")))
+                    .isInstanceOf(InvalidInputException.class)
                     .hasMessageEndingWith("; expected a folder that can be written to, unlike " + folder);
         } finally {
             assertThat(folder.toFile().setWritable(true)).isTrue();
@@ -64,7 +65,8 @@ class OutputFileTest {
 
         for (Path file : new Path[] {pipe, link, Path.of("/dev/full")}) {
             assertThatThrownBy(() -> OutputFile.check(file)).isInstanceOf(InvalidInputException.class)
-                    .hasMessage("output file is " + file + ", which is a device or a pipe; expected the name of a file, new "
+                    .hasMessage("output file is " + file
+                            + ", which is a device or a pipe; expected the name of a file, new "
                             + "or to be replaced");
         }
         assertThatThrownBy(() -> OutputFile.check(folder)).hasMessageContaining("which is a folder");

@@ -20,10 +20,12 @@ class ShellWordTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"minnow one", "it's", "a\"b", "$HOME", "~", "a;b", "a*", "`ls`", "", "č", "a\\b", "a\nb", "#a", "!a", "{a,b}"})
+    @ValueSource(strings = {"minnow one", "it's", "a\"b", "$HOME", "~", "a;b", "a*", "`ls`", "", "č", "a\\b", "a\nb",
+            "#a", "!a", "{a,b}"})
     void aShellReadsItAsOneWord(String word) throws IOException, InterruptedException {
         Process shell = new ProcessBuilder("sh", "-c", "printf %s " + ShellWord.of(word)).start();
-        assertThat(new String(shell.getInputStream().readAllBytes(), StandardCharsets.UTF_8).replaceAll("[^\\x00-\\x7f]+", "?"))
+        assertThat(new String(shell.getInputStream().readAllBytes(), StandardCharsets.UTF_8)
+                .replaceAll("[^\\x00-\\x7f]+", "?"))
                 .isEqualTo(word.replaceAll("[^\\x00-\\x7f]+", "?"));
         assertThat(shell.waitFor()).isZero();
     }

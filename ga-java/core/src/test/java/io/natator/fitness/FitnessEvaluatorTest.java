@@ -28,8 +28,8 @@ class FitnessEvaluatorTest {
     private static final EvolutionSettings SETTINGS = EvolutionSettings.of("goals/turn", EncodingKind.DENSE, 2);
     private static final EvolutionSettings NET = SETTINGS.withFitness(FitnessKind.NET, false);
     private static final EvolutionSettings MAP = SETTINGS.withObjectives(OptimizerKind.MAP_ELITES, null);
-    private static final SimulationRequest REQUEST =
-            SimulationRequest.of("goals/turn", new Gait(1, List.of(1.0, 1.0), List.of(0.0, 0.5))).withId(1);
+    private static final SimulationRequest REQUEST = SimulationRequest
+            .of("goals/turn", new Gait(1, List.of(1.0, 1.0), List.of(0.0, 0.5))).withId(1);
 
     private static EvolutionSettings by(String objectives) {
         return SETTINGS.withObjectives(OptimizerKind.JGAP, WeightedObjective.parse(objectives));
@@ -40,7 +40,8 @@ class FitnessEvaluatorTest {
     }
 
     private static SimulationResult result(SimulationRequest request, double distance) {
-        return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float",
+        return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240,
+                "conserving", "float",
                 null, null, null);
     }
 
@@ -49,7 +50,8 @@ class FitnessEvaluatorTest {
     @CsvSource({"0.5, -1, 0.3", "0.5, 0, 0.3", "0.5, 1, 0.3", "-0.5, 1, -0.5"})
     void whatGoesForwardsLosesItsDrift(double distance, double score, double net) throws InterruptedException {
         Evaluator swim = (requests, whenDone) -> requests.forEach(request -> whenDone.accept(request.overrides() == null
-                ? result(request, distance).withGoals(List.of(new GoalScore("turn", 1, score, null, null))) : result(request, DRIFT)));
+                ? result(request, distance).withGoals(List.of(new GoalScore("turn", 1, score, null, null)))
+                : result(request, DRIFT)));
 
         assertThat(FitnessEvaluator.of(swim, NET.problem()).evaluate(REQUEST).netDistance()).isEqualTo(net);
     }
@@ -57,10 +59,11 @@ class FitnessEvaluatorTest {
     /** A sum stays one of numbers as swims have them: a mean over starts of which one failed would else tell of that one alone. */
     @Test
     void whatFailedIsAsCrookedAsCanBe() throws InterruptedException {
-        Evaluator failing = (requests, whenDone) ->
-                requests.forEach(request -> whenDone.accept(SimulationResult.failed(request.id(), "no answer")));
+        Evaluator failing = (requests, whenDone) -> requests
+                .forEach(request -> whenDone.accept(SimulationResult.failed(request.id(), "no answer")));
 
-        SimulationResult result = FitnessEvaluator.of(failing, by("forward=1,straight=0.5").problem()).evaluate(REQUEST);
+        SimulationResult result = FitnessEvaluator.of(failing, by("forward=1,straight=0.5").problem())
+                .evaluate(REQUEST);
 
         assertThat(result.score()).isCloseTo(-Math.PI, within(1e-9));
         assertThat(result.objectives()).containsExactly(0.0, -2 * Math.PI);
@@ -89,9 +92,11 @@ class FitnessEvaluatorTest {
         }
         assertThat(inner.closed).isEqualTo(4);
 
-        assertThatThrownBy(() -> FitnessEvaluator.of(inner, MAP, scene(null, null))).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> FitnessEvaluator.of(inner, MAP, scene(null, null)))
+                .isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("the body's length is null");
-        assertThatThrownBy(() -> FitnessEvaluator.of(inner, NET, scene(1.0, List.of("turn")))).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> FitnessEvaluator.of(inner, NET, scene(1.0, List.of("turn"))))
+                .isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("--fitness net");
         assertThat(inner.closed).isEqualTo(4);
     }

@@ -19,7 +19,8 @@ class AnswerLinesTest {
     private AnswerLines read(InputStream stdout) throws InterruptedException {
         AnswerLines lines = new AnswerLines(stdout, kills::incrementAndGet);
         Thread reader = new Thread(lines);
-        reader.setUncaughtExceptionHandler((thread, error) -> { });
+        reader.setUncaughtExceptionHandler((thread, error) -> {
+        });
         reader.start();
         reader.join(TimeUnit.MINUTES.toMillis(5));
         assertThat(reader.isAlive()).isFalse();
@@ -55,7 +56,8 @@ class AnswerLinesTest {
         AnswerLines lines = read(new SequenceInputStream(text("one\n"), faulty));
 
         assertThat(lines.poll(0)).isEqualTo(new AnswerLines.Line("one", null));
-        assertThat(lines.poll(0)).isEqualTo(new AnswerLines.Line(null, "output not readable: \"" + kind.getName() + "\""));
+        assertThat(lines.poll(0))
+                .isEqualTo(new AnswerLines.Line(null, "output not readable: \"" + kind.getName() + "\""));
         assertThat(kills).hasValue(1);
     }
 

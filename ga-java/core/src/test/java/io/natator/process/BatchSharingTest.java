@@ -44,20 +44,23 @@ class BatchSharingTest {
     }
 
     private Evaluator open(String... commands) throws InterruptedException {
-        return Evaluator.open(ExecutionSettings.of(fake).withMode(SimulatorMode.BATCH).withTimeout(Duration.ofMinutes(5))
-                .withCommands(List.of(commands)));
+        return Evaluator
+                .open(ExecutionSettings.of(fake).withMode(SimulatorMode.BATCH).withTimeout(Duration.ofMinutes(5))
+                        .withCommands(List.of(commands)));
     }
 
     /** Keeps what it is asked in the file `name`, before it answers: a swim to compare programs by at each start, then the shares. */
     private String noted(String name) {
-        return "exec bash -c 'exec " + fake + " serve < <(exec 2>/dev/null; while IFS= read -r line; do printf \"%s\\n\" \"$line\" >>"
+        return "exec bash -c 'exec " + fake
+                + " serve < <(exec 2>/dev/null; while IFS= read -r line; do printf \"%s\\n\" \"$line\" >>"
                 + folder.resolve(name) + "; printf \"%s\\n\" \"$line\"; done)'";
     }
 
     /** Goes on when so many have been started: each has taken its share then. */
     private String met(String name, int count) {
         Path started = folder.resolve("started-");
-        return "touch " + started + name + "; until [ $(ls " + started + "* | wc -l) = " + count + " ]; do sleep 0.01; done; ";
+        return "touch " + started + name + "; until [ $(ls " + started + "* | wc -l) = " + count
+                + " ]; do sleep 0.01; done; ";
     }
 
     /** Answers the swim that programs are compared by and nothing else. */
@@ -78,11 +81,13 @@ class BatchSharingTest {
     @Test
     void eachGetsItsShare() throws InterruptedException, IOException {
         List<SimulationResult> results;
-        try (Evaluator evaluator = open(Stream.of("a", "b", "c").map(name -> met(name, 3) + noted(name)).toArray(String[]::new))) {
+        try (Evaluator evaluator = open(
+                Stream.of("a", "b", "c").map(name -> met(name, 3) + noted(name)).toArray(String[]::new))) {
             results = evaluator.evaluate(requests(41));
         }
 
-        assertThat(results).extracting(SimulationResult::id).containsExactlyElementsOf(LongStream.range(0, 41).boxed().toList());
+        assertThat(results).extracting(SimulationResult::id)
+                .containsExactlyElementsOf(LongStream.range(0, 41).boxed().toList());
         assertThat(List.of(asked("a"), asked("b"), asked("c"))).containsExactlyInAnyOrder(1 + 14L, 1 + 14L, 1 + 13L);
     }
 
@@ -136,10 +141,12 @@ class BatchSharingTest {
 
         assertThat(info.devices("0,1")).containsExactly(0, 1);
         assertThat(info.devices("2")).containsExactly(2);
-        assertThat(new ProgramInfo("1", null, "any", List.of("0: A", "1: A"), null, null).devices("all")).containsExactly(0, 1);
+        assertThat(new ProgramInfo("1", null, "any", List.of("0: A", "1: A"), null, null).devices("all"))
+                .containsExactly(0, 1);
         assertThat(new ProgramInfo("1", null, "any", List.of(), null, null).devices("all")).containsExactly(0);
         assertThatThrownBy(() -> info.devices("all")).isInstanceOf(InvalidInputException.class)
-                .hasMessage("--device all are GPUs of several kinds (A; B), whose last digits differ; expected some of one kind");
+                .hasMessage(
+                        "--device all are GPUs of several kinds (A; B), whose last digits differ; expected some of one kind");
         assertThatThrownBy(() -> info.devices("1,")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("--device is 1,; expected a GPU's number, several with commas between them, or all");
     }

@@ -105,17 +105,19 @@ class BatchSimulatorTest {
     /** Whoever asks then, or later, would wait for ever. */
     @Test
     void whatEndsTheThreadThatComputesIsToldToAll() {
-        SimulationRequest tooLarge = FakeSimulator.request(1, "thesis/creature-1").withOverrides(new POJONode(new JsonSerializable.Base() {
-            @Override
-            public void serialize(JsonGenerator generator, SerializerProvider serializers) {
-                throw new OutOfMemoryError("no room for a line");
-            }
+        SimulationRequest tooLarge = FakeSimulator.request(1, "thesis/creature-1")
+                .withOverrides(new POJONode(new JsonSerializable.Base() {
+                    @Override
+                    public void serialize(JsonGenerator generator, SerializerProvider serializers) {
+                        throw new OutOfMemoryError("no room for a line");
+                    }
 
-            @Override
-            public void serializeWithType(JsonGenerator generator, SerializerProvider serializers, TypeSerializer type) {
-                serialize(generator, serializers);
-            }
-        }));
+                    @Override
+                    public void serializeWithType(JsonGenerator generator, SerializerProvider serializers,
+                            TypeSerializer type) {
+                        serialize(generator, serializers);
+                    }
+                }));
         try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             for (SimulationRequest request : List.of(tooLarge, FakeSimulator.request(2, "thesis/creature-1"))) {
                 assertThatThrownBy(() -> evaluator.evaluate(request)).isInstanceOf(OutOfMemoryError.class)

@@ -21,7 +21,8 @@ class ErrorTailTest {
             String tail = ErrorTail.read(inPieces(all, piece));
 
             assertThat(tail).endsWith(" | a long story | natator-sim: disk full");
-            assertThat(tail.replace(ErrorTail.LINE_END, "\n").length()).isBetween(ErrorTail.KEPT_BYTES - 1, 2 * ErrorTail.KEPT_BYTES);
+            assertThat(tail.replace(ErrorTail.LINE_END, "\n").length()).isBetween(ErrorTail.KEPT_BYTES - 1,
+                    2 * ErrorTail.KEPT_BYTES);
         }
     }
 

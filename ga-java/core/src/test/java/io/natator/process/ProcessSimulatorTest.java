@@ -55,7 +55,8 @@ class ProcessSimulatorTest {
         assertThat(result.work()).isEqualTo(0.75);
         assertThat(result.withId(8L).withVacuumDrift(0.5)).as("in all else the same")
                 .isEqualTo(new SimulationResult(8L, Status.OK, result.distance(), result.stopped(), result.simulated(),
-                        result.frames(), "conserving", "float", result.hash(), null, null, result.swimming(), 0.75, 0.5));
+                        result.frames(), "conserving", "float", result.hash(), null, null, result.swimming(), 0.75,
+                        0.5));
     }
 
     @Test
@@ -70,11 +71,11 @@ class ProcessSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "fault/crash|exit status 139", "fault/exit|out of luck", "fault/silent|no valid result",
-        "fault/garbage|buffer overflow", "fault/half|no valid result", "fault/loud|more than 1048576 bytes",
-        "fault/wrong-id|id is 8, not 7", "fault/wrong-exit|status ok with exit status 3", "fault/nan|NaN",
-        "fault/infinite|found the number 1e999", "fault/two-lines|no valid result",
-        "fault/held-open|output still open"})
+            "fault/crash|exit status 139", "fault/exit|out of luck", "fault/silent|no valid result",
+            "fault/garbage|buffer overflow", "fault/half|no valid result", "fault/loud|more than 1048576 bytes",
+            "fault/wrong-id|id is 8, not 7", "fault/wrong-exit|status ok with exit status 3", "fault/nan|NaN",
+            "fault/infinite|found the number 1e999", "fault/two-lines|no valid result",
+            "fault/held-open|output still open"})
     void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
         SimulationResult result = evaluate(scene, PATIENCE);
 

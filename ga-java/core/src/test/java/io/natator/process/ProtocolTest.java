@@ -61,23 +61,24 @@ class ProtocolTest {
         for (SimulationRequest request : requests) {
             assertThat(check("request.schema.json", Json.line(request))).as(Json.line(request)).isEmpty();
         }
-        assertThat(check("request.schema.json", "{\"$schema\":\"request.schema.json\",\"id\":1,\"scene\":\"a\"}")).isEmpty();
+        assertThat(check("request.schema.json", "{\"$schema\":\"request.schema.json\",\"id\":1,\"scene\":\"a\"}"))
+                .isEmpty();
     }
 
     @ParameterizedTest
     @ValueSource(strings = {
-        "{\"scene\":\"a\"," + GAIT + "}",
-        "{\"id\":1," + GAIT + "}",
-        "{\"id\":-1,\"scene\":\"a\"}",
-        "{\"id\":1,\"scene\":\"a\",\"durations\":4}",
-        "{\"id\":1,\"scene\":\"a\",\"$schema\":4}",
-        "{\"id\":1,\"scene\":\"a\",\"duration\":0}",
-        "{\"id\":1,\"scene\":\"a\",\"scheme\":\"FLEX\"}",
-        "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":61,\"amplitude\":[],\"phase\":[]}}",
-        "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[2.1],\"phase\":[0]}}",
-        "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[1],\"phase\":[1.5]}}",
-        "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[1],\"phase\":[0],\"power\":5}}",
-        "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":\"1\",\"amplitude\":[1],\"phase\":[0]}}"})
+            "{\"scene\":\"a\"," + GAIT + "}",
+            "{\"id\":1," + GAIT + "}",
+            "{\"id\":-1,\"scene\":\"a\"}",
+            "{\"id\":1,\"scene\":\"a\",\"durations\":4}",
+            "{\"id\":1,\"scene\":\"a\",\"$schema\":4}",
+            "{\"id\":1,\"scene\":\"a\",\"duration\":0}",
+            "{\"id\":1,\"scene\":\"a\",\"scheme\":\"FLEX\"}",
+            "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":61,\"amplitude\":[],\"phase\":[]}}",
+            "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[2.1],\"phase\":[0]}}",
+            "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[1],\"phase\":[1.5]}}",
+            "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":1,\"amplitude\":[1],\"phase\":[0],\"power\":5}}",
+            "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":\"1\",\"amplitude\":[1],\"phase\":[0]}}"})
     void theSchemaRefusesBadRequests(String request) throws IOException {
         assertThat(check("request.schema.json", request)).isNotEmpty();
     }
@@ -87,21 +88,22 @@ class ProtocolTest {
     void answersFitTheSchema(String scene) throws Exception {
         try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofMinutes(5))) {
             String answer = program.call(List.of("evaluate"),
-                    Json.line(FakeSimulator.request(5, scene)) + "\n", line -> { }).text();
+                    Json.line(FakeSimulator.request(5, scene)) + "\n", line -> {
+                    }).text();
             assertThat(check("result.schema.json", answer)).as(answer).isEmpty();
         }
     }
 
     @ParameterizedTest
     @ValueSource(strings = {
-        "{\"id\":1}",
-        "{\"id\":1,\"status\":\"ok\"}",
-        "{\"id\":1,\"status\":\"error\"}",
-        "{\"id\":1,\"status\":\"error\",\"error\":\"two\\nlines\"}",
-        "{\"id\":1,\"status\":\"failed\",\"error\":\"x\"}",
-        "{\"id\":1,\"status\":\"unstable\",\"fitness\":0,\"distance\":1,\"stopped\":\"unstable\",\"simulated\":0,"
-            + "\"frames\":0,\"scheme\":\"flex\",\"precision\":\"float\","
-            + "\"unstable\":{\"particle\":1,\"stage\":\"predict\",\"time\":0}}"})
+            "{\"id\":1}",
+            "{\"id\":1,\"status\":\"ok\"}",
+            "{\"id\":1,\"status\":\"error\"}",
+            "{\"id\":1,\"status\":\"error\",\"error\":\"two\\nlines\"}",
+            "{\"id\":1,\"status\":\"failed\",\"error\":\"x\"}",
+            "{\"id\":1,\"status\":\"unstable\",\"fitness\":0,\"distance\":1,\"stopped\":\"unstable\",\"simulated\":0,"
+                    + "\"frames\":0,\"scheme\":\"flex\",\"precision\":\"float\","
+                    + "\"unstable\":{\"particle\":1,\"stage\":\"predict\",\"time\":0}}"})
     void theSchemaRefusesBadResults(String result) throws IOException {
         assertThat(check("result.schema.json", result)).isNotEmpty();
     }

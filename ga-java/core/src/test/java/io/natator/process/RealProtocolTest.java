@@ -29,11 +29,11 @@ class RealProtocolTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "OK|thesis/creature-1|{}",
-        "OK|thesis/creature-1-vacuum|{\"solver\":{\"substeps\":2}}",
-        "UNSTABLE|thesis/creature-1|{\"solver\":{\"relaxationMode\":\"global\"}}",
-        "ERROR|thesis/creature-1|{\"timeStep\":-1}",
-        "ERROR|no/such/scene|{}"})
+            "OK|thesis/creature-1|{}",
+            "OK|thesis/creature-1-vacuum|{\"solver\":{\"substeps\":2}}",
+            "UNSTABLE|thesis/creature-1|{\"solver\":{\"relaxationMode\":\"global\"}}",
+            "ERROR|thesis/creature-1|{\"timeStep\":-1}",
+            "ERROR|no/such/scene|{}"})
     void answersFitTheSchema(Status status, String scene, String overrides) throws Exception {
         assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
         SimulationRequest request = new SimulationRequest(9, scene, FakeSimulator.request(9, scene).gait(), 0.1, null,
@@ -41,7 +41,8 @@ class RealProtocolTest {
 
         String answer;
         try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-            answer = program.call(List.of("evaluate"), Json.line(request) + "\n", line -> { }).text();
+            answer = program.call(List.of("evaluate"), Json.line(request) + "\n", line -> {
+            }).text();
         }
 
         assertThat(ProtocolTest.check("result.schema.json", answer)).as(answer).isEmpty();
@@ -60,7 +61,8 @@ class RealProtocolTest {
         for (Integer start : Arrays.asList(3, 4, 3, null)) {
             try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
                 results.add(ResultReader.read(
-                        program.call(List.of("evaluate"), Json.line(request.withStart(start)) + "\n", line -> { }).text()));
+                        program.call(List.of("evaluate"), Json.line(request.withStart(start)) + "\n", line -> {
+                        }).text()));
             }
         }
 
@@ -77,7 +79,8 @@ class RealProtocolTest {
         List<Double> eight = Collections.nCopies(8, 0.5);
         SimulationRequest swim = new SimulationRequest(9, scene, new Gait(2, eight, eight), 0.2, null, null);
         try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n", line -> { }).text();
+            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n", line -> {
+            }).text();
             assertThat(ResultReader.read(answer).distance()).as(answer).isCloseTo(0, within(1e-4));
         }
     }

@@ -58,7 +58,8 @@ class RequestLinesTest {
     void whatEndsTheWriterIsToldBeforeTheProgramFindsItsInputAtAnEnd() {
         write(new Faulty(new OutOfMemoryError("Java heap space")));
 
-        assertThat(told).containsExactly("input not writable: \"java.lang.OutOfMemoryError: Java heap space\"", "closed");
+        assertThat(told).containsExactly("input not writable: \"java.lang.OutOfMemoryError: Java heap space\"",
+                "closed");
     }
 
     @Test

@@ -47,11 +47,11 @@ class ResidentSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "fault/crash|exit status 139", "fault/killed|exit status 137", "fault/exit|out of luck",
-        "fault/silent|output ended", "fault/garbage|buffer overflow", "fault/half|output ended within a line",
-        "fault/loud|no valid result", "fault/loud-line|more than 1048576 bytes in one line",
-        "fault/wrong-id|id is 8, not 7", "fault/nan|NaN", "fault/infinite|found the number 1e999",
-        "fault/deaf|but the program runs on"})
+            "fault/crash|exit status 139", "fault/killed|exit status 137", "fault/exit|out of luck",
+            "fault/silent|output ended", "fault/garbage|buffer overflow", "fault/half|output ended within a line",
+            "fault/loud|no valid result", "fault/loud-line|more than 1048576 bytes in one line",
+            "fault/wrong-id|id is 8, not 7", "fault/nan|NaN", "fault/infinite|found the number 1e999",
+            "fault/deaf|but the program runs on"})
     void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
         SimulationResult result = evaluate(scene, PATIENCE);
 

@@ -23,17 +23,19 @@ class SceneInfoTest {
     /** As the simulator of today puts it. */
     @Test
     void aRefusalNamesTheSceneOnce() {
-        for (String said : List.of("scene \"pool/eel\": solver.substeps = -3: must be a whole number", "unknown scene \"pool/eel\"")) {
+        for (String said : List.of("scene \"pool/eel\": solver.substeps = -3: must be a whole number",
+                "unknown scene \"pool/eel\"")) {
             assertThat(failure(2, "natator-sim: " + said)).isInstanceOf(RefusedSceneException.class).hasMessage(said);
         }
-        assertThat(failure(2, "natator-sim: file \"eel.json\": not valid JSON")).isInstanceOf(RefusedSceneException.class)
+        assertThat(failure(2, "natator-sim: file \"eel.json\": not valid JSON"))
+                .isInstanceOf(RefusedSceneException.class)
                 .hasMessage("scene pool/eel: file \"eel.json\": not valid JSON");
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "7||simulator ended with exit status 7", "1|natator-sim: disk full|disk full",
-        "2|sim: 1: \u007fELF: not found|simulator ended with exit status 2, errors \"sim: 1: \ufffdELF: not found\""})
+            "7||simulator ended with exit status 7", "1|natator-sim: disk full|disk full",
+            "2|sim: 1: \u007fELF: not found|simulator ended with exit status 2, errors \"sim: 1: \ufffdELF: not found\""})
     void whatIsNoRefusalIsNoBadInput(int status, String errors, String reason) {
         assertThat(failure(status, errors == null ? "" : errors))
                 .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
@@ -43,14 +45,16 @@ class SceneInfoTest {
     /** What it told of its progress is no reason. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "2;natator-sim: converge: base: run 1 of 2;natator-sim: disk full|disk full",
-        "2;natator-sim: converge: base: run 1 of 2;level substeps;natator-sim: gait: unknown;see --help|gait: unknown / see --help",
-        "134;natator-sim: converge: base: run 1 of 2;terminate called|simulator ended with exit status 134"})
+            "2;natator-sim: converge: base: run 1 of 2;natator-sim: disk full|disk full",
+            "2;natator-sim: converge: base: run 1 of 2;level substeps;natator-sim: gait: unknown;see --help|gait: unknown / see --help",
+            "134;natator-sim: converge: base: run 1 of 2;terminate called|simulator ended with exit status 134"})
     void theReasonIsTheLastThatTheProgramSays(String lines, String reason) {
         String[] said = lines.split(";", 2);
 
-        assertThat(failure(Integer.parseInt(said[0]), said[1].replace(";", ErrorTail.LINE_END)).getMessage().replace(" | ", " / "))
-                .startsWith("scene pool/eel: " + reason).matches(message -> said[0].equals("134") || message.endsWith(reason));
+        assertThat(failure(Integer.parseInt(said[0]), said[1].replace(";", ErrorTail.LINE_END)).getMessage()
+                .replace(" | ", " / "))
+                .startsWith("scene pool/eel: " + reason)
+                .matches(message -> said[0].equals("134") || message.endsWith(reason));
     }
 
     private static RuntimeException failure(int status, String errors) {

@@ -38,7 +38,8 @@ class ServeCommandsTest {
     }
 
     private ExecutionSettings settings(SimulatorMode mode, String... commands) {
-        return new ExecutionSettings(fake, mode, Backend.CPU, List.of(0), 2, Duration.ofMinutes(5), null, List.of(commands), null);
+        return new ExecutionSettings(fake, mode, Backend.CPU, List.of(0), 2, Duration.ofMinutes(5), null,
+                List.of(commands), null);
     }
 
     /** A command that leaves a line in the file `name` when it is started. */
@@ -64,9 +65,11 @@ class ServeCommandsTest {
     /** Each waits for the other to be started, so that none is left idle before. */
     @Test
     void commandsShareTheEvaluations() throws InterruptedException, IOException {
-        String both = "until [ -e " + folder.resolve("a") + " ] && [ -e " + folder.resolve("b") + " ]; do sleep 0.01; done; ";
+        String both = "until [ -e " + folder.resolve("a") + " ] && [ -e " + folder.resolve("b")
+                + " ]; do sleep 0.01; done; ";
 
-        List<SimulationResult> results = evaluate(settings(SimulatorMode.RESIDENT, marked("a", both), marked("b", both)), 6);
+        List<SimulationResult> results = evaluate(
+                settings(SimulatorMode.RESIDENT, marked("a", both), marked("b", both)), 6);
 
         assertThat(results).allSatisfy(result -> assertThat(result.distance()).isEqualTo(-1.3925)).hasSize(6);
         assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
@@ -84,7 +87,8 @@ class ServeCommandsTest {
     void aMachineThatIsAwayHarmsNothing() throws InterruptedException, IOException {
         String away = "echo tried >>" + folder.resolve("away") + "; echo no route to host >&2; exit 255";
 
-        assertThat(evaluate(settings(SimulatorMode.RESIDENT, away, marked("a")), 20)).extracting(SimulationResult::status)
+        assertThat(evaluate(settings(SimulatorMode.RESIDENT, away, marked("a")), 20))
+                .extracting(SimulationResult::status)
                 .containsOnly(Status.OK).hasSize(20);
         assertThat(Files.readAllLines(folder.resolve("away"))).as("attempts there").hasSizeBetween(1, 2);
     }
@@ -105,8 +109,9 @@ class ServeCommandsTest {
 
         assertThatThrownBy(() -> evaluate(settings(mode, other), 1))
                 .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
-                .hasMessageMatching("--simulator-command \".*\" swims otherwise than this program \\(hash f.*, not 0.*, "
-                        + "after 0.05 s\\): another version, instruction set .NATATOR_ISA. or kind of GPU");
+                .hasMessageMatching(
+                        "--simulator-command \".*\" swims otherwise than this program \\(hash f.*, not 0.*, "
+                                + "after 0.05 s\\): another version, instruction set .NATATOR_ISA. or kind of GPU");
     }
 
     @Test
@@ -120,33 +125,44 @@ class ServeCommandsTest {
 
     @Test
     void settingsForAClusterThatDoNotGoTogetherAreRefused() {
-        assertThatThrownBy(() -> settings(SimulatorMode.SPARK, "ssh a natator-sim serve")).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK, "ssh a natator-sim serve"))
+                .isInstanceOf(InvalidInputException.class)
                 .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not spark");
-        assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO)).isInstanceOf(InvalidInputException.class)
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO))
+                .isInstanceOf(InvalidInputException.class)
                 .hasMessage("backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
-        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, List.of(0), 1, null, null, List.of(),
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, List.of(0), 1, null,
+                null, List.of(),
                 "local[2]")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
-        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(), "local[2]")
+        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(),
+                "local[2]")
                 .withMode(SimulatorMode.RESIDENT).master()).isNull();
     }
 
     @Test
     void devicesThatAreNoneAreRefused() {
         for (List<Integer> devices : List.of(List.<Integer>of(), List.of(-1), List.of(1, 1))) {
-            assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CUDA, devices, 1, null, null,
-                    List.of(), null)).isInstanceOf(InvalidInputException.class)
+            assertThatThrownBy(
+                    () -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CUDA, devices, 1, null, null,
+                            List.of(), null))
+                    .isInstanceOf(InvalidInputException.class)
                     .hasMessage("devices are " + devices + "; expected whole numbers from 0, each once");
         }
-        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
-                List.of(), null)).isInstanceOf(InvalidInputException.class)
-                .hasMessage("devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
+        assertThatThrownBy(
+                () -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
+                        List.of(), null))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage(
+                        "devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
     }
 
     @Test
     void aProgramWithoutSparkSaysWhichOneHasIt() {
-        assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK))).isInstanceOf(InvalidInputException.class)
-                .hasMessage("this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
-                        + "(ga-java/docs/cluster.md)");
+        assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK)))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage(
+                        "this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
+                                + "(ga-java/docs/cluster.md)");
     }
 }

@@ -6,7 +6,8 @@ import org.junit.jupiter.api.Test;
 
 class TimeLimitTest {
 
-    private static final SceneInfo THESIS = new SceneInfo("thesis/creature-1", 2, 5915, 4.0, 1.0 / 60, 4, 4, 1.2, null, null);
+    private static final SceneInfo THESIS = new SceneInfo("thesis/creature-1", 2, 5915, 4.0, 1.0 / 60, 4, 4, 1.2, null,
+            null);
 
     /** An evaluation of the thesis takes a second or two; the limit is to be far from that, and below an hour. */
     @Test

@@ -33,7 +33,8 @@ class WorkerPoolTest {
             return SimulationResult.failed(request.id(), "");
         };
         try (Evaluator pool = new FakePool(slowFirst, 4)) {
-            assertThat(pool.evaluate(requests(50))).extracting(SimulationResult::id).containsExactlyElementsOf(LongStream.range(0, 50).boxed().toList());
+            assertThat(pool.evaluate(requests(50))).extracting(SimulationResult::id)
+                    .containsExactlyElementsOf(LongStream.range(0, 50).boxed().toList());
         }
     }
 

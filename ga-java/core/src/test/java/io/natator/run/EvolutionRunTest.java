@@ -49,8 +49,8 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 class EvolutionRunTest {
 
-    private static final EvolutionSettings SETTINGS =
-            EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(12, 5).withSeed(3);
+    private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+            .withSize(12, 5).withSeed(3);
 
     @TempDir
     private Path folder;
@@ -137,8 +137,10 @@ class EvolutionRunTest {
     @CsvSource({"map-elites, 1", "map-elites, 2", "jgap, 1", "jgap, 2", "random, 1", "cma-es, 2", "nsga2, 1"})
     void unchangedIsWhatWasNotNewlySimulated(String optimizer, int starts) throws InterruptedException, IOException {
         OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = SETTINGS.withStarts(starts, Aggregate.MEAN).withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
-                : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
+        EvolutionSettings settings = SETTINGS.withStarts(starts, Aggregate.MEAN).withObjectives(kind,
+                kind != OptimizerKind.NSGA2 ? null
+                        : List.of(new WeightedObjective(Objective.DISTANCE, null),
+                                new WeightedObjective(Objective.WORK, null)));
         List<EvolutionState> states = new ArrayList<>();
         EvolutionListener recorder = new EvolutionListener() {
             @Override
@@ -187,10 +189,13 @@ class EvolutionRunTest {
 
     /** A stop with the last frame saves nothing; frames are what a duration is rounded to. */
     @ParameterizedTest
-    @CsvSource({"4.0, 4.0, 240, false", "4.0, 3.9833, 239, true", "0.11, 0.1166667, 7, false", "0.11, 0.1, 6, true", "0.108, 0.1, 6, false"})
-    void onlyWhatWasNotSimulatedWholeEndedEarly(double duration, double simulated, int frames, boolean early) throws InterruptedException {
+    @CsvSource({"4.0, 4.0, 240, false", "4.0, 3.9833, 239, true", "0.11, 0.1166667, 7, false", "0.11, 0.1, 6, true",
+            "0.108, 0.1, 6, false"})
+    void onlyWhatWasNotSimulatedWholeEndedEarly(double duration, double simulated, int frames, boolean early)
+            throws InterruptedException {
         ToySimulator toy = new ToySimulator();
-        FakePool.Simulation stopped = request -> toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
+        FakePool.Simulation stopped = request -> toy.evaluate(request)
+                .with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
         try (RunWriter run = RunWriter.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
                 Evaluator evaluator = new FakePool(stopped, 2)) {
             new EvolutionRun(run).run(execution, evaluator);

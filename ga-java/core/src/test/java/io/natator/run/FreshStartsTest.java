@@ -85,7 +85,8 @@ class FreshStartsTest {
         List<SimulationRequest> after = asked.stream()
                 .filter(one -> one.start() != null && !used.contains(one.start())).toList();
         assertThat(after).hasSize(2 * fresh).allMatch(one -> one.gait().equals(best.gait()));
-        List<Integer> base = after.stream().filter(one -> one.overrides() == null).map(SimulationRequest::start).toList();
+        List<Integer> base = after.stream().filter(one -> one.overrides() == null).map(SimulationRequest::start)
+                .toList();
         List<Integer> half = after.stream().filter(one -> one.overrides() != null
                 && one.overrides().at("/solver/substeps").asInt() == 8).map(SimulationRequest::start).toList();
         assertThat(base).hasSize(fresh).doesNotHaveDuplicates();
@@ -133,12 +134,15 @@ class FreshStartsTest {
     /** A gait that hits the wall after a quarter of the time is not four times as fast; what is unstable goes nowhere. */
     @Test
     void distancesAreThoseOfTheWholeTime() {
-        List<SimulationResult> results = List.of(result("touched-plane", 0.6, 1.0, 0.5), result("completed", 0.4, 4.0, 1.5),
-                new SimulationResult(0L, SimulationResult.Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float", null,
+        List<SimulationResult> results = List.of(result("touched-plane", 0.6, 1.0, 0.5),
+                result("completed", 0.4, 4.0, 1.5),
+                new SimulationResult(0L, SimulationResult.Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float",
+                        null,
                         null, null),
                 SimulationResult.failed(0, "crashed"));
 
-        SwimSample sample = SwimSample.of(results, 4, EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)),
+        SwimSample sample = SwimSample.of(results, 4,
+                EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)),
                 4.0, 1.25);
 
         assertThat(sample.distance().mean()).isCloseTo(0.25, within(1e-12));
@@ -155,7 +159,8 @@ class FreshStartsTest {
     }
 
     private static SimulationResult result(String stopped, double distance, double simulated, double work) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, stopped, simulated, 240, "conserving", "float",
+        return new SimulationResult(0L, SimulationResult.Status.OK, distance, stopped, simulated, 240, "conserving",
+                "float",
                 null, null, null, null, work, null);
     }
 }

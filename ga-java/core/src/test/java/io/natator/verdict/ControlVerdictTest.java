@@ -31,24 +31,26 @@ class ControlVerdictTest {
     /** Distances in 4 s of a body 1.25 long; a dead body drifts by -0.01. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum, without "
-            + "the acceleration clamp (95 %), at half the time step (95 % of its way), mirrored (100 %); 90 % under water",
-        "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: moves 0.048 ± 0.011 body lengths further than a resting body "
-            + "in 4.00 s, less than 0.05",
-        "0.74|0.01|-0.4|0.70|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: moves 0.5 times as far in vacuum, the other way",
-        "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
-            + "is left",
-        "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
-            + "time step it has 28 % of its way",
-        "0.74|0.01|0.0|0.70|1.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
-            + "time step it has 161 % of its way",
-        "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it skims: "
-            + "20 % of its body are under water; mirrored -25 % of its way is left",
-        "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "
-            + "differ too much to tell"})
-    void allControlsHaveTheirSay(double water, double from, double vacuum, double clampOff, double half, double mirrored,
+            "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum, without "
+                    + "the acceleration clamp (95 %), at half the time step (95 % of its way), mirrored (100 %); 90 % under water",
+            "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: moves 0.048 ± 0.011 body lengths further than a resting body "
+                    + "in 4.00 s, less than 0.05",
+            "0.74|0.01|-0.4|0.70|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: moves 0.5 times as far in vacuum, the other way",
+            "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
+                    + "is left",
+            "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
+                    + "time step it has 28 % of its way",
+            "0.74|0.01|0.0|0.70|1.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
+                    + "time step it has 161 % of its way",
+            "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it skims: "
+                    + "20 % of its body are under water; mirrored -25 % of its way is left",
+            "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "
+                    + "differ too much to tell"})
+    void allControlsHaveTheirSay(double water, double from, double vacuum, double clampOff, double half,
+            double mirrored,
             double underWater, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0), sample(vacuum, 0),
+        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0),
+                sample(vacuum, 0),
                 sample(clampOff, 0), sample(half, 0), sample(mirrored, 0), null, null, underWater);
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
@@ -58,15 +60,17 @@ class ControlVerdictTest {
     /** Of a net way of 0.75 half is 0.375: controls that are known no better than to this side or that of it decide nothing. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "0.5|0.05|0.7|0.0|DOES_NOT_SWIM|does not swim: moves 0.7 times as far in vacuum",
-        "-0.5|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.7 ± 0.3 times as far in vacuum",
-        "0.3|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.4 ± 0.3 times as far in vacuum",
-        "0.3|0.01|0.3|0.1|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but without the acceleration clamp 41 % ± 27 % "
-            + "of its way is left",
-        "0.0|0.1|0.2|0.05|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 28 % of its way is left"})
-    void whatIsNotKnownWellDecidesNothing(double vacuum, double vacuumFrom, double clampOff, double clampOffFrom, Verdict.Kind kind,
+            "0.5|0.05|0.7|0.0|DOES_NOT_SWIM|does not swim: moves 0.7 times as far in vacuum",
+            "-0.5|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.7 ± 0.3 times as far in vacuum",
+            "0.3|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.4 ± 0.3 times as far in vacuum",
+            "0.3|0.01|0.3|0.1|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but without the acceleration clamp 41 % ± 27 % "
+                    + "of its way is left",
+            "0.0|0.1|0.2|0.05|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 28 % of its way is left"})
+    void whatIsNotKnownWellDecidesNothing(double vacuum, double vacuumFrom, double clampOff, double clampOffFrom,
+            Verdict.Kind kind,
             String text) {
-        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(0.74, 0.01), sample(-0.01, 0), sample(vacuum, vacuumFrom),
+        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(0.74, 0.01), sample(-0.01, 0),
+                sample(vacuum, vacuumFrom),
                 sample(clampOff, clampOffFrom), sample(0.7, 0), sample(0.74, 0), null, null, 0.9);
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
@@ -76,12 +80,13 @@ class ControlVerdictTest {
     /** As the verdict on a run by itself does; 0.5 body lengths are 0.625. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "0.74|completed|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum",
-        "0.74|touched-plane|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, until it touches a wall, not in vacuum",
-        "0.60|touched-plane|UNPROVEN|may swim: 0.122 ± 0.003 body lengths/s more than a resting body, until it touches a wall; but the wall is "
-            + "nearer than 0.5 body lengths"})
+            "0.74|completed|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum",
+            "0.74|touched-plane|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, until it touches a wall, not in vacuum",
+            "0.60|touched-plane|UNPROVEN|may swim: 0.122 ± 0.003 body lengths/s more than a resting body, until it touches a wall; but the wall is "
+                    + "nearer than 0.5 body lengths"})
     void aWallIsTold(double way, String stopped, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(way, 0.01, stopped), sample(-0.01, 0), sample(0, 0), null,
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(way, 0.01, stopped),
+                sample(-0.01, 0), sample(0, 0), null,
                 sample(way, 0), sample(way, 0), null, null, 0.9);
 
         assertThat(ControlVerdict.of(controls).text()).startsWith(text);
@@ -90,9 +95,11 @@ class ControlVerdictTest {
 
     /** The length of its body is known, though it is the unit. */
     @ParameterizedTest
-    @CsvSource({"0.74, 0.188 ± 0.004 body lengths/s more", "0.40, nearer than 0.5 body lengths", "0.01, body lengths further"})
+    @CsvSource({"0.74, 0.188 ± 0.004 body lengths/s more", "0.40, nearer than 0.5 body lengths",
+            "0.01, body lengths further"})
     void aBodyOfLengthOneIsMeasuredByItself(double way, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(way, 0.01, "touched-plane"), sample(-0.01, 0),
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(way, 0.01, "touched-plane"),
+                sample(-0.01, 0),
                 sample(0, 0), null, sample(way, 0), sample(way, 0), null, null, 0.9);
 
         assertThat(ControlVerdict.of(controls).text()).contains(text).doesNotContain("units");
@@ -102,10 +109,12 @@ class ControlVerdictTest {
     @ParameterizedTest
     @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})
     void theOtherBackendCounts(double distance, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0), sample(0, 0), null,
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0),
+                sample(0, 0), null,
                 sample(0.7, 0), sample(0.7, 0), sample(distance, 0), "cuda", null);
 
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
-        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.188 ± 0.004 units/s").doesNotContain("clamp");
+        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.188 ± 0.004 units/s")
+                .doesNotContain("clamp");
     }
 }

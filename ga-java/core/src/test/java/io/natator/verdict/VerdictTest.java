@@ -29,22 +29,22 @@ class VerdictTest {
     /** Distances in scene units; the last line is an old folder, whose vacuum run went on after the wall. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
-        "lattice|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
-        "conserving|0.75|completed|4|-0.001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
-        "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.048 body lengths in 4.00 s, less than 0.05",
-        "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves -0.001 body lengths in 4.00 s, less than 0.05",
-        "conserving|-0.75|completed|4|0|4|DOES_NOT_SWIM|does not swim forwards: -0.15 body lengths/s, 0.00 in vacuum",
-        "conserving|0.2|no-progress|3|0|3|DOES_NOT_SWIM|does not swim: comes to rest, no progress at 3.00 s",
-        "conserving|2.5|touched-plane|2|0|2|SWIMS|swims: 1.00 body lengths/s, 0.00 in vacuum, until it touches a wall at 2.00 s",
-        "conserving|0.5|touched-plane|1|0|1|UNPROVEN|not judged: 0.40 body lengths/s, 0.00 in vacuum, until it touches a wall at 1.00 s",
-        "flex|0.75|completed|4|0.01|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.00 in vacuum; no proof, since scheme flex does not keep momentum",
-        "flex|0.75|completed|4|0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.06 in vacuum; moves 0.4 times as far in vacuum",
-        "flex|0.75|completed|4|-0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, -0.06 in vacuum; moves 0.4 times as far in vacuum, the other way",
-        "flex|1.5|completed|4|7.5|4|DOES_NOT_SWIM|does not swim: moves 5.0 times as far in vacuum",
-        "flex|0.6|completed|4|-0.66|4|DOES_NOT_SWIM|does not swim: moves 1.1 times as far in vacuum, the other way",
-        "flex|-0.6|completed|4|-9|4|DOES_NOT_SWIM|does not swim: moves 15 times as far in vacuum",
-        "flex|0.5|touched-plane|1|4|4|DOES_NOT_SWIM|does not swim: moves 2.0 times as fast in vacuum"})
+            "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+            "lattice|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+            "conserving|0.75|completed|4|-0.001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+            "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.048 body lengths in 4.00 s, less than 0.05",
+            "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves -0.001 body lengths in 4.00 s, less than 0.05",
+            "conserving|-0.75|completed|4|0|4|DOES_NOT_SWIM|does not swim forwards: -0.15 body lengths/s, 0.00 in vacuum",
+            "conserving|0.2|no-progress|3|0|3|DOES_NOT_SWIM|does not swim: comes to rest, no progress at 3.00 s",
+            "conserving|2.5|touched-plane|2|0|2|SWIMS|swims: 1.00 body lengths/s, 0.00 in vacuum, until it touches a wall at 2.00 s",
+            "conserving|0.5|touched-plane|1|0|1|UNPROVEN|not judged: 0.40 body lengths/s, 0.00 in vacuum, until it touches a wall at 1.00 s",
+            "flex|0.75|completed|4|0.01|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.00 in vacuum; no proof, since scheme flex does not keep momentum",
+            "flex|0.75|completed|4|0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.06 in vacuum; moves 0.4 times as far in vacuum",
+            "flex|0.75|completed|4|-0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, -0.06 in vacuum; moves 0.4 times as far in vacuum, the other way",
+            "flex|1.5|completed|4|7.5|4|DOES_NOT_SWIM|does not swim: moves 5.0 times as far in vacuum",
+            "flex|0.6|completed|4|-0.66|4|DOES_NOT_SWIM|does not swim: moves 1.1 times as far in vacuum, the other way",
+            "flex|-0.6|completed|4|-9|4|DOES_NOT_SWIM|does not swim: moves 15 times as far in vacuum",
+            "flex|0.5|touched-plane|1|4|4|DOES_NOT_SWIM|does not swim: moves 2.0 times as fast in vacuum"})
     void judgesByDistancesTheirSignsAndTheirTimes(String scheme, double water, String stopped, double simulated,
             double vacuum, double inVacuum, Verdict.Kind kind, String text) {
         Verdict verdict = Verdict.of(result(water, stopped, simulated, scheme),
@@ -58,39 +58,43 @@ class VerdictTest {
     /** By four fresh runs of 4 s each; distances of all at the time step, their mean at half of it. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "0.7 0.8 0.7 0.8|completed|0.7|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.14 at half the time step, 0.00 in vacuum",
-        "0.7 0.8 0.7 0.8|completed|0.3|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.06 at half the time step, 0.00 in vacuum; "
-            + "it loses more than half at half the time step",
-        "0.7 0.8 0.7 0.8|completed|1.2|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.24 at half the time step, 0.00 in vacuum; "
-            + "it gets more than half as far again at half the time step",
-        "0.7 0.8 0.7 0.8|completed|1.1|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.22 at half the time step, 0.00 in vacuum",
-        "1.9 -0.4 -0.2 0.1|completed|0.4|UNPROVEN|may swim: 0.07 ± 0.21 body lengths/s, 0.08 at half the time step, 0.00 in "
-            + "vacuum; the runs differ too much to tell",
-        "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.020 ± 0.040 body lengths in 4.00 s, less than 0.05",
-        "2.5 2.5 2.5 2.5|touched-plane|2.5|SWIMS|swims: 0.50 ± 0.00 body lengths/s, 0.50 at half the time step, 0.00 in "
-            + "vacuum, until it touches a wall"})
+            "0.7 0.8 0.7 0.8|completed|0.7|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.14 at half the time step, 0.00 in vacuum",
+            "0.7 0.8 0.7 0.8|completed|0.3|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.06 at half the time step, 0.00 in vacuum; "
+                    + "it loses more than half at half the time step",
+            "0.7 0.8 0.7 0.8|completed|1.2|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.24 at half the time step, 0.00 in vacuum; "
+                    + "it gets more than half as far again at half the time step",
+            "0.7 0.8 0.7 0.8|completed|1.1|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.22 at half the time step, 0.00 in vacuum",
+            "1.9 -0.4 -0.2 0.1|completed|0.4|UNPROVEN|may swim: 0.07 ± 0.21 body lengths/s, 0.08 at half the time step, 0.00 in "
+                    + "vacuum; the runs differ too much to tell",
+            "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.020 ± 0.040 body lengths in 4.00 s, less than 0.05",
+            "2.5 2.5 2.5 2.5|touched-plane|2.5|SWIMS|swims: 0.50 ± 0.00 body lengths/s, 0.50 at half the time step, 0.00 in "
+                    + "vacuum, until it touches a wall"})
     void freshRunsJudge(String distances, String stopped, double half, Verdict.Kind kind, String text) {
         Gait gait = new Gait(1, List.of(0.1), List.of(0.0));
         List<SimulationResult> runs = Arrays.stream(distances.split(" "))
                 .map(one -> result(Double.parseDouble(one), stopped, 1, "conserving")).toList();
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(runs, 4, gait, 4.0, LENGTH),
-                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Aggregate.MEAN, 9, 1, List.of(1.0));
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, null, 9, 9, result(9, "completed", 4, "conserving"),
+                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Aggregate.MEAN, 9,
+                1, List.of(1.0));
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, null, 9, 9,
+                result(9, "completed", 4, "conserving"),
                 LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
 
         assertThat(Verdict.of(best).text()).isEqualTo(text);
         assertThat(Verdict.of(best).kind()).isEqualTo(kind);
         assertThat(Verdict.of(best).advice() == null).isEqualTo(kind == Verdict.Kind.SWIMS);
-        assertThat(FreshText.of(best).get("selected")).isEqualTo("9.0000 by one run, 1.0000 again: selection loss 88.9 %");
+        assertThat(FreshText.of(best).get("selected"))
+                .isEqualTo("9.0000 by one run, 1.0000 again: selection loss 88.9 %");
     }
 
     /** One run that broke a law of mechanics is enough: the others do not swim for it. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"1|0|; 1 of 4 runs was unstable", "2|0|; 2 of 4 runs were unstable",
-        "0|1|; 1 of 4 runs was unstable at half the time step", "0|0|''"})
+            "0|1|; 1 of 4 runs was unstable at half the time step", "0|0|''"})
     void noVerdictByTheOtherRunsOfAGaitThatWasUnstable(int base, int half, String doubt) {
         FreshRuns fresh = FreshRuns.of(4.0, runs(base), runs(half), Aggregate.MEAN, 9, 1, List.of(1.0));
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 9, 9, result(9, "completed", 4, "conserving"),
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 9, 9,
+                result(9, "completed", 4, "conserving"),
                 LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
 
         assertThat(Verdict.of(best).text()).endsWith("in vacuum" + doubt);
@@ -99,22 +103,27 @@ class VerdictTest {
 
     /** Nor by any condition of the controls. */
     @ParameterizedTest
-    @CsvSource({"0, ''", "1, ' at rest'", "2, ' in vacuum'", "3, ' at half the time step'", "4, ' mirrored'", "5, ' on cuda'", "-1,"})
+    @CsvSource({"0, ''", "1, ' at rest'", "2, ' in vacuum'", "3, ' at half the time step'", "4, ' mirrored'",
+            "5, ' on cuda'", "-1,"})
     void noVerdictOfControlsBesideAnUnstableOne(int which, String where) {
         SwimSample[] samples = new SwimSample[6];
         for (int i = 0; i < samples.length; i++) {
             boolean still = i == 1 || i == 2;
-            samples[i] = still ? SwimSample.of(List.of(result(0, "completed", 4, "conserving"), i == which ? unstable("shape")
-                    : result(0, "completed", 4, "conserving")), 4, GAIT, 4.0, LENGTH) : runs(i == which ? 1 : 0);
+            samples[i] = still
+                    ? SwimSample.of(List.of(result(0, "completed", 4, "conserving"), i == which ? unstable("shape")
+                            : result(0, "completed", 4, "conserving")), 4, GAIT, 4.0, LENGTH)
+                    : runs(i == which ? 1 : 0);
         }
-        ControlVerdict verdict = ControlVerdict.of(new Controls(GAIT, null, "conserving", 4.0, LENGTH, samples[0], samples[1], samples[2], null,
-                samples[3], samples[4], samples[5], "cuda", null));
+        ControlVerdict verdict = ControlVerdict
+                .of(new Controls(GAIT, null, "conserving", 4.0, LENGTH, samples[0], samples[1], samples[2], null,
+                        samples[3], samples[4], samples[5], "cuda", null));
 
         if (where == null) {
             assertThat(verdict.kind()).as(verdict.text()).isEqualTo(Verdict.Kind.SWIMS);
         } else {
             assertThat(verdict.kind()).isEqualTo(Verdict.Kind.UNPROVEN);
-            assertThat(verdict.text()).contains(which == 1 || which == 2 ? "1 of 2 runs was unstable" + where : "1 of 4 runs was unstable" + where);
+            assertThat(verdict.text()).contains(
+                    which == 1 || which == 2 ? "1 of 2 runs was unstable" + where : "1 of 4 runs was unstable" + where);
         }
     }
 
@@ -136,7 +145,8 @@ class VerdictTest {
 
     @Test
     void aCheatIsToldWhatToTry() {
-        assertThat(Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
+        assertThat(
+                Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
                 .contains("--scene pool/creature-N", "open-water/creature-N", "--fitness net")
                 .as("in the thesis' tank bodies sink in it").doesNotContain("--scheme");
         assertThat(Verdict.of(result(0.01, "completed", 4, "conserving"), null, LENGTH).advice())
@@ -146,13 +156,14 @@ class VerdictTest {
     /** A drift in the thesis' tank is a matter of its scheme, sinking of its water; elsewhere of the search. */
     @ParameterizedTest
     @CsvSource({"thesis/creature-2, conserving, sink", "thesis/creature-2, flex, --fitness net",
-        "pool/creature-2, conserving, --generations", "fish.json, conserving, --generations"})
+            "pool/creature-2, conserving, --generations", "fish.json, conserving, --generations"})
     void whatToTryDependsOnTheScene(String scene, String scheme, String advice) {
         SimulationResult water = result(0.5, "touched-plane", 1, scheme);
         SimulationResult vacuum = result("flex".equals(scheme) ? 2 : 0, "completed", 1, scheme);
 
-        Verdict verdict = Verdict.of(new BestGait(scene, List.of(1.0), new Gait(1, List.of(0.1), List.of(0.0)), 0.5, 0.5,
-                water, LENGTH, vacuum));
+        Verdict verdict = Verdict
+                .of(new BestGait(scene, List.of(1.0), new Gait(1, List.of(0.1), List.of(0.0)), 0.5, 0.5,
+                        water, LENGTH, vacuum));
 
         assertThat(verdict.advice()).contains(advice);
         assertThat(verdict.text()).isEqualTo(Verdict.of(water, vacuum, LENGTH).text());
@@ -168,8 +179,10 @@ class VerdictTest {
     @ParameterizedTest
     @CsvSource({"0.001, 0.00", "0.75, 0.19"})
     void aRunThatGoesOnIsNotJudgedByUnits(double way, String speed) {
-        assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null)).extracting(Verdict::kind, Verdict::text)
-                .containsExactly(Verdict.Kind.UNPROVEN, "not judged: moves at " + speed + " units/s; not run in vacuum yet");
+        assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null))
+                .extracting(Verdict::kind, Verdict::text)
+                .containsExactly(Verdict.Kind.UNPROVEN,
+                        "not judged: moves at " + speed + " units/s; not run in vacuum yet");
     }
 
     @Test
@@ -179,7 +192,8 @@ class VerdictTest {
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; not run in vacuum yet");
         assertThat(Verdict.of(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; no result in vacuum, no answer");
-        assertThat(Verdict.of(unstable("tank"), null, LENGTH).text()).isEqualTo("not judged: unstable at 0.50 s (broke law tank)");
+        assertThat(Verdict.of(unstable("tank"), null, LENGTH).text())
+                .isEqualTo("not judged: unstable at 0.50 s (broke law tank)");
         assertThat(Verdict.of(unstable(null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
                 .containsExactly(Verdict.Kind.UNPROVEN, "not judged: unstable at 0.50 s");
     }

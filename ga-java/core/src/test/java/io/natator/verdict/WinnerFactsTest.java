@@ -29,19 +29,22 @@ class WinnerFactsTest {
     }
 
     private static SimulationResult result(double distance, Double across) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float", null, null,
+        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving",
+                "float", null, null,
                 null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, across), 3.0, null);
     }
 
     private static BestGait best(FreshRuns fresh) {
-        return new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5, 1, fresh);
+        return new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5,
+                1, fresh);
     }
 
     /** Whether it swims, how fast, how sure, what it lost since it was selected, and what it costs. */
     @Test
     void aReaderOfAWinnerIsToldAll() {
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(result(1.9), result(2.1)), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1, List.of(2.0));
+                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1,
+                List.of(2.0));
 
         assertThat(WinnerFacts.of(run, best(fresh))).containsExactly(
                 Map.entry("verdict", "swims: 0.40 ± 0.03 body lengths/s, 0.36 at half the time step, 0.00 in vacuum"),
@@ -58,21 +61,24 @@ class WinnerFactsTest {
     void oneRunIsSaidToBeOne() {
         assertThat(WinnerFacts.of(run, best(null))).containsOnlyKeys("verdict", "cost", "flow")
                 .containsEntry("verdict", "swims: 0.50 body lengths/s, 0.00 in vacuum (one run, not a mean)")
-                .containsEntry("cost", "cost of transport 1.2 mass · length/s², work of the muscles 3 mass · length²/s²");
+                .containsEntry("cost",
+                        "cost of transport 1.2 mass · length/s², work of the muscles 3 mass · length²/s²");
     }
 
     /** A body that the water is too coarse for is said to be, of one run and of fresh ones; what has no number of it, or enough, is not. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', nullValues = "-", value = {"1.5|, body 1.5 spacings of the water across",
-        "3.98|, body 4 spacings of the water across", "0.5|, body 0.5 spacings of the water across",
-        "4|-", "3.999999|-", "9|-", "0|-", "-|-"})
+            "3.98|, body 4 spacings of the water across", "0.5|, body 0.5 spacings of the water across",
+            "4|-", "3.999999|-", "9|-", "0|-", "-|-"})
     void coarseWaterIsTold(Double across, String told) {
         SimulationResult one = result(2.0, across);
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(one), 4, GAIT, 4.0, 1.25),
                 SwimSample.of(List.of(one), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1, List.of(2.0));
-        String flow = "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes" + (told == null ? "" : told);
+        String flow = "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes"
+                + (told == null ? "" : told);
         for (FreshRuns runs : Arrays.asList(null, fresh)) {
-            BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, one, 1.25, result(0), 2.5, 1, runs);
+            BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, one, 1.25, result(0),
+                    2.5, 1, runs);
             assertThat(WinnerFacts.mechanics(best)).containsEntry("flow", flow);
         }
     }

@@ -193,7 +193,8 @@ final class Cluster {
             alone = System.nanoTime();
         } else if (System.nanoTime() - alone > PATIENCE_NANOSECONDS && !toldOfWaiting) {
             toldOfWaiting = true;
-            LOG.error("no executor for {} s; are there workers at {} with enough free memory ({}, --executor-memory) and cores?",
+            LOG.error(
+                    "no executor for {} s; are there workers at {} with enough free memory ({}, --executor-memory) and cores?",
                     PATIENCE_NANOSECONDS / 1_000_000_000, context.master(),
                     context.getConf().get("spark.executor.memory", "1g"));
         }

@@ -49,7 +49,8 @@ final class ClusterJob implements AutoCloseable {
             // Several evolutions at once share the cluster evenly.
             context.setLocalProperty("spark.scheduler.pool", Thread.currentThread().getName());
             RDD<String> done = cluster.context().parallelize(parts, parts.size()).mapPartitions(work).rdd();
-            Seq<Object> all = CollectionConverters.asScala(IntStream.range(0, parts.size()).<Object>mapToObj(i -> i).toList())
+            Seq<Object> all = CollectionConverters
+                    .asScala(IntStream.range(0, parts.size()).<Object>mapToObj(i -> i).toList())
                     .toSeq();
             action = context.submitJob(done, new Collected(), all, new AbstractFunction2<>() {
                 @Override
@@ -69,7 +70,9 @@ final class ClusterJob implements AutoCloseable {
     }
 
     /** Takes the answer to a part; runs where it is. */
-    private static final class Collected extends AbstractFunction1<Iterator<String>, ArrayList<String>> implements Serializable {
+    private static final class Collected extends AbstractFunction1<Iterator<String>, ArrayList<String>>
+            implements
+                Serializable {
 
         private static final long serialVersionUID = 1L;
 

@@ -58,13 +58,15 @@ final class ExecutorSimulator {
      */
     static ExecutorSimulator of(ExecutorConfig config, int device) throws UnfitExecutorException, InterruptedException {
         ExecutorSimulator simulator = ALL.computeIfAbsent(
-                new Key(SentFile.get(config.program()), config.backend(), device, config.timeout()), ExecutorSimulator::new);
+                new Key(SentFile.get(config.program()), config.backend(), device, config.timeout()),
+                ExecutorSimulator::new);
         simulator.check(config, false);
         return simulator;
     }
 
     /** One check at a time: what one task finds out the others need not. */
-    private synchronized void check(ExecutorConfig config, boolean again) throws UnfitExecutorException, InterruptedException {
+    private synchronized void check(ExecutorConfig config, boolean again)
+            throws UnfitExecutorException, InterruptedException {
         if (info == null) {
             try {
                 info = ProgramInfo.of(program);
@@ -83,8 +85,10 @@ final class ExecutorSimulator {
         if (config.hash() != null && (again || !done.contains(config.hash()))) {
             SimulationResult result = swim(config.sample());
             if (!config.hash().equals(result.hash())) {
-                throw new UnfitExecutorException("swims otherwise than " + (config.backend() == Backend.CPU ? "the driver"
-                        : "the first GPU") + " (hash " + Objects.requireNonNullElse(result.hash(), "none: " + result.error())
+                throw new UnfitExecutorException("swims otherwise than "
+                        + (config.backend() == Backend.CPU ? "the driver"
+                                : "the first GPU")
+                        + " (hash " + Objects.requireNonNullElse(result.hash(), "none: " + result.error())
                         + ", not " + config.hash() + ", after " + config.sample().duration() + " s)");
             }
             done.add(config.hash());
@@ -157,6 +161,7 @@ final class ExecutorSimulator {
 
     /** With the request's number, where it is known which of them it was. */
     private static SimulationResult refused(Long id, String reason) {
-        return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null, reason);
+        return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null,
+                reason);
     }
 }

@@ -57,7 +57,8 @@ final class Partition implements FlatMapFunction<Iterator<String>, String> {
         try {
             return Integer.parseInt(gpu.addresses()[0]);
         } catch (NumberFormatException e) {
-            throw new UnfitExecutorException("GPU address is " + gpu.addresses()[0] + "; expected its number, from 0", e);
+            throw new UnfitExecutorException("GPU address is " + gpu.addresses()[0] + "; expected its number, from 0",
+                    e);
         }
     }
 }

@@ -86,7 +86,8 @@ final class Partitioner {
         int count = Math.min(slots, requests.size());
         List<List<SimulationRequest>> parts = new ArrayList<>();
         for (int i = 0; i < count; i++) {
-            parts.add(requests.subList((int) ((long) i * requests.size() / count), (int) ((i + 1L) * requests.size() / count)));
+            parts.add(requests.subList((int) ((long) i * requests.size() / count),
+                    (int) ((i + 1L) * requests.size() / count)));
         }
         return parts;
     }

@@ -33,7 +33,8 @@ final class SentFile {
             try {
                 String digest = Sha256.of(file);
                 if (!name.contains(digest)) {
-                    throw new UnfitExecutorException("file " + file + " has digest " + digest + ", not that in its name");
+                    throw new UnfitExecutorException(
+                            "file " + file + " has digest " + digest + ", not that in its name");
                 }
             } catch (UncheckedIOException e) {
                 throw new UnfitExecutorException(e.getMessage(), e);

@@ -70,7 +70,8 @@ final class SparkEvaluator implements Evaluator {
     }
 
     /** With so many slots for this call. */
-    private void evaluate(List<SimulationRequest> requests, int slots, ExecutorConfig given, Consumer<SimulationResult> whenDone)
+    private void evaluate(List<SimulationRequest> requests, int slots, ExecutorConfig given,
+            Consumer<SimulationResult> whenDone)
             throws InterruptedException {
         Map<Long, List<SimulationRequest>> open = new HashMap<>();
         List<String> lines = new ArrayList<>();
@@ -104,7 +105,8 @@ final class SparkEvaluator implements Evaluator {
         });
     }
 
-    private void carryOut(String what, List<String> lines, ExecutorConfig given, Consumer<String> whenDone) throws InterruptedException {
+    private void carryOut(String what, List<String> lines, ExecutorConfig given, Consumer<String> whenDone)
+            throws InterruptedException {
         try (ClusterJob job = new ClusterJob(cluster, name, what, lines, new Partition(Json.line(given)))) {
             for (int left = lines.size(); left > 0;) {
                 failIfClosed();
@@ -145,9 +147,11 @@ final class SparkEvaluator implements Evaluator {
             boolean here = execution.backend() == Backend.CPU;
             SimulationRequest cut = request.withDuration(SAMPLE);
             String hash = here ? swim(cut) : null;
-            ExecutorConfig first = new ExecutorConfig(cluster.send("natator-sim", execution.simulator()), Sha256.of(execution.simulator()),
+            ExecutorConfig first = new ExecutorConfig(cluster.send("natator-sim", execution.simulator()),
+                    Sha256.of(execution.simulator()),
                     here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),
-                    execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut), hash,
+                    execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut),
+                    hash,
                     null);
             config = here ? first : like(first);
         }

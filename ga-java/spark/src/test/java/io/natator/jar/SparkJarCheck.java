@@ -10,8 +10,10 @@ import org.junit.jupiter.api.Test;
 /** What the jar for Spark says of what it contains, and that it contains nothing that a cluster has. */
 class SparkJarCheck extends ThirdPartyJarCheck {
 
-    private static final List<String> STRANGE = List.of("com/fasterxml/", "ch/qos/logback", "logback.xml", "io/javalin/",
-            "org/eclipse/jetty", "kotlin/", "jakarta/", "org/slf4j/", "org/apache/spark/", "org/apache/logging/", "scala/");
+    private static final List<String> STRANGE = List.of("com/fasterxml/", "ch/qos/logback", "logback.xml",
+            "io/javalin/",
+            "org/eclipse/jetty", "kotlin/", "jakarta/", "org/slf4j/", "org/apache/spark/", "org/apache/logging/",
+            "scala/");
 
     @Test
     void nothingInItMeetsWhatAClusterHas() throws IOException {

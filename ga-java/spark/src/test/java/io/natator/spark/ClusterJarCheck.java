@@ -30,8 +30,8 @@ import picocli.CommandLine;
 class ClusterJarCheck {
 
     private static final Path REAL = Path.of(System.getProperty("natator.simulator")).toAbsolutePath().normalize();
-    private static final List<String> RESULTS =
-            List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl", "results.json");
+    private static final List<String> RESULTS = List.of("generations.csv", "best.json", "checkpoint.json",
+            "evaluations.jsonl", "results.json");
 
     @TempDir
     private static Path shared;
@@ -86,16 +86,19 @@ class ClusterJarCheck {
     /** A run on this machine, a process for each evaluation. */
     private void alone(Path simulator, Path run, String... settings) {
         StringWriter said = new StringWriter();
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--no-cache", "--simulator", "process", "--simulator-path",
-                simulator.toString(), "--output-dir", run.toString()));
+        List<String> arguments = new ArrayList<>(
+                List.of("evolve", "--no-cache", "--simulator", "process", "--simulator-path",
+                        simulator.toString(), "--output-dir", run.toString()));
         arguments.addAll(List.of(settings));
         CommandLine command = Main.commandLine().setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
         assertThat(command.execute(arguments.toArray(String[]::new))).as(said.toString()).isZero();
     }
 
-    private Process evolve(Path simulator, Path run, List<String> configuration, String... settings) throws IOException {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--no-cache", "--simulator-path", simulator.toString(),
-                "--output-dir", run.toString(), "--timeout", "3600"));
+    private Process evolve(Path simulator, Path run, List<String> configuration, String... settings)
+            throws IOException {
+        List<String> arguments = new ArrayList<>(
+                List.of("evolve", "--no-cache", "--simulator-path", simulator.toString(),
+                        "--output-dir", run.toString(), "--timeout", "3600"));
         arguments.addAll(List.of(settings));
         return cluster.submit(log, configuration, arguments.toArray(String[]::new));
     }
@@ -124,7 +127,7 @@ class ClusterJarCheck {
         Path scene = folder.resolve("mine.json");
         Files.writeString(scene, "{\"base\":\"thesis/creature-1\"}");
         String[] settings = {"--scene", scene.toString(), "--duration", "0.05", "--starts", "1", "--population", "8",
-            "--generations", "1", "--seed", "7"};
+                "--generations", "1", "--seed", "7"};
         alone(REAL, folder.resolve("alone"), settings);
 
         assertSucceeds(evolve(REAL, folder.resolve("run"), List.of(), settings));
@@ -136,7 +139,8 @@ class ClusterJarCheck {
     /** Each is killed while generations are under way; then the driver, which is continued by another. */
     @Test
     void killedExecutorsAndAKilledDriverChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations", "4", "--seed", "3"};
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations",
+                "4", "--seed", "3"};
         alone(fake, folder.resolve("alone"), settings);
         inTurns();
         Path run = folder.resolve("run");
@@ -152,7 +156,8 @@ class ClusterJarCheck {
         assertThat(logged).isLessThan(evaluations(folder.resolve("alone")));
         Files.delete(folder.resolve("turns"));
 
-        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(), run.toString()));
+        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(),
+                run.toString()));
 
         assertSame(run, folder.resolve("alone"));
     }
@@ -183,7 +188,8 @@ class ClusterJarCheck {
     @Test
     @Tag("nightly")
     void fiftyKillsChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "150", "--generations", "12", "--seed", "3"};
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "150", "--generations",
+                "12", "--seed", "3"};
         alone(fake, folder.resolve("alone"), settings);
         inTurns();
         Path run = folder.resolve("run");
@@ -209,7 +215,8 @@ class ClusterJarCheck {
     @Test
     @Tag("nightly")
     void machinesThatCannotAreLeftOut() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations", "1", "--seed", "3"};
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations",
+                "1", "--seed", "3"};
         Path simulator = script("if [[ -n $TEST_NONSENSE && $1 != info ]]; then echo nonsense; exit; fi\n"
                 + "if [[ -n $TEST_HANG && $1 = serve ]]; then sleep 3600; fi\n"
                 + "exec FOLDER/fake-simulator.sh \"$@\"");
@@ -226,8 +233,9 @@ class ClusterJarCheck {
         }
 
         assertSame(folder.resolve("run"), folder.resolve("alone"));
-        assertThat(Files.readString(log)).containsPattern("executor \\d+ on 127.0.0.\\d: swims otherwise than the driver "
-                + "\\(hash none: no valid result: .*; it gets no more work, others do its evaluations")
+        assertThat(Files.readString(log))
+                .containsPattern("executor \\d+ on 127.0.0.\\d: swims otherwise than the driver "
+                        + "\\(hash none: no valid result: .*; it gets no more work, others do its evaluations")
                 .containsPattern("executor \\d+ .*: .*File too large");
     }
 
@@ -235,12 +243,14 @@ class ClusterJarCheck {
     @Test
     @Tag("nightly")
     void evolutionsAtTheSameTimeShareTheCluster() throws IOException, InterruptedException {
-        List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--seeds", "4", "--evaluations", "30",
+        List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--seeds", "4",
+                "--evaluations", "30",
                 "--creature", "1", "--output-dir");
         List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator", "process"));
         arguments.addAll(settings);
         arguments.add(folder.resolve("alone").toString());
-        assertThat(Main.commandLine().setOut(new PrintWriter(Writer.nullWriter())).setErr(new PrintWriter(Writer.nullWriter()))
+        assertThat(Main.commandLine().setOut(new PrintWriter(Writer.nullWriter()))
+                .setErr(new PrintWriter(Writer.nullWriter()))
                 .execute(arguments.toArray(String[]::new))).isZero();
         arguments = new ArrayList<>(List.of("evolve"));
         arguments.addAll(settings);
@@ -256,14 +266,17 @@ class ClusterJarCheck {
     @Test
     void anotherInstructionSetIsRefusedInOneLine() throws IOException, InterruptedException {
         Process driver = evolve(REAL, folder.resolve("run"), List.of("spark.executorEnv.NATATOR_ISA=portable",
-                "spark.scheduler.excludeOnFailure.unschedulableTaskSetTimeout=1s"), "--population", "4", "--generations", "0",
+                "spark.scheduler.excludeOnFailure.unschedulableTaskSetTimeout=1s"), "--population", "4",
+                "--generations", "0",
                 "--duration", "0.1");
 
         assertThat(driver.waitFor()).as(Files.readString(log)).isEqualTo(2);
 
-        assertThat(Files.readAllLines(log)).filteredOn(line -> line.startsWith("natator evolve: ")).singleElement().asString()
-                .matches("natator evolve: simulator: no executor can do it; executor \\d on 127.0.0.\\d: instruction set is "
-                        + "portable, the driver's is .*: last digits would differ; set NATATOR_ISA for all to what all have");
+        assertThat(Files.readAllLines(log)).filteredOn(line -> line.startsWith("natator evolve: ")).singleElement()
+                .asString()
+                .matches(
+                        "natator evolve: simulator: no executor can do it; executor \\d on 127.0.0.\\d: instruction set is "
+                                + "portable, the driver's is .*: last digits would differ; set NATATOR_ISA for all to what all have");
     }
 
     /** No worker has that much memory, of which Spark itself says little. */
@@ -272,8 +285,9 @@ class ClusterJarCheck {
     void waitingForExecutorsIsToldOf() throws IOException, InterruptedException {
         Process driver = evolve(fake, folder.resolve("run"), List.of("spark.executor.memory=40g"), "--creature", "1");
         try {
-            TestCluster.await("a line about it", () -> Files.readString(log).contains("no executor for 30 s; are there workers at "
-                    + cluster.master() + " with enough free memory (40g, --executor-memory) and cores?"));
+            TestCluster.await("a line about it",
+                    () -> Files.readString(log).contains("no executor for 30 s; are there workers at "
+                            + cluster.master() + " with enough free memory (40g, --executor-memory) and cores?"));
         } finally {
             driver.destroyForcibly().waitFor();
         }
@@ -289,11 +303,13 @@ class ClusterJarCheck {
                 fi
                 if [[ $1 = serve ]]; then echo "$*" >>FOLDER/started; exec FOLDER/fake-simulator.sh serve; fi
                 exec FOLDER/fake-simulator.sh "$@\"""");
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "30", "--generations", "1", "--seed", "3", "--backend", "cuda"};
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "30", "--generations",
+                "1", "--seed", "3", "--backend", "cuda"};
         alone(simulator, folder.resolve("alone"), settings);
         Files.writeString(folder.resolve("slow"), "0.02");
 
-        assertSucceeds(evolve(simulator, folder.resolve("run"), List.of("spark.executor.resource.gpu.amount=1"), settings));
+        assertSucceeds(
+                evolve(simulator, folder.resolve("run"), List.of("spark.executor.resource.gpu.amount=1"), settings));
 
         assertSame(folder.resolve("run"), folder.resolve("alone"));
         assertThat(Files.readAllLines(folder.resolve("started"))).containsExactlyInAnyOrder(

@@ -20,7 +20,8 @@ import org.junit.jupiter.params.provider.CsvSource;
 class PartitionerTest {
 
     private static final Gait GAIT = new Gait(1.5, List.of(0.1, 0.2), List.of(0.0, 0.3));
-    private static final JsonNode VACUUM = JsonNodeFactory.instance.objectNode().set("fluid", JsonNodeFactory.instance.nullNode());
+    private static final JsonNode VACUUM = JsonNodeFactory.instance.objectNode().set("fluid",
+            JsonNodeFactory.instance.nullNode());
 
     private static SimulationRequest request(long id, JsonNode overrides) {
         return new SimulationRequest(id, "thesis/creature-1", GAIT, 4.0, null, overrides);
@@ -47,7 +48,8 @@ class PartitionerTest {
         for (int i = 0; i < 2000; i++) {
             List<SimulationRequest> all = requests(random.nextInt(1, 400));
             int slots = random.nextInt(1, 300);
-            Partitioner parts = random.nextInt(4) == 0 ? new Partitioner() : known(Math.pow(10, random.nextDouble(-4, 2)));
+            Partitioner parts = random.nextInt(4) == 0 ? new Partitioner()
+                    : known(Math.pow(10, random.nextDouble(-4, 2)));
 
             assertThat(parts.of(all, slots)).noneMatch(Collection::isEmpty);
             assertThat(parts.of(all, slots).stream().flatMap(List::stream).toList()).isEqualTo(all);
@@ -94,8 +96,9 @@ class PartitionerTest {
 
         List<List<SimulationRequest>> divided = parts.of(all, 1);
 
-        assertThat(divided).allSatisfy(part -> assertThat(part.stream().map(SimulationRequest::overrides).collect(Collectors.toSet()))
-                .hasSize(1));
+        assertThat(divided).allSatisfy(
+                part -> assertThat(part.stream().map(SimulationRequest::overrides).collect(Collectors.toSet()))
+                        .hasSize(1));
         assertThat(divided.stream().filter(part -> VACUUM.equals(part.get(0).overrides())).count()).isEqualTo(1);
     }
 

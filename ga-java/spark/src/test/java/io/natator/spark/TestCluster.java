@@ -30,7 +30,8 @@ final class TestCluster implements AutoCloseable {
     TestCluster(Path folder) throws IOException, InterruptedException {
         this.folder = folder;
         Path log = folder.resolve("master.log");
-        processes.add(start(log, Map.of(), List.of(), "org.apache.spark.deploy.master.Master", "--host", "127.0.0.1", "--port", "0",
+        processes.add(start(log, Map.of(), List.of(), "org.apache.spark.deploy.master.Master", "--host", "127.0.0.1",
+                "--port", "0",
                 "--webui-port", "0"));
         await("master", () -> MASTER.matcher(Files.readString(log)).find());
         Matcher url = MASTER.matcher(Files.readString(log));
@@ -56,7 +57,8 @@ final class TestCluster implements AutoCloseable {
         String host = "127.0.0." + (2 + workers.size());
         Path log = folder.resolve(name + ".log");
         List<String> command = new ArrayList<>(List.of("bash", "-c", before + " exec \"$@\"", name));
-        command.addAll(java(options, "org.apache.spark.deploy.worker.Worker", "--host", host, "--port", "0", "--webui-port",
+        command.addAll(java(options, "org.apache.spark.deploy.worker.Worker", "--host", host, "--port", "0",
+                "--webui-port",
                 "0", "--cores", "1", "--memory", "600m", "--work-dir", folder.resolve(name).toString(), master));
         Map<String, String> all = new HashMap<>(environment);
         all.put("SPARK_LOCAL_IP", host);
@@ -75,7 +77,8 @@ final class TestCluster implements AutoCloseable {
     /** Starts the program by spark-submit; its output goes to the log. */
     Process submit(Path log, List<String> configuration, String... arguments) throws IOException {
         List<String> all = new ArrayList<>(List.of("--master", master));
-        for (String each : List.of("spark.ui.enabled=false", "spark.executor.memory=480m", "spark.driver.host=127.0.0.1",
+        for (String each : List.of("spark.ui.enabled=false", "spark.executor.memory=480m",
+                "spark.driver.host=127.0.0.1",
                 "spark.executor.extraJavaOptions=-XX:TieredStopAtLevel=1 -XX:+UseSerialGC -Xss512k")) {
             all.addAll(List.of("--conf", each));
         }
@@ -93,8 +96,9 @@ final class TestCluster implements AutoCloseable {
     }
 
     private static List<String> java(List<String> options, String type, String... arguments) {
-        List<String> command = new ArrayList<>(List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-Xmx512m", "-cp", HOME.resolve("jars") + "/*"));
+        List<String> command = new ArrayList<>(
+                List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                        "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-Xmx512m", "-cp", HOME.resolve("jars") + "/*"));
         command.addAll(List.of(JavaModuleOptions.defaultModuleOptions().trim().split("\\s+")));
         command.addAll(options);
         command.add(type);

@@ -18,7 +18,8 @@ final class PageModules {
     private static final String WEBJAR = "META-INF/resources/webjars/three/0.181.1/";
     /** Folders of resources by the beginning of a module's name; the first that has it counts. */
     private static final Map<String, String[]> FOLDERS = new LinkedHashMap<>();
-    private static final Pattern IMPORT = Pattern.compile("(\\bfrom\\s*|\\bimport\\s*)([\"'])(\\./[^\"']+|three(?:/[^\"']+)?)\\2");
+    private static final Pattern IMPORT = Pattern
+            .compile("(\\bfrom\\s*|\\bimport\\s*)([\"'])(\\./[^\"']+|three(?:/[^\"']+)?)\\2");
 
     static {
         FOLDERS.put("three/addons/", new String[] {WEBJAR + "examples/jsm/"});
@@ -63,7 +64,8 @@ final class PageModules {
         if (!imported.startsWith("./")) {
             return imported;
         }
-        String folder = importing.contains("/") ? importing.substring(0, importing.lastIndexOf('/') + 1) : importing + "/";
+        String folder = importing.contains("/") ? importing.substring(0, importing.lastIndexOf('/') + 1)
+                : importing + "/";
         return folder + imported.substring(2);
     }
 

@@ -69,8 +69,9 @@ public final class ReplayHtml {
             }
         }
         int last = EVERY[EVERY.length - 1];
-        throw new InvalidInputException(String.format(Locale.ROOT, "the page has %.1f MB even with %.0f frames a second; "
-                + "expected at most %s: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
+        throw new InvalidInputException(String.format(Locale.ROOT,
+                "the page has %.1f MB even with %.0f frames a second; "
+                        + "expected at most %s: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
                 html.length / MEGABYTE, framesPerSecond(last), size(maxBytes)));
     }
 
@@ -101,7 +102,8 @@ public final class ReplayHtml {
         String modules = base64(Zlib.compressed(
                 Json.line(PageModules.of("natator/replay.js")).getBytes(StandardCharsets.UTF_8)));
         Map<String, String> parts = Map.of("title", escaped(title), "style",
-                PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"), "modules", modules,
+                PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"), "modules",
+                modules,
                 "swims", swimText);
         return PART.matcher(PageModules.resource("natator/replay.html"))
                 .replaceAll(part -> Matcher.quoteReplacement(parts.get(part.group(1))));

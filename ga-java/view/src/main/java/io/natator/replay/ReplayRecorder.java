@@ -59,7 +59,7 @@ public final class ReplayRecorder {
             } else if (!(message instanceof StreamMessage.Answer answer && answer.ok())) {
                 throw new IOException(message instanceof StreamMessage.Answer refused ? refused.error()
                         : message instanceof StreamMessage.Stop stop ? "the simulation stopped: " + stop.json()
-                        : message == null ? "the simulator ended without a word" : "the scene changed");
+                                : message == null ? "the simulator ended without a word" : "the scene changed");
             }
         }
     }

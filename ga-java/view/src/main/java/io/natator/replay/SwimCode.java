@@ -36,8 +36,10 @@ final class SwimCode {
     private static final int AXES = 3;
     /** By which the better code of a table is found. */
     private static final int TRIED_ROWS = 40;
-    private static final List<String> SCENE_KEYS = List.of("program", "scene", "overrides", "gait", "scheme", "precision",
-            "timeStep", "solidRestDistance", "fluidRestDistance", "planes", "periodic", "particles", "fluid", "body", "slices",
+    private static final List<String> SCENE_KEYS = List.of("program", "scene", "overrides", "gait", "scheme",
+            "precision",
+            "timeStep", "solidRestDistance", "fluidRestDistance", "planes", "periodic", "particles", "fluid", "body",
+            "slices",
             "bodyLength", "clusters", "joints", "actuators", "muscles", "skin");
 
     private final Replay swim;
@@ -152,7 +154,8 @@ final class SwimCode {
     private void addDensity(List<StreamFrame> frames, ArrayNode described, ByteArrayOutputStream out) {
         double[] ends = ends(water, 1, 0, StreamFrame::density);
         Quantiser steps = Quantiser.over(ends[0], ends[1], DENSITY_BITS);
-        int[][] rows = frames.stream().map(frame -> IntStream.of(water).map(i -> steps.of(frame.density()[i])).toArray())
+        int[][] rows = frames.stream()
+                .map(frame -> IntStream.of(water).map(i -> steps.of(frame.density()[i])).toArray())
                 .toArray(int[][]::new);
         add(rows, new Quantiser[] {steps}, 1, "density", described, out);
     }

@@ -48,7 +48,8 @@ public final class StreamReader {
             return null;
         }
         if (count < HEAD_BYTES) {
-            throw StreamException.atEnd("stream ended " + Numbers.count(count, "byte") + " into the 8-byte head of a message");
+            throw StreamException
+                    .atEnd("stream ended " + Numbers.count(count, "byte") + " into the 8-byte head of a message");
         }
         String letters = new String(head, 0, LETTERS, StandardCharsets.ISO_8859_1);
         long length = Integer.toUnsignedLong(ByteBuffer.wrap(head).order(ByteOrder.LITTLE_ENDIAN).getInt(LETTERS));
@@ -81,7 +82,8 @@ public final class StreamReader {
         }
         if (length != scene.frameBytes()) {
             throw new StreamException("FRAM of " + length + " bytes; expected " + scene.frameBytes() + " for "
-                    + Numbers.count(scene.particles(), "particle") + " and " + Numbers.count(scene.actuators(), "actuator"));
+                    + Numbers.count(scene.particles(), "particle") + " and "
+                    + Numbers.count(scene.actuators(), "actuator"));
         }
         byte[] bytes = new byte[(int) length];
         whole("FRAM", in.readNBytes(bytes, 0, bytes.length), length);

@@ -151,8 +151,9 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         expect(muscles != null, "muscles: expected a list");
         for (Muscle muscle : muscles) {
             expect(muscle != null && muscle.a >= 0 && muscle.a < particles && muscle.b >= 0 && muscle.b < particles
-                    && muscle.actuator >= 0 && muscle.actuator < actuators, "muscle " + muscle
-                    + "; expected particles below " + particles + " and an actuator below " + actuators);
+                    && muscle.actuator >= 0 && muscle.actuator < actuators,
+                    "muscle " + muscle
+                            + "; expected particles below " + particles + " and an actuator below " + actuators);
         }
         expect(skin == null || skin.fits(body.size(), clusters.size()),
                 "skin: expected vertices, triangles and places of rest that fit the body");

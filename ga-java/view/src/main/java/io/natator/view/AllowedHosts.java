@@ -42,6 +42,7 @@ final class AllowedHosts {
 
     /** Whether a page of this origin was served under this {@code Host}. Browsers send both when they open a socket. */
     boolean isOwnPage(String origin, String host) {
-        return contains(host) && Stream.of("http://", "https://").anyMatch(scheme -> (scheme + host).equalsIgnoreCase(origin));
+        return contains(host)
+                && Stream.of("http://", "https://").anyMatch(scheme -> (scheme + host).equalsIgnoreCase(origin));
     }
 }

@@ -31,7 +31,8 @@ record BodyOutline(String label, double length, List<double[]> sections, List<Do
         for (int i = 0; i < BODIES && !bests.isEmpty(); i++) {
             shown.add(bests.get((bests.size() - 1) * i / (BODIES - 1)));
         }
-        shown.forEach(best -> outlines.add(of("best of generation " + best.generation(), scene.with(best.overrides()))));
+        shown.forEach(
+                best -> outlines.add(of("best of generation " + best.generation(), scene.with(best.overrides()))));
         return outlines;
     }
 

@@ -73,7 +73,8 @@ record ClientCommand(String what, ObjectNode content) {
         if (what.equals(START) || content.has("scene")) {
             String scene = scene();
             if (scene == null || !NAME.matcher(scene).matches() && !files.contains(scene)) {
-                throw new InvalidInputException("scene: expected a named scene or one that the server was started with");
+                throw new InvalidInputException(
+                        "scene: expected a named scene or one that the server was started with");
             }
         }
         for (String key : new String[] {"gait", "overrides"}) {
@@ -100,8 +101,9 @@ record ClientCommand(String what, ObjectNode content) {
             throw new InvalidInputException(where + ": expected a bundled mesh");
         }
         if (text.endsWith(FILE_ENDING) && !files.contains(text)) {
-            throw new InvalidInputException(where + ": expected a named " + (where.endsWith("creature.name") ? "creature" : "one")
-                    + ", no file");
+            throw new InvalidInputException(
+                    where + ": expected a named " + (where.endsWith("creature.name") ? "creature" : "one")
+                            + ", no file");
         }
     }
 }

@@ -19,8 +19,8 @@ final class JarFiles {
      * Words between single slashes: no way out of the folder. Nothing is tried twice (possessive quantifiers), so that a long
      * name takes no stack.
      */
-    private static final Pattern NAME =
-            Pattern.compile("\\w[\\w-]*+(?:\\.[\\w-]++)*+(?:/\\w[\\w-]*+(?:\\.[\\w-]++)*+)*+");
+    private static final Pattern NAME = Pattern
+            .compile("\\w[\\w-]*+(?:\\.[\\w-]++)*+(?:/\\w[\\w-]*+(?:\\.[\\w-]++)*+)*+");
     private static final Map<String, String> TYPES = Map.of("js", "text/javascript;charset=utf-8",
             "css", "text/css;charset=utf-8", "svg", "image/svg+xml", "png", "image/png", "json", "application/json");
 

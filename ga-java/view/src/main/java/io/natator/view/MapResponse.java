@@ -52,7 +52,8 @@ record MapResponse(String worth, List<Double> beats, List<Double> costs, List<El
         List<Elite> elites = map.moving().entrySet().stream().map(entry -> {
             Individual one = entry.getValue();
             Swimmer swimmer = genome.decode(one.genes());
-            return new Elite(entry.getKey().beats() - beats.getMin(), entry.getKey().cost() - costs.getMin(), one.score(),
+            return new Elite(entry.getKey().beats() - beats.getMin(), entry.getKey().cost() - costs.getMin(),
+                    one.score(),
                     one.runs(), one.effort().beatsPerLength(), one.effort().costOfTransport(), swimmer.gait(),
                     RunResponse.overrides(run.settings(), swimmer));
         }).toList();
@@ -65,7 +66,8 @@ record MapResponse(String worth, List<Double> beats, List<Double> costs, List<El
 
     private static String worth(EvolutionSettings settings) {
         if (settings.problem().objectives() == null) {
-            return settings.problem().fitness() == FitnessKind.NET ? "distance less drift in vacuum, length units" : "distance, length units";
+            return settings.problem().fitness() == FitnessKind.NET ? "distance less drift in vacuum, length units"
+                    : "distance, length units";
         }
         return settings.problem().objectives().stream().map(one -> Json.name(one.objective())
                 + (one.weight() == null ? "" : " × " + one.weight())).collect(Collectors.joining(" + "));

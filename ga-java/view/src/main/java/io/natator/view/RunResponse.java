@@ -74,7 +74,8 @@ record RunResponse(int id, String name, String scene, ObjectNode overrides, Opti
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
         List<Best> bests = bests(run, generations);
-        return new RunResponse(id, name(run.directory()), settings.problem().scene(), overrides(settings), settings.search().optimizer(),
+        return new RunResponse(id, name(run.directory()), settings.problem().scene(), overrides(settings),
+                settings.search().optimizer(),
                 settings.search().seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
                 run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapResponse.of(run),
                 FrontResponse.of(run), BodyOutline.of(run, bests));
@@ -93,7 +94,8 @@ record RunResponse(int id, String name, String scene, ObjectNode overrides, Opti
     /** The same with a swimmer's body; null where that is the scene's own. */
     static ObjectNode overrides(EvolutionSettings settings, Swimmer swimmer) {
         return swimmer.body() == null ? null
-                : InitialScene.patch(MergePatch.both(settings.problem().overrides(), swimmer.body()), settings.problem().scheme());
+                : InitialScene.patch(MergePatch.both(settings.problem().overrides(), swimmer.body()),
+                        settings.problem().scheme());
     }
 
     private static List<Generation> generations(RunReader run) {

@@ -11,8 +11,8 @@ import java.util.regex.Pattern;
 /** Headers that let a page load from this server alone, and let no other site use it. */
 final class SecurityHeaders {
 
-    private static final Pattern INLINE_SCRIPT =
-            Pattern.compile("<script(?![^>]*\\ssrc=)[^>]*>(.*?)</script>", Pattern.DOTALL | Pattern.CASE_INSENSITIVE);
+    private static final Pattern INLINE_SCRIPT = Pattern.compile("<script(?![^>]*\\ssrc=)[^>]*>(.*?)</script>",
+            Pattern.DOTALL | Pattern.CASE_INSENSITIVE);
 
     private final String scripts;
 

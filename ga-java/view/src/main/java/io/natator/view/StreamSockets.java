@@ -40,8 +40,7 @@ final class StreamSockets implements AutoCloseable {
                 session.receive(message.message());
             }
         });
-        socket.onBinaryMessage(message ->
-                message.closeSession(StatusCode.BAD_DATA, "expected text"));
+        socket.onBinaryMessage(message -> message.closeSession(StatusCode.BAD_DATA, "expected text"));
         socket.onClose(this::end);
         socket.onError(this::end);
     }

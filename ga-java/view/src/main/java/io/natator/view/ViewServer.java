@@ -95,7 +95,8 @@ public final class ViewServer implements AutoCloseable {
     /** Frames hardly get smaller by compression, at the cost of a processor. */
     private void sendUncompressed() {
         ServletContextHandler context = javalin.jettyServer().server().getDescendant(ServletContextHandler.class);
-        WebSocketServerComponents.getWebSocketComponents(context).getExtensionRegistry().unregister("permessage-deflate");
+        WebSocketServerComponents.getWebSocketComponents(context).getExtensionRegistry()
+                .unregister("permessage-deflate");
     }
 
     private static void checkHost(String host) {
@@ -103,11 +104,14 @@ public final class ViewServer implements AutoCloseable {
             InetAddress address = InetAddress.getByName(host);
             if (!address.isAnyLocalAddress() && NetworkInterface.getByInetAddress(address) == null) {
                 String place = host.equals(address.getHostAddress()) ? "" : ", which is " + address.getHostAddress();
-                throw new InvalidInputException("--host is " + host + place + "; expected a name or address of this machine");
+                throw new InvalidInputException(
+                        "--host is " + host + place + "; expected a name or address of this machine");
             }
         } catch (UnknownHostException e) {
-            throw new InvalidInputException("--host is " + host + ", an unknown name; expected a name or address of this "
-                    + "machine", e);
+            throw new InvalidInputException(
+                    "--host is " + host + ", an unknown name; expected a name or address of this "
+                            + "machine",
+                    e);
         } catch (SocketException e) {
             LOG.debug("network interfaces not known", e);
         }

@@ -36,8 +36,10 @@ import org.junit.jupiter.params.provider.CsvSource;
 class ReplayHtmlTest {
 
     private static final int OTHERS = 4;
-    private static final Pattern SWIM = Pattern.compile("<script type=\"text/plain\" class=\"swim\"[^>]*>([^<]*)</script>");
-    private static final Pattern MODULES = Pattern.compile("<script type=\"text/plain\" id=\"modules\">([^<]*)</script>");
+    private static final Pattern SWIM = Pattern
+            .compile("<script type=\"text/plain\" class=\"swim\"[^>]*>([^<]*)</script>");
+    private static final Pattern MODULES = Pattern
+            .compile("<script type=\"text/plain\" id=\"modules\">([^<]*)</script>");
 
     @TempDir
     private Path folder;
@@ -68,7 +70,8 @@ class ReplayHtmlTest {
             for (int i = 0; i < water; i++) {
                 density[i] = random.nextFloat();
             }
-            all.add(new StreamFrame(1, frame, 0, true, false, 0.0125 * frame, 0, 0.1 * frame, new float[] {1, 2, 3}, 4, 5, 6, 7,
+            all.add(new StreamFrame(1, frame, 0, true, false, 0.0125 * frame, 0, 0.1 * frame, new float[] {1, 2, 3}, 4,
+                    5, 6, 7,
                     new float[] {0.5f}, position, new float[0], density));
         }
         try {
@@ -143,13 +146,16 @@ class ReplayHtmlTest {
                 .write(file, 1_000_000);
 
         String html = Files.readString(file);
-        assertThat(html).contains("<title>Two &lt;swims> &amp; more</title>").contains("data-title=\"&quot;first&quot;\"")
+        assertThat(html).contains("<title>Two &lt;swims> &amp; more</title>")
+                .contains("data-title=\"&quot;first&quot;\"")
                 .contains("content=\"default-src 'none';").doesNotContain("{{");
         assertThat(found(SWIM, html)).hasSize(2);
         String loading = html.replaceAll("<script type=\"text/plain\"[^>]*>[^<]*</script>", "");
-        assertThat(loading).doesNotContainPattern("https?://").doesNotContainPattern("\\ssrc=").doesNotContain("@import")
+        assertThat(loading).doesNotContainPattern("https?://").doesNotContainPattern("\\ssrc=")
+                .doesNotContain("@import")
                 .doesNotContain("url(").doesNotContain("fetch(");
-        assertThat(found(Pattern.compile("href=\"([^\"]*)\""), loading)).allSatisfy(link -> assertThat(link).startsWith("data:"));
+        assertThat(found(Pattern.compile("href=\"([^\"]*)\""), loading))
+                .allSatisfy(link -> assertThat(link).startsWith("data:"));
     }
 
     @Test
@@ -191,7 +197,8 @@ class ReplayHtmlTest {
         Path file = folder.resolve("swim.html");
 
         assertThatThrownBy(() -> new ReplayHtml("page", List.of(swim("swim", 20, 5)), true).write(file, bytes))
-                .isInstanceOf(InvalidInputException.class).hasMessageContaining("expected at most " + limit + ": a larger");
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("expected at most " + limit + ": a larger");
         assertThat(file).doesNotExist();
     }
 

@@ -37,6 +37,7 @@ class TimeCodeProperties {
         double value = low + share * range;
 
         assertThat(steps.of(value)).isBetween(0, (1 << bits) - 1);
-        assertThat(Math.abs(steps.value(steps.of(value)) - value)).isLessThanOrEqualTo(steps.step() / 2 * (1 + 1e-9) + 1e-12);
+        assertThat(Math.abs(steps.value(steps.of(value)) - value))
+                .isLessThanOrEqualTo(steps.step() / 2 * (1 + 1e-9) + 1e-12);
     }
 }

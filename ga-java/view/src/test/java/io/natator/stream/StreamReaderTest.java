@@ -219,22 +219,22 @@ class StreamReaderTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "protocol|1|protocol is 1; expected 2",
-        "timeStep|0|timeStep is 0.0; expected seconds above 0",
-        "particles|-1|particles is -1; expected 0 to 10000000",
-        "particles|9|mass has 8 numbers; expected 9",
-        "mass|null|mass has 0 numbers; expected 8",
-        "fields|[\"density\",\"position\"]|fields are [DENSITY, POSITION]; expected some of position, velocity, density in this order",
-        "fluid|[5,4]|fluid is [5, 4]; expected [first, count] of at most 8 particles",
-        "fluid|[2147483647,2147483647]|fluid is [2147483647, 2147483647]; expected [first, count] of at most 8 particles",
-        "body|[8]|body: expected indices below 8",
-        "slices|[[0],[-1]]|slices: expected indices below 8",
-        "clusters|[null]|clusters: expected indices below 8",
-        "joints|[2]|joints: expected indices below 2",
-        "planes|[[0,1,0]]|planes: expected four numbers each",
-        "periodic|{\"y\":[0,1]}|periodic: expected x or z with two numbers each",
-        "periodic|{\"x\":[0]}|periodic: expected x or z with two numbers each",
-        "muscles|[{\"a\":0,\"b\":1,\"actuator\":1,\"lateral\":0,\"restLength\":1}]|muscle Muscle[a=0, b=1, actuator=1, lateral=0.0, restLength=1.0]; expected particles below 8 and an actuator below 1"})
+            "protocol|1|protocol is 1; expected 2",
+            "timeStep|0|timeStep is 0.0; expected seconds above 0",
+            "particles|-1|particles is -1; expected 0 to 10000000",
+            "particles|9|mass has 8 numbers; expected 9",
+            "mass|null|mass has 0 numbers; expected 8",
+            "fields|[\"density\",\"position\"]|fields are [DENSITY, POSITION]; expected some of position, velocity, density in this order",
+            "fluid|[5,4]|fluid is [5, 4]; expected [first, count] of at most 8 particles",
+            "fluid|[2147483647,2147483647]|fluid is [2147483647, 2147483647]; expected [first, count] of at most 8 particles",
+            "body|[8]|body: expected indices below 8",
+            "slices|[[0],[-1]]|slices: expected indices below 8",
+            "clusters|[null]|clusters: expected indices below 8",
+            "joints|[2]|joints: expected indices below 2",
+            "planes|[[0,1,0]]|planes: expected four numbers each",
+            "periodic|{\"y\":[0,1]}|periodic: expected x or z with two numbers each",
+            "periodic|{\"x\":[0]}|periodic: expected x or z with two numbers each",
+            "muscles|[{\"a\":0,\"b\":1,\"actuator\":1,\"lateral\":0,\"restLength\":1}]|muscle Muscle[a=0, b=1, actuator=1, lateral=0.0, restLength=1.0]; expected particles below 8 and an actuator below 1"})
     void aSceneThatContradictsItselfIsToldOf(String key, String value, String message) throws IOException {
         ObjectNode scene = StreamBytes.scene();
         scene.set(key, Json.parse("[" + value + "]", JsonNode.class).get(0));
@@ -261,14 +261,17 @@ class StreamReaderTest {
                 {"file":"fish.obj","vertices":[[2,0,0],[0,0.5,0],[-2,0,1]],"triangles":[[0,1,2]],"cluster":[0,0,1],
                  "share":[1,0.25,1],"rest":[[1,0,0],[2,0,0],[1,1,0],[1,0,1],[-1,0,0],[-2,0,0],[-1,1,0],[-1,0,1]]}""";
         scene.set("skin", Json.parse(skin, JsonNode.class));
-        assertThat(((StreamMessage.Scene) reader(new StreamBytes().json("SCEN", scene)).next()).scene().skin()).isNotNull();
-        for (String[] change : new String[][] {{"[[0,1,2]]", "[[0,1,3]]"}, {"\"cluster\":[0,0,1]", "\"cluster\":[0,0,2]"},
-            {"\"share\":[1,0.25,1]", "\"share\":[1,0.25]"}, {"\"share\":[1,0.25,1]", "\"share\":[1,0.25,0.5]"},
-            {"[-1,0,1]]}", "[-1,0]]}"}, {",[-1,0,1]]}", "]}"}}) {
+        assertThat(((StreamMessage.Scene) reader(new StreamBytes().json("SCEN", scene)).next()).scene().skin())
+                .isNotNull();
+        for (String[] change : new String[][] {{"[[0,1,2]]", "[[0,1,3]]"},
+                {"\"cluster\":[0,0,1]", "\"cluster\":[0,0,2]"},
+                {"\"share\":[1,0.25,1]", "\"share\":[1,0.25]"}, {"\"share\":[1,0.25,1]", "\"share\":[1,0.25,0.5]"},
+                {"[-1,0,1]]}", "[-1,0]]}"}, {",[-1,0,1]]}", "]}"}}) {
             String wrong = skin.replace(change[0], change[1]);
             assertThat(wrong).isNotEqualTo(skin);
             scene.set("skin", Json.parse(wrong, JsonNode.class));
-            assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next()).isInstanceOf(StreamException.class)
+            assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
+                    .isInstanceOf(StreamException.class)
                     .hasMessageContaining("skin");
         }
     }

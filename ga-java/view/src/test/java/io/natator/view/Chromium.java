@@ -21,8 +21,8 @@ final class Chromium implements BeforeAllCallback {
 
     /** Environment variable with the path of a browser. */
     private static final String VARIABLE = "NATATOR_BROWSER";
-    private static final List<String> NAMES =
-            List.of("chromium", "chromium-browser", "google-chrome", "google-chrome-stable");
+    private static final List<String> NAMES = List.of("chromium", "chromium-browser", "google-chrome",
+            "google-chrome-stable");
     private static final List<String> ARGUMENTS = List.of("--no-sandbox", "--enable-unsafe-swiftshader",
             "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync");
 
@@ -39,7 +39,8 @@ final class Chromium implements BeforeAllCallback {
             Playwright playwright = Playwright.create(
                     new Playwright.CreateOptions().setEnv(Map.of("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1")));
             return new Running(playwright, playwright.chromium().launch(
-                    new LaunchOptions().setExecutablePath(installed()).setTimeout(PATIENCE_MILLISECONDS).setArgs(ARGUMENTS)));
+                    new LaunchOptions().setExecutablePath(installed()).setTimeout(PATIENCE_MILLISECONDS)
+                            .setArgs(ARGUMENTS)));
         }
 
         @Override

@@ -21,31 +21,35 @@ class ClientCommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "{\"creature\":{\"name\":\"/etc/x.json\"}}|overrides.creature.name: expected a named creature",
-        "{\"companions\":[{\"creature\":{\"name\":\"eel\"}},{\"creature\":{\"name\":\"../x.json\"}}]}"
-                + "|overrides.companions[1].creature.name: expected a named creature",
-        "{\"creature\":{\"mesh\":{\"file\":\"/etc/x.obj\"}}}|overrides.creature.mesh.file: expected a bundled mesh",
-        "{\"companions\":[{\"creature\":{\"mesh\":{\"file\":\"../x.stl\"}}}]}|overrides.companions[0].creature.mesh.file: expected a bundled mesh",
-        "{\"obstacles\":[{\"shape\":\"mesh\",\"file\":\"/etc/x.obj\"}]}|overrides.obstacles[0].file: expected a bundled mesh",
-        "{\"obstacles\":[{\"file\":\"..\"}]}|overrides.obstacles[0].file: expected a bundled mesh",
-        "{\"base\":\"/etc/x.json\"}|overrides.base: expected a named one"})
+            "{\"creature\":{\"name\":\"/etc/x.json\"}}|overrides.creature.name: expected a named creature",
+            "{\"companions\":[{\"creature\":{\"name\":\"eel\"}},{\"creature\":{\"name\":\"../x.json\"}}]}"
+                    + "|overrides.companions[1].creature.name: expected a named creature",
+            "{\"creature\":{\"mesh\":{\"file\":\"/etc/x.obj\"}}}|overrides.creature.mesh.file: expected a bundled mesh",
+            "{\"companions\":[{\"creature\":{\"mesh\":{\"file\":\"../x.stl\"}}}]}|overrides.companions[0].creature.mesh.file: expected a bundled mesh",
+            "{\"obstacles\":[{\"shape\":\"mesh\",\"file\":\"/etc/x.obj\"}]}|overrides.obstacles[0].file: expected a bundled mesh",
+            "{\"obstacles\":[{\"file\":\"..\"}]}|overrides.obstacles[0].file: expected a bundled mesh",
+            "{\"base\":\"/etc/x.json\"}|overrides.base: expected a named one"})
     void filesOfTheUserAreRefusedWhereverTheyAreNamed(String overrides, String message) {
-        assertThatThrownBy(() -> check(overrides)).isInstanceOf(InvalidInputException.class).hasMessageStartingWith(message);
+        assertThatThrownBy(() -> check(overrides)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(message);
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"3", "null", "true", "[]", "[\"pool/eel\"]", "{}", "\"\"", "\"-h\"", "\"--help\"", "\"a\\u0000\"", "\"../x\"", "\"a b\""})
+    @ValueSource(strings = {"3", "null", "true", "[]", "[\"pool/eel\"]", "{}", "\"\"", "\"-h\"", "\"--help\"",
+            "\"a\\u0000\"", "\"../x\"", "\"a b\""})
     void aSceneIsAName(String scene) {
         for (String what : new String[] {"start", "scene"}) {
-            assertThatThrownBy(() -> ClientCommand.read("{\"do\":\"" + what + "\",\"scene\":" + scene + "}").check(FILES))
+            assertThatThrownBy(
+                    () -> ClientCommand.read("{\"do\":\"" + what + "\",\"scene\":" + scene + "}").check(FILES))
                     .isInstanceOf(InvalidInputException.class).hasMessageStartingWith("scene: expected a named scene");
         }
     }
 
     @Test
     void namedOnesAndThoseOfTheServersCommandLineMayBeUsed() {
-        assertThatCode(() -> check("{\"creature\":{\"name\":\"/home/u/fish.json\"},\"companions\":[{\"creature\":{\"name\":\"eel\"}},"
-                + "{\"creature\":{\"mesh\":{\"file\":\"ray.obj\"}}}],\"obstacles\":[{\"shape\":\"mesh\",\"file\":\"/home/u/rock.obj\"}]}"))
+        assertThatCode(() -> check(
+                "{\"creature\":{\"name\":\"/home/u/fish.json\"},\"companions\":[{\"creature\":{\"name\":\"eel\"}},"
+                        + "{\"creature\":{\"mesh\":{\"file\":\"ray.obj\"}}}],\"obstacles\":[{\"shape\":\"mesh\",\"file\":\"/home/u/rock.obj\"}]}"))
                 .doesNotThrowAnyException();
     }
 }

@@ -41,13 +41,14 @@ class PagePictures extends BrowserTest {
     /** What is drawn: the name of the picture, a scene, and a gait of sim-native/examples/gaits. */
     @ParameterizedTest
     @CsvSource({"creature-2, open-water/creature-2, fish-like", "evolved-eel, endless/evolved-eel, evolved-eel",
-        "hoop, company/hoop, fish-like", "school, company/school, fish-like"})
+            "hoop, company/hoop, fish-like", "school, company/school, fish-like"})
     void aCreatureSwims(String name, String scene, String gait) throws Exception {
         ObjectNode keys = (ObjectNode) Json.read(GAITS.resolve(gait + ".json"), JsonNode.class, "gait");
         keys.remove("$schema");
         InitialScene start = new InitialScene(scene, null, Json.tree(keys, Gait.class));
-        ViewServer server = new ViewServer(new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, one -> null,
-                List.of()));
+        ViewServer server = new ViewServer(
+                new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, one -> null,
+                        List.of()));
         SERVERS.add(server);
         authority = server.address().getAuthority();
         page.setViewportSize(1400, 900);

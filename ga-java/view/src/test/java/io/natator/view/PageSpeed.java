@@ -31,7 +31,8 @@ class PageSpeed extends BrowserTest {
     @BeforeAll
     static void start() throws IOException {
         ROWS.add("scheme,from_s,simulated_per_s,shown_per_s,detail");
-        view = new ProcessBuilder("java", "-jar", Path.of("..", "target", "natator.jar").toString(), "view", "--creature", "1",
+        view = new ProcessBuilder("java", "-jar", Path.of("..", "target", "natator.jar").toString(), "view",
+                "--creature", "1",
                 "--port", "0", "--no-browser", "--simulator-path", ViewFixture.SIMULATOR.toString())
                 .redirectError(ProcessBuilder.Redirect.INHERIT).start();
         address = URI.create(view.inputReader().readLine());

@@ -28,9 +28,11 @@ class SavedFilesTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"{\"base\":\"x\\u0000.json\"}", "{\"creature\":{\"name\":\"\\u0000.json\"}}", "{\"base\":\"mine.json\"}",
-        "{\"base\":\"pipe.json\"}", "{\"base\":\"folder.json\"}", "{\"base\":\"/\"}", "{\"base\":3}", "{\"base\":[\"x.json\"]}", "{\"creature\":3}",
-        "[]", "3", "", "{", "\u0000"})
+    @ValueSource(strings = {"{\"base\":\"x\\u0000.json\"}", "{\"creature\":{\"name\":\"\\u0000.json\"}}",
+            "{\"base\":\"mine.json\"}",
+            "{\"base\":\"pipe.json\"}", "{\"base\":\"folder.json\"}", "{\"base\":\"/\"}", "{\"base\":3}",
+            "{\"base\":[\"x.json\"]}", "{\"creature\":3}",
+            "[]", "3", "", "{", "\u0000"})
     void aSaveIsNoticedAfterAnyOther(String hostile) throws IOException, InterruptedException {
         Path scene = Files.writeString(folder.resolve("mine.json"), "{}");
         Files.createDirectory(folder.resolve("folder.json"));

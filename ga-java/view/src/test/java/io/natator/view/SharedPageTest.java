@@ -66,7 +66,8 @@ class SharedPageTest extends BrowserTest {
         assertThat(number("natator.position().length")).isEqualTo(number("3 * natator.scene().particles"));
         assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
         assertThat(get("facts").locator("dt").first()).hasText("Verdict");
-        assertThat(get("facts").locator("dd")).containsText(new String[] {"swims: as told", "<slower>", "thesis/creature-1"});
+        assertThat(get("facts").locator("dd"))
+                .containsText(new String[] {"swims: as told", "<slower>", "thesis/creature-1"});
         await("natator.time() > 0.9");
         await("natator.time() < 0.5");
     }

@@ -17,7 +17,8 @@ class StreamSessionTest {
 
     private final List<String> sent = new CopyOnWriteArrayList<>();
     private final List<Callback> done = new CopyOnWriteArrayList<>();
-    private final Session socket = (Session) Proxy.newProxyInstance(Session.class.getClassLoader(), new Class<?>[] {Session.class},
+    private final Session socket = (Session) Proxy.newProxyInstance(Session.class.getClassLoader(),
+            new Class<?>[] {Session.class},
             (proxy, method, arguments) -> {
                 if (method.getName().equals("sendText")) {
                     sent.add((String) arguments[0]);
@@ -28,7 +29,8 @@ class StreamSessionTest {
     private final StreamSession session = new StreamSession(socket, Path.of("none"), Set.of());
 
     private static long tellers() {
-        return Thread.getAllStackTraces().keySet().stream().filter(thread -> thread.getName().equals("view-saved")).count();
+        return Thread.getAllStackTraces().keySet().stream().filter(thread -> thread.getName().equals("view-saved"))
+                .count();
     }
 
     @Test
@@ -48,7 +50,8 @@ class StreamSessionTest {
         }
         ViewFixture.await("all is told", () -> tellers() == before);
         assertThat(sent).hasSize(3);
-        assertThat(sent.subList(1, 3)).anyMatch(text -> text.contains("a.json")).anyMatch(text -> text.contains("b.json"));
+        assertThat(sent.subList(1, 3)).anyMatch(text -> text.contains("a.json"))
+                .anyMatch(text -> text.contains("b.json"));
 
         session.saved("a.json");
         ViewFixture.await("a later one is sent", () -> sent.size() == 4);
@@ -57,7 +60,8 @@ class StreamSessionTest {
 
     @Test
     void theReasonOfACloseFrameFits() {
-        for (String reason : new String[] {"x".repeat(500), "é".repeat(500), "水".repeat(500), "🐟".repeat(500), "short"}) {
+        for (String reason : new String[] {"x".repeat(500), "é".repeat(500), "水".repeat(500), "🐟".repeat(500),
+                "short"}) {
             assertThat(StreamSession.shortened(reason).getBytes(StandardCharsets.UTF_8).length).isBetween(5, 123);
         }
     }

@@ -142,8 +142,7 @@ class StreamSocketTest {
     void aPageMayTakeNothingForAnyTime() throws InterruptedException {
         openStarted(true);
 
-        assertThat(server.sessions()).singleElement().satisfies(session ->
-                assertThat(session.mostSilence()).isZero());
+        assertThat(server.sessions()).singleElement().satisfies(session -> assertThat(session.mostSilence()).isZero());
     }
 
     /** Names of so many parts once took all of the stack, and the socket with it. */
@@ -274,20 +273,20 @@ class StreamSocketTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "{|command: ",
-        "[]|command: expected an object with a text \"do\"",
-        "{'do':7}|command: expected an object with a text \"do\"",
-        "{'do':'run','do':'pause'}|command: key 'do' stands twice",
-        "{'do':'run'}|run: no simulation runs; expected start",
-        "{'do':'start'}|scene: expected a named scene",
-        "{'do':'start','scene':'/etc/passwd.json'}|scene: expected a named scene",
-        "{'do':'start','scene':'../creatures/creature-1'}|scene: expected a named scene",
-        "{'do':'start','scene':'--help'}|scene: expected a named scene",
-        "{'do':'start','scene':'thesis/tank','gait':'/etc/passwd'}|gait: expected an object",
-        "{'do':'start','scene':'thesis/tank','overrides':'x.json'}|overrides: expected an object",
-        "{'do':'scene','scene':'/etc/hosts.json'}|scene: expected a named scene",
-        "{'do':'overrides','overrides':{'creature':{'name':'/etc/hosts.json'}}}|overrides.creature.name: expected",
-        "{'do':'overrides','overrides':{'creature':{'mesh':{'file':'/etc/x.obj'}}}}|overrides.creature.mesh.file: expected"})
+            "{|command: ",
+            "[]|command: expected an object with a text \"do\"",
+            "{'do':7}|command: expected an object with a text \"do\"",
+            "{'do':'run','do':'pause'}|command: key 'do' stands twice",
+            "{'do':'run'}|run: no simulation runs; expected start",
+            "{'do':'start'}|scene: expected a named scene",
+            "{'do':'start','scene':'/etc/passwd.json'}|scene: expected a named scene",
+            "{'do':'start','scene':'../creatures/creature-1'}|scene: expected a named scene",
+            "{'do':'start','scene':'--help'}|scene: expected a named scene",
+            "{'do':'start','scene':'thesis/tank','gait':'/etc/passwd'}|gait: expected an object",
+            "{'do':'start','scene':'thesis/tank','overrides':'x.json'}|overrides: expected an object",
+            "{'do':'scene','scene':'/etc/hosts.json'}|scene: expected a named scene",
+            "{'do':'overrides','overrides':{'creature':{'name':'/etc/hosts.json'}}}|overrides.creature.name: expected",
+            "{'do':'overrides','overrides':{'creature':{'mesh':{'file':'/etc/x.obj'}}}}|overrides.creature.mesh.file: expected"})
     void aCommandThatIsNoneIsAnswered(String command, String error) throws InterruptedException {
         JsonNode answer = open().send(command).await("ANSW");
 
@@ -319,18 +318,27 @@ class StreamSocketTest {
     @Test
     void noCommandCostsThePageItsSimulation() throws InterruptedException {
         StreamClient page = openStarted(true);
-        List<String> hostile = new ArrayList<>(List.of("", "x", "3", "null", "[]", "{}", "{\"do\":3}", "{\"do\":null}", "{\"do\":\"\"}",
-                "{\"do\":\"none\"}", "{\"do\":\"start\"}", "{\"do\":\"start\",\"scene\":3}", "{\"do\":\"scene\"}", "{\"do\":\"scene\",\"scene\":[]}",
-                "{\"do\":\"scene\",\"scene\":\"--help\"}", "{\"do\":\"scene\",\"scene\":\"a\\u0000.json\"}", "{\"do\":\"step\",\"frames\":1e999}",
-                "{\"do\":\"step\",\"frames\":-1}", "{\"do\":\"rate\"}", "{\"do\":\"rate\",\"value\":\"x\"}", "{\"do\":\"gait\",\"gait\":3}",
-                "{\"do\":\"gait\",\"gait\":{}}", "{\"do\":\"overrides\",\"overrides\":[]}", "{\"do\":\"overrides\",\"overrides\":{\"base\":\"\\u0000.json\"}}",
-                "{\"do\":\"overrides\",\"overrides\":{\"creature\":{\"mesh\":{\"file\":\"\\u0000\"}}}}", "{\"do\":\"none\",\"do\":\"run\"}",
-                "{\"do\":\"none\",\"id\":{\"a\":[]}}", "{\"do\":\"none\",\"id\":\"x\"}", "{\"do\":\"none\",\"id\":1.5}", "{\"do\":\"none\",\"id\":-1}",
-                "{\"do\":\"none\",\"id\":true}", "{\"do\":\"\\ud800\"}", "{\"do\":\"drive\",\"drive\":[\"x\"]}", "{\"do\":\"sense\",\"flow\":3}",
-                "{\"do\":\"none\"", "{\"do\":\"none\"} {\"do\":\"none\"}", "\u0000", "{\"do\":\"a\\nb\"}"));
+        List<String> hostile = new ArrayList<>(
+                List.of("", "x", "3", "null", "[]", "{}", "{\"do\":3}", "{\"do\":null}", "{\"do\":\"\"}",
+                        "{\"do\":\"none\"}", "{\"do\":\"start\"}", "{\"do\":\"start\",\"scene\":3}",
+                        "{\"do\":\"scene\"}", "{\"do\":\"scene\",\"scene\":[]}",
+                        "{\"do\":\"scene\",\"scene\":\"--help\"}", "{\"do\":\"scene\",\"scene\":\"a\\u0000.json\"}",
+                        "{\"do\":\"step\",\"frames\":1e999}",
+                        "{\"do\":\"step\",\"frames\":-1}", "{\"do\":\"rate\"}", "{\"do\":\"rate\",\"value\":\"x\"}",
+                        "{\"do\":\"gait\",\"gait\":3}",
+                        "{\"do\":\"gait\",\"gait\":{}}", "{\"do\":\"overrides\",\"overrides\":[]}",
+                        "{\"do\":\"overrides\",\"overrides\":{\"base\":\"\\u0000.json\"}}",
+                        "{\"do\":\"overrides\",\"overrides\":{\"creature\":{\"mesh\":{\"file\":\"\\u0000\"}}}}",
+                        "{\"do\":\"none\",\"do\":\"run\"}",
+                        "{\"do\":\"none\",\"id\":{\"a\":[]}}", "{\"do\":\"none\",\"id\":\"x\"}",
+                        "{\"do\":\"none\",\"id\":1.5}", "{\"do\":\"none\",\"id\":-1}",
+                        "{\"do\":\"none\",\"id\":true}", "{\"do\":\"\\ud800\"}", "{\"do\":\"drive\",\"drive\":[\"x\"]}",
+                        "{\"do\":\"sense\",\"flow\":3}",
+                        "{\"do\":\"none\"", "{\"do\":\"none\"} {\"do\":\"none\"}", "\u0000", "{\"do\":\"a\\nb\"}"));
         for (int depth : new int[] {900, 999, 1000, 20000}) {
             hostile.add("{\"do\":\"none\",\"id\":" + "[".repeat(depth) + "]".repeat(depth) + "}");
-            hostile.add("{\"do\":\"overrides\",\"overrides\":" + "{\"a\":".repeat(depth / 2) + "1" + "}".repeat(depth / 2) + "}");
+            hostile.add("{\"do\":\"overrides\",\"overrides\":" + "{\"a\":".repeat(depth / 2) + "1"
+                    + "}".repeat(depth / 2) + "}");
             hostile.add("{\"do\":\"none\",\"id\":" + "9".repeat(depth) + "}");
         }
         for (String command : hostile) {

@@ -19,7 +19,8 @@ import org.junit.jupiter.api.io.TempDir;
 abstract class ViewBrowserTest extends BrowserTest {
 
     /** What makes the address one at which a picture has few pixels and, however slow it is, keeps them and its way to be drawn. */
-    static final String FEW_PIXELS = "#" + URLEncoder.encode("{\"look\":{\"quality\":\"0.5\"}}", StandardCharsets.UTF_8);
+    static final String FEW_PIXELS = "#"
+            + URLEncoder.encode("{\"look\":{\"quality\":\"0.5\"}}", StandardCharsets.UTF_8);
 
     @TempDir
     private static Path folder;
@@ -48,7 +49,8 @@ abstract class ViewBrowserTest extends BrowserTest {
 
     @Override
     boolean isOwn(URI address) {
-        return address.getScheme().matches("blob|data") || server.address().getAuthority().equals(address.getAuthority());
+        return address.getScheme().matches("blob|data")
+                || server.address().getAuthority().equals(address.getAuthority());
     }
 
     /** A window of a third of the pixels, for what takes long and is no matter of size: the processor draws them all. */

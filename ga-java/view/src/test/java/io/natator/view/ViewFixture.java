@@ -54,8 +54,9 @@ final class ViewFixture {
 
     /** Evolves creature 1 for three generations of eight, with another scheme than the scene's and no real simulator. */
     static Path evolve(Path folder) throws InterruptedException {
-        return evolve(FakeSimulator.in(folder), folder.resolve("my-run"), EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05));
+        return evolve(FakeSimulator.in(folder), folder.resolve("my-run"),
+                EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                        .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05));
     }
 
     /** Two runs of more than one gait in {@link #SCENE}, likewise: the best of each kind, and by two objectives. */
@@ -64,9 +65,9 @@ final class ViewFixture {
         Files.createFile(folder.resolve("tired"));
         EvolutionSettings settings = EvolutionSettings.of(SCENE, EncodingKind.DENSE, 2).withSize(20, 3).withSeed(5);
         return new Path[] {
-            evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
-            evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
-                    WeightedObjective.parse("distance,work")))};
+                evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
+                evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
+                        WeightedObjective.parse("distance,work")))};
     }
 
     /** A run of bodies in vacuum, likewise. */
@@ -77,12 +78,14 @@ final class ViewFixture {
                 .withEvolve(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
                         EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
         Path run = folder.resolve("bodies-run");
-        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
+        new Natator(new ExecutionSettings(simulator, 2, null))
+                .evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
         return run;
     }
 
     private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {
-        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, null), run);
+        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, null),
+                run);
         return run;
     }
 

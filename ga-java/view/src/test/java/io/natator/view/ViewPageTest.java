@@ -165,7 +165,8 @@ class ViewPageTest extends ViewBrowserTest {
         get("run").click();
         get("film").click();
         Download brief = page.waitForDownload(() -> get("film").click());
-        assertThat(Files.readAllBytes(brief.path())).as("ended at once, of a swim that rests").startsWith(0x1a, 0x45, 0xdf, 0xa3);
+        assertThat(Files.readAllBytes(brief.path())).as("ended at once, of a swim that rests").startsWith(0x1a, 0x45,
+                0xdf, 0xa3);
     }
 
     @Test

@@ -66,7 +66,8 @@ class ViewPictureTest extends ViewBrowserTest {
     /** What the address remembers of a way of drawing that is no longer there counts for nothing. */
     @ParameterizedTest
     @CsvSource(quoteCharacter = '|', value = {"||, WebGL", "?drawing=plain, processor", "?drawing=webgpu, WebGL",
-            "|#{\"look\":{\"drawing\":\"webgpu\"}}|, WebGL", "|?drawing=plain#{\"look\":{\"drawing\":\"webgl\"}}|, processor"})
+            "|#{\"look\":{\"drawing\":\"webgpu\"}}|, WebGL",
+            "|?drawing=plain#{\"look\":{\"drawing\":\"webgl\"}}|, processor"})
     void aCardIsUsedUnlessTheAddressForcesAWayToDraw(String address, String name) {
         page.addInitScript(CARD);
         useSmallWindow();

@@ -52,7 +52,8 @@ class ViewRunsTest extends ViewBrowserTest {
 
         assertThat(get("run-chosen")).containsText("Generation 0");
         assertThat(page.textContent("#run-facts")).as("the random one is not counted").endsWith(", 3 generations");
-        for (String fact : List.of("body lengths/s", "at half the time step", "4 fresh starts, all completed", "selection loss",
+        for (String fact : List.of("body lengths/s", "at half the time step", "4 fresh starts, all completed",
+                "selection loss",
                 "cost of transport ", "Reynolds number 131, Strouhal number 0.313")) {
             assertThat(get("run-fresh")).containsText(fact);
         }
@@ -90,7 +91,8 @@ class ViewRunsTest extends ViewBrowserTest {
         assertThat(get("elites-figure")).isHidden();
         JsonNode points = answer(1).get("front").get("points");
         assertThat(get("front-figure").locator("circle[role=option].best").count()).isBetween(3, points.size() - 1);
-        assertThat(get("front").locator("text.axis").last()).hasText("work of the muscles, mass · length²/s² (less is better)");
+        assertThat(get("front").locator("text.axis").last())
+                .hasText("work of the muscles, mass · length²/s² (less is better)");
         assertThat(get("front-choice")).isHidden();
         page.locator("#front-2").click();
         awaitGait(points.get(2).get("gait"));
@@ -118,7 +120,8 @@ class ViewRunsTest extends ViewBrowserTest {
                     ((ArrayNode) points.get(i).get("values")).set(0, -0.0022 - 0.0012 * i / points.size())
                             .set(1, -0.00022 - 0.00012 * i / points.size());
                 }
-                route.fulfill(new Route.FulfillOptions().setContentType("application/json").setBody(changed.toString()));
+                route.fulfill(
+                        new Route.FulfillOptions().setContentType("application/json").setBody(changed.toString()));
             } catch (IOException e) {
                 throw new UncheckedIOException(e);
             }
@@ -137,7 +140,8 @@ class ViewRunsTest extends ViewBrowserTest {
         JsonNode answer = answer(0);
         JsonNode bests = answer.get("bests");
         assertThat(get("bodies-figure").locator("polygon")).hasCount(2 * answer.get("bodies").size());
-        assertThat(get("bodies").getAttribute("aria-label")).contains("the scene's, length 1.5; best of generation 0, length 1.");
+        assertThat(get("bodies").getAttribute("aria-label"))
+                .contains("the scene's, length 1.5; best of generation 0, length 1.");
         fits("bodies");
         get("chart-fitness").focus();
         for (int at : List.of(0, bests.size() - 1)) {
@@ -152,26 +156,30 @@ class ViewRunsTest extends ViewBrowserTest {
 
     /** No label is cut off, and no two of them lie on each other. */
     private void fits(String plot) {
-        assertThat((List<?>) page.evaluate("""
-                plot => {
-                  const svg = document.getElementById(plot);
-                  const whole = svg.getBoundingClientRect();
-                  const boxes = [...svg.querySelectorAll('text')].map(one => ({text: one.textContent, box: one.getBoundingClientRect()}));
-                  const isOutside = ({box}) => box.left < whole.left - 1 || box.right > whole.right + 1 || box.top < whole.top - 1
-                      || box.bottom > whole.bottom + 1 || whole.right > innerWidth;
-                  const isOver = ({box: a}, {box: b}) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-                  return boxes.filter((one, i) => isOutside(one) || boxes.slice(i + 1).some(other => isOver(one, other)))
-                      .map(one => one.text);
-                }""", plot)).isEmpty();
+        assertThat((List<?>) page.evaluate(
+                """
+                        plot => {
+                          const svg = document.getElementById(plot);
+                          const whole = svg.getBoundingClientRect();
+                          const boxes = [...svg.querySelectorAll('text')].map(one => ({text: one.textContent, box: one.getBoundingClientRect()}));
+                          const isOutside = ({box}) => box.left < whole.left - 1 || box.right > whole.right + 1 || box.top < whole.top - 1
+                              || box.bottom > whole.bottom + 1 || whole.right > innerWidth;
+                          const isOver = ({box: a}, {box: b}) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+                          return boxes.filter((one, i) => isOutside(one) || boxes.slice(i + 1).some(other => isOver(one, other)))
+                              .map(one => one.text);
+                        }""",
+                plot)).isEmpty();
     }
 
     private void awaitGait(JsonNode gait) {
         await("((...both) => (([one, other]) => one.every((value, i) => Math.abs(value - other[i]) < 1e-9))"
-                + "(both.map(gait => [gait.frequency, ...gait.amplitude, ...gait.phase])))(natator.scene().gait, " + gait + ")");
+                + "(both.map(gait => [gait.frequency, ...gait.amplitude, ...gait.phase])))(natator.scene().gait, "
+                + gait + ")");
     }
 
     private JsonNode answer(int run) throws IOException {
-        return Json.parse((String) page.evaluate("async run => (await fetch(`/api/runs/${run}`)).text()", run), JsonNode.class);
+        return Json.parse((String) page.evaluate("async run => (await fetch(`/api/runs/${run}`)).text()", run),
+                JsonNode.class);
     }
 
     private JsonNode best(int generation) throws IOException {
@@ -214,7 +222,8 @@ class ViewRunsTest extends ViewBrowserTest {
 
         assertThat(number("(" + PIXELS + ")('momentum', '--series-2')")).as("of neither").isZero();
         assertThat(get("charts").locator("figure:has(#chart-momentum) .key").first())
-                .hasCSS("color", (String) page.evaluate("() => getComputedStyle(document.querySelector('.hint')).color"));
+                .hasCSS("color",
+                        (String) page.evaluate("() => getComputedStyle(document.querySelector('.hint')).color"));
     }
 
     /** Changes the gait of the second view before that is connected. */

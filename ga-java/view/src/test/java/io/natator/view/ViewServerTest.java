@@ -92,7 +92,7 @@ class ViewServerTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"/three/three.module.min.js", "/three/three.core.min.js",
-        "/three/addons/controls/OrbitControls.js"})
+            "/three/addons/controls/OrbitControls.js"})
     void threeIsServedFromItsWebJar(String path) throws IOException, InterruptedException {
         HttpResponse<String> file = get(path);
 
@@ -128,7 +128,8 @@ class ViewServerTest {
         assertThat(answer.get("seed").asInt()).isEqualTo(5);
         assertThat(answer.get("generations")).hasSize(4);
         assertThat(answer.get("bests")).hasSize(4);
-        assertThat(answer.get("verdict").get("text").textValue()).matches("(swims|does not swim|not judged|may swim).*");
+        assertThat(answer.get("verdict").get("text").textValue())
+                .matches("(swims|does not swim|not judged|may swim).*");
         assertThat(answer.get("facts").fieldNames()).toIterable()
                 .containsExactly("verdict", "speed", "distance", "half step", "selected", "cost", "flow");
         assertThat(answer.get("facts").get("cost").textValue()).startsWith("cost of transport 5.41 mass");
@@ -142,8 +143,9 @@ class ViewServerTest {
             JsonNode best = answer.get("bests").get(i);
             assertThat(best.get("generation").asInt()).isEqualTo(generation.get("generation").asInt()).isEqualTo(i);
             assertThat(best.get("fitness")).isEqualTo(generation.get("best"));
-            assertThat(Files.readAllLines(run.resolve("evaluations.jsonl"))).filteredOn(line ->
-                    line.contains("\"gait\":" + best.get("gait")) && line.contains(best.get("fitness").toString()))
+            assertThat(Files.readAllLines(run.resolve("evaluations.jsonl")))
+                    .filteredOn(line -> line.contains("\"gait\":" + best.get("gait"))
+                            && line.contains(best.get("fitness").toString()))
                     .as("the gait of generation %d", i).isNotEmpty();
         }
         assertThat(answer.toString()).doesNotContain(folder.toString());
@@ -157,8 +159,8 @@ class ViewServerTest {
 
             assertThat(answer.get("generations")).hasSize(4);
             JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
-            assertThat(answer.get("bests")).isNotEmpty().allSatisfy(one ->
-                    assertThat(one.get("gait")).isEqualTo(best.get("gait")));
+            assertThat(answer.get("bests")).isNotEmpty()
+                    .allSatisfy(one -> assertThat(one.get("gait")).isEqualTo(best.get("gait")));
         } finally {
             Files.move(folder.resolve("away"), run.resolve("evaluations.jsonl"));
         }
@@ -182,11 +184,12 @@ class ViewServerTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"/api/runs/1", "/api/runs/-1", "/api/runs/my-run", "/api/runs/0/best.json", "/api/runs/",
-        "/api/runs/99999999999999999999", "/api/runs/..%2F..%2Fetc%2Fpasswd", "/api/runs/%2e%2e/%2e%2e/etc/passwd",
-        "/app/../../../../logback-test.xml", "/app/%2e%2e/%2e%2e/%2e%2e/%2e%2e/logback-test.xml", "/app/..%2f..%2fRunAnswer.class",
-        "/app/..\\..\\logback-test.xml", "/app/", "/app", "/app//etc/passwd", "/app/%00", "/three/../package.json",
-        "/three/%2e%2e/package.json", "/three/addons/../../package.json", "/three/addons/", "/META-INF/MANIFEST.MF",
-        "/io/natator/view/ViewServer.class", "/logback-test.xml"})
+            "/api/runs/99999999999999999999", "/api/runs/..%2F..%2Fetc%2Fpasswd", "/api/runs/%2e%2e/%2e%2e/etc/passwd",
+            "/app/../../../../logback-test.xml", "/app/%2e%2e/%2e%2e/%2e%2e/%2e%2e/logback-test.xml",
+            "/app/..%2f..%2fRunAnswer.class",
+            "/app/..\\..\\logback-test.xml", "/app/", "/app", "/app//etc/passwd", "/app/%00", "/three/../package.json",
+            "/three/%2e%2e/package.json", "/three/addons/../../package.json", "/three/addons/", "/META-INF/MANIFEST.MF",
+            "/io/natator/view/ViewServer.class", "/logback-test.xml"})
     void pathsLeadNowhereElse(String path) throws IOException {
         String answer = raw("GET " + path + " HTTP/1.1", "Host: localhost");
 
@@ -202,16 +205,18 @@ class ViewServerTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"evil.example, 403", "evil.example:80, 403", "127.0.0.1.evil.example, 403", "localhost.evil.example, 403",
-        "localhost; script-src *, 40[03]", "'', 40[03]", "localhost:1, 200", "127.0.0.1, 200", "[::1]:8080, 200"})
+    @CsvSource({"evil.example, 403", "evil.example:80, 403", "127.0.0.1.evil.example, 403",
+            "localhost.evil.example, 403",
+            "localhost; script-src *, 40[03]", "'', 40[03]", "localhost:1, 200", "127.0.0.1, 200", "[::1]:8080, 200"})
     void aForeignHostIsRefused(String host, String status) throws IOException {
         assertThat(raw("GET /api/setup HTTP/1.1", "Host: " + host)).containsPattern("^HTTP/1.1 " + status + " ");
     }
 
     @ParameterizedTest
-    @CsvSource(nullValues = "-", value = {"localhost, http://evil.example, 403", "localhost, -, 403", "localhost, null, 403",
-        "evil.example, http://evil.example, 403", "localhost, http://localhost:81, 403",
-        "localhost:81, http://localhost:81, 101", "127.0.0.1, http://127.0.0.1, 101"})
+    @CsvSource(nullValues = "-",
+            value = {"localhost, http://evil.example, 403", "localhost, -, 403", "localhost, null, 403",
+                    "evil.example, http://evil.example, 403", "localhost, http://localhost:81, 403",
+                    "localhost:81, http://localhost:81, 101", "127.0.0.1, http://127.0.0.1, 101"})
     void aForeignOriginGetsNoSocket(String host, String origin, String status) throws IOException {
         String answer = raw("GET /stream HTTP/1.1", "Host: " + host, "Upgrade: websocket",
                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Version: 13",
