@@ -65,6 +65,7 @@ wheel=$(echo "$out"/natator-"$version"-*-manylinux_*.whl)
 sdist=$out/natator-$version.tar.gz
 [[ -s $wheel && -s $sdist ]] || fail "no wheel or sdist of $version"
 python -m twine check --strict "$wheel" "$sdist" >/dev/null
+python -m check_wheel_contents "$wheel" >/dev/null
 
 # --- what other scripts make ------------------------------------------------------------------------------------------
 
