@@ -5,7 +5,7 @@
     tests/versions.py v0.2.0                 the same, of the commit that this tag names: a release, dated in CHANGELOG.md
     tests/versions.py --set 0.2.0            writes a release into all places, dated today
     tests/versions.py --set 0.3.0-SNAPSHOT   writes the version to come
---root DIR: of another checkout. Between releases CITATION.cff and embedding.md name the newest release.
+--root DIR: of another checkout. Between releases CITATION.cff names the newest one.
 """
 
 import argparse
@@ -18,13 +18,13 @@ SOURCE = ("CMakeLists.txt", r"(?m)^project\(natator VERSION (\S+)")
 HEADS = ("CHANGELOG.md", r"(?m)^## \[([^]]+)\](?: - (\d{4}-\d\d-\d\d))?$")
 MODULE = r"(?:<groupId>io\.natator</groupId>\s*<artifactId>[^<]+</artifactId>\s*<version>|<revision>)([^<$]+)</(?:version|revision)>"
 CLIENT = ("sim-native/python/natator/__init__.py", r'(?m)^__version__ = "(.*)"$')
-RELEASED = [("CITATION.cff", r"(?m)^version: (.*)$"), ("ga-java/docs/embedding.md", MODULE)]
+CITATION = ("CITATION.cff", r"(?m)^version: (.*)$")
 
 
 def modules(root):
-    """The parent, and those that name a version of their own beside it."""
+    """The parent, the modules that name its version, and the page that tells how to depend on one."""
     files = [file for file in sorted(root.glob("ga-java/**/pom.xml")) if re.search(MODULE, file.read_text())]
-    return [(str(file.relative_to(root)), MODULE) for file in [root / "pom.xml", *files]]
+    return [(str(file.relative_to(root)), MODULE) for file in [root / "pom.xml", *files, root / "ga-java/docs/embedding.md"]]
 
 
 def check(root, tag=None):
@@ -41,7 +41,7 @@ def check(root, tag=None):
         yield f"{HEADS[0]}: {released} has no date; must be [{released}] - YYYY-MM-DD"
     if tag and (coming or tag != f"v{version}"):
         yield f"tag {tag}: {SOURCE[0]} has {version}, {HEADS[0]} begins with [{heads[0][0]}]; must be a release of the tag's version"
-    for places, expected in ((modules(root), version + "-SNAPSHOT" * coming), ([CLIENT], version), (RELEASED, released)):
+    for places, expected in ((modules(root), version + "-SNAPSHOT" * coming), ([CLIENT], version), ([CITATION], released)):
         for file, pattern in places:
             found = re.findall(pattern, (root / file).read_text())
             if found != [expected]:
@@ -54,7 +54,7 @@ def number(version):
 
 def write(root, version):
     plain, coming = version.removesuffix("-SNAPSHOT"), version.endswith("-SNAPSHOT")
-    changes = [(SOURCE, plain), (CLIENT, plain)] + [(place, version) for place in modules(root)] + [(place, plain) for place in RELEASED if not coming]
+    changes = [(SOURCE, plain), (CLIENT, plain)] + [(place, version) for place in modules(root)] + [(CITATION, plain)] * (not coming)
     for (file, pattern), new in changes:
         text = (root / file).read_text()
         begin, end = re.search(pattern, text).span(1)
