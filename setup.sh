@@ -11,8 +11,8 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
             node and npm, with what its scripts are checked with from the npm registry (50 MB)
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
-            pysplashsurf, numpy, gymnasium, pycma, and what makes and checks its wheel, from PyPI into .readers (1 GB); the validator of glTF, where npm
-            is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; and
+            pysplashsurf, numpy, gymnasium, pycma, nbclient, and what makes and checks its wheel and the site, from PyPI into .readers (1 GB); the validator of glTF, where npm
+            is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; doxygen; and
             dpkg-dev and gpg, which packages are made with
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
 TEXT
@@ -158,6 +158,7 @@ find_missing() {
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
     $with_readers && ! command -v dpkg-shlibdeps >/dev/null && missing+=(dpkg-dev)
     $with_readers && ! command -v gpg >/dev/null && missing+=(gpg)
+    $with_readers && ! command -v doxygen >/dev/null && missing+=(doxygen)
     for library in libegl1 libgl1; do
         $with_readers && ! installed "$library" && missing+=("$library")
     done

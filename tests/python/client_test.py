@@ -1,7 +1,6 @@
 """Evaluations, trajectories and driven swimmers through the Python client."""
 
 import json
-import re
 import subprocess
 import tempfile
 import time
@@ -15,7 +14,6 @@ import numpy as np
 from natator.program import simulator_path
 from natator.simulator import make_request
 
-ROOT = Path(__file__).resolve().parents[2]
 TANK = "bench/small-tank"
 GAIT = natator.Gait(1.861, [0.973, 0.69], [0, 0.648])
 ALL_THE_WAY = {"stopping": {"planeContact": False, "noProgressAfter": 0}}
@@ -299,12 +297,6 @@ class StreamTest(unittest.TestCase):
             self.assertGreater(caught.exception.time, 0)
             stream.ask({"do": "overrides", "overrides": {"solver": {"relaxationMode": "local"}}})
             self.assertEqual(stream.step().frame, 1)
-
-
-class PackageTest(unittest.TestCase):
-    def test_the_version_is_the_projects(self):
-        project = re.search(r"project\(natator VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
-        self.assertEqual(natator.__version__, project)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,16 @@
 """natator.evolve: what it asks for, how it chooses, and what it says of the winner."""
 
+import json
 import sys
+import tempfile
 import types
 import unittest
+from pathlib import Path
 from unittest import mock
 
 import natator
 from natator import evolution
+from natator.source import source
 
 TANK = "bench/small-tank"
 SUBSTEPS = 4  # of that scene
@@ -104,6 +108,18 @@ class EvolveTest(unittest.TestCase):
         self.assertEqual(min(told[0][1]), -5)
         self.assertAlmostEqual(result.gait.frequency, 1.7)
         self.assertEqual(result.distances, [result.gait.frequency] * 4)
+
+    def test_what_it_keeps_of_the_search(self):
+        result, _, _ = evolved(lambda request: frequency(request) + request["start"] // 2 % 2, generations=3, starts=1)
+        self.assertEqual(len(result.history), 3)
+        self.assertEqual([best for best, _ in result.history], sorted(best for best, _ in result.history))
+        self.assertAlmostEqual(result.history[0][1], (0.8 + 1.4 + 1.1 + 1.7) / 4 + result.history[0][0] - 1.7)
+        with tempfile.TemporaryDirectory() as folder:
+            result.save(Path(folder, "some.json"))
+            saved = json.loads(Path(folder, "some.json").read_text())
+            self.assertEqual(source(TANK, Path(folder, "some.json")).gait, result.gait.to_json())
+        self.assertEqual((saved["scene"], saved["verdict"], saved["distances"]), (TANK, repr(result), result.distances))
+        self.assertEqual(saved["history"], [list(one) for one in result.history])
 
     def test_what_cannot_be_used(self):
         for options, message in [

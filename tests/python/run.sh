@@ -15,5 +15,5 @@ build=$(dirname "$(dirname "$simulator")")
     --config-settings "cmake.define.NATATOR_BUILT=$build" --wheel-dir "$folder/wheel" "$root"
 NATATOR_WHEEL=$(echo "$folder"/wheel/natator-*.whl)
 "$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --target "$folder/installed" "$NATATOR_WHEEL"
-export NATATOR_WHEEL PYTHONPATH=$folder/installed PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator
+export NATATOR_WHEEL PYTHONPATH=$folder/installed PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator TQDM_DISABLE=1
 exec "$python" -W error -m unittest discover --start-directory "$root/tests/$tests" --pattern '*_test.py'

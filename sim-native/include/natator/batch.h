@@ -13,11 +13,11 @@ namespace natator {
 
 /// A GPU that this library can compute on.
 struct Device {
-    int index = 0;
-    std::string name;
-    std::string capability;  ///< version of its instruction set, such as "9.0"
-    std::size_t memory = 0;  ///< bytes
-    int multiprocessors = 0;
+    int index = 0;            ///< its number, as Execution::gpu has it
+    std::string name;         ///< as its driver gives it
+    std::string capability;   ///< version of its instruction set, such as "9.0"
+    std::size_t memory = 0;   ///< bytes
+    int multiprocessors = 0;  ///< their number
 };
 
 /// All GPUs of this machine; empty without a driver, or if this library was built without CUDA.
@@ -28,8 +28,8 @@ std::optional<std::string> gpu_refusal(const Scene& scene);
 
 /// One evaluation of a batch.
 struct BatchMember {
-    Gait gait;
-    Perturbation perturbation;
+    Gait gait;                         ///< of the swimmer
+    Perturbation perturbation;         ///< of all starting positions
     std::optional<int> arrangement{};  ///< seed in place of FluidBlock::disorder; schemes `conserving` and `lattice`
 };
 
@@ -44,8 +44,8 @@ struct BatchTimes {
 
 /// How a batch is computed.
 struct BatchOptions {
-    Precision precision = Precision::single_precision;
-    int device = 0;  ///< number of the GPU, see cuda_devices
+    Precision precision = Precision::single_precision;  ///< what is computed in
+    int device = 0;                                     ///< number of the GPU, see cuda_devices
     /// members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
     bool whole_gpu = false;
     /// Search the water's neighbours in every pass in place of storing lists; scheme `conserving`. The same bits, less

@@ -28,8 +28,8 @@ std::string hash_text(std::uint64_t hash);
 
 /// Random shift of all starting positions, for ensembles of a chaotic system.
 struct Perturbation {
-    double amplitude = 0;  ///< each coordinate is shifted uniformly within +-amplitude, length
-    std::uint64_t seed = 1;
+    double amplitude = 0;    ///< each coordinate is shifted uniformly within +-amplitude, length
+    std::uint64_t seed = 1;  ///< of the random numbers
 };
 
 /// Selects initial condition number `start` of a scene, as `start` of a request does. In schemes `conserving` and
@@ -42,19 +42,19 @@ struct ConservationErrors {
     double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
     double angular_momentum = 0;  ///< |sum of m r x v| / sum of |m r x v| over the body, about its centre of mass
     double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
-    double density_error_max = 0;
+    double density_error_max = 0;   ///< the largest of them
 };
 
 /// Result of a companion, a swimmer beside the evaluated one.
 struct CompanionResult {
-    std::string creature;
-    double distance = 0;  ///< change of its mean x, length
-    Course course;
+    std::string creature;  ///< its name
+    double distance = 0;   ///< change of its mean x, length
+    Course course;         ///< where it went
 };
 
 /// What the water has lost because its tank moves along: water that enters in front is at rest.
 struct WaterRenewal {
-    int times = 0;
+    int times = 0;                                       ///< number of times that it moved
     long particles = 0;                                  ///< sum over all times
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< taken away, mass length/s
     double kinetic_energy = 0;                           ///< taken away, mass length^2/s^2
@@ -62,14 +62,14 @@ struct WaterRenewal {
 
 /// Result of one evaluation of a gait in a scene.
 struct Evaluation {
-    StopReason stopped = StopReason::completed;
-    double distance = 0;   ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
-    double simulated = 0;  ///< s
-    int frames = 0;
+    StopReason stopped = StopReason::completed;  ///< why it ended
+    double distance = 0;     ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
+    double simulated = 0;    ///< s
+    int frames = 0;          ///< number of time steps
     std::uint64_t hash = 0;  ///< hash of the final positions and velocities
-    std::optional<Instability> instability;
-    ConservationErrors errors;
-    std::optional<SwimmingNumbers> swimming;
+    std::optional<Instability> instability;   ///< none: it was stable
+    ConservationErrors errors;                ///< at the end
+    std::optional<SwimmingNumbers> swimming;  ///< see swimming_numbers
     /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
@@ -87,11 +87,11 @@ using FrameObserver = std::function<void(double time, const std::vector<Eigen::V
 
 /// How an evaluation is run, and what it reports while it runs. Only `precision` and `perturbation` affect the result.
 struct EvaluationOptions {
-    Precision precision = Precision::single_precision;
-    Perturbation perturbation{};
-    FrameObserver on_frame{};  ///< called for the settled start and after each frame; empty = not
-    SnapshotRequest snapshot{};
-    Execution execution{};  ///< what it points to must live until evaluate returns
+    Precision precision = Precision::single_precision;  ///< what is computed in
+    Perturbation perturbation{};                        ///< of all starting positions
+    FrameObserver on_frame{};    ///< called for the settled start and after each frame; empty = not
+    SnapshotRequest snapshot{};  ///< of all particles at one time
+    Execution execution{};       ///< what it points to must live until evaluate returns
 };
 
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early

@@ -15,7 +15,7 @@ struct Gait {
     /// o_i per actuator: what its muscles are driven by beside the beat, to steer; > 0 to the left. Empty = 0.
     std::vector<double> offset{};
 
-    bool operator==(const Gait&) const = default;
+    bool operator==(const Gait&) const = default;  ///< whether all values are the same
 };
 
 /// The gait that leaves the muscles of so many actuators at rest.

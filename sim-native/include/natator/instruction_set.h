@@ -12,6 +12,7 @@ InstructionSet instruction_set();
 /// Whether this machine and this build have it.
 bool available(InstructionSet set);
 
+/// Its name: "portable", "avx2", "avx512".
 const char* to_string(InstructionSet set);
 
 }  // namespace natator

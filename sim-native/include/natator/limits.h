@@ -24,7 +24,8 @@ inline constexpr double neighbours = 2e9;
 inline constexpr int radius_ratio = 20;
 /// kernel_support, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density;
 /// the volume of a particle is a sum over the cube of so many.
-inline constexpr double min_kernel_support = 2, max_kernel_support = 4;
+inline constexpr double min_kernel_support = 2;
+inline constexpr double max_kernel_support = 4;  ///< see min_kernel_support
 /// Threads of a solver: they meet several times in each iteration, and more of them than processors only wait for each
 /// other.
 inline constexpr int threads = 1024;
@@ -45,8 +46,8 @@ inline constexpr double live_frames = 100;
 
 /// Bytes of a mesh's file, its triangles, and pairs of them that are looked at for intersections, some seconds' worth.
 inline constexpr std::size_t mesh_bytes = 64 << 20;
-inline constexpr long mesh_faces = 200'000;
-inline constexpr long mesh_pairs = 1'000'000'000;
+inline constexpr long mesh_faces = 200'000;        ///< see mesh_bytes
+inline constexpr long mesh_pairs = 1'000'000'000;  ///< see mesh_bytes
 
 /// Particles of which a settled start is kept in the cache of starts, whose files else fill the disk.
 inline constexpr int cached_particles = 250'000;

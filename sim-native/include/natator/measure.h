@@ -9,6 +9,7 @@
 #include "natator/gait.h"
 #include "natator/model.h"
 
+/// @file
 /// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as
 /// many particles. Real is float or double.
 namespace natator {
@@ -108,7 +109,7 @@ struct SwimmingNumbers {
 /// at rest. Below `min_spacings_across` its speed may change by half and more with a finer water. 0 without a body or
 /// water.
 double water_across(const Model& model);
-inline constexpr double min_spacings_across = 4;
+inline constexpr double min_spacings_across = 4;  ///< spacings of the water
 /// "the body is 1.5 spacings of the water across, of which it needs 4: ..." where it is below `min_spacings_across`;
 /// else empty.
 std::string warning_of_across(double across);
@@ -147,10 +148,11 @@ WaterField water_field(const Model& model, const State<Real>& state);
 
 /// Where a body feels the water: the particles of a slice that lie outermost on one of its sides at rest.
 struct SkinPlace {
+    /// As the body lies at rest.
     enum class Side { left, right, above, below };
 
-    int slice = 0;  ///< 0 = head
-    Side side = Side::left;
+    int slice = 0;           ///< 0 = head
+    Side side = Side::left;  ///< of the slice
 };
 
 /// What a swimmer is asked for beside its own pose.

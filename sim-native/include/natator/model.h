@@ -24,7 +24,7 @@ struct WaterBox {
     double viscosity = 0.001;         ///< kinematic, length^2/s, above 0
     double density = 1;               ///< mass/length^3
 
-    double cell_mass() const { return density * cell * cell * cell; }
+    double cell_mass() const { return density * cell * cell * cell; }  ///< of water in a cell, mass
 };
 
 /// The water on a grid of cubic cells, in the coordinates of its tank; values are by cell, x first, then y, then z.
@@ -40,7 +40,7 @@ struct WaterField {
 
 /// Bits of a particle's phase: a group number and flags, as NVIDIA Flex packs them.
 namespace phase {
-inline constexpr std::uint32_t group_mask = 0x000fffff;
+inline constexpr std::uint32_t group_mask = 0x000fffff;         ///< the group number
 inline constexpr std::uint32_t self_collide = 1u << 20;         ///< collides with particles of its own group
 inline constexpr std::uint32_t self_collide_filter = 1u << 21;  ///< but not with those near it at rest
 inline constexpr std::uint32_t fluid = 1u << 22;                ///< takes part in the density constraint
@@ -48,15 +48,15 @@ inline constexpr std::uint32_t fluid = 1u << 22;                ///< takes part 
 
 /// Distance constraint between two particles.
 struct Spring {
-    int a = 0;
-    int b = 0;
+    int a = 0;               ///< one particle
+    int b = 0;               ///< the other one
     double rest_length = 0;  ///< length
     double stiffness = 1;    ///< [0, 1]
 };
 
 /// Shape-matching constraint: particles that keep the shape they have at rest.
 struct Cluster {
-    std::vector<int> particles;
+    std::vector<int> particles;                ///< its members
     std::vector<Eigen::Vector3d> rest_offset;  ///< rest position minus plain mean of the rest positions, per particle
     double stiffness = 0.2;                    ///< [0, 1]
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< first guess of the rotation fit
@@ -65,7 +65,7 @@ struct Cluster {
 
 /// A spring that an actuator drives: rest length l = l_rest (1 + 1/2 z_m a u), thesis (2.7) and (2.8).
 struct Muscle {
-    int spring = 0;
+    int spring = 0;    ///< which of Model::springs
     int actuator = 0;  ///< in the order of Creature::actuator_list; those of companions follow
     /// z_m in [-1, 1], -1 = left edge, +1 = right edge; of one that bends up and down, lower and upper
     double lateral = 0;
@@ -73,44 +73,44 @@ struct Muscle {
 
 /// Which particles make up the swimmer. Slice 0 is the head.
 struct Body {
-    std::vector<int> particles;
-    std::vector<std::vector<int>> slices;
-    double length = 0;   ///< head to tail at rest, length
-    double spacing = 0;  ///< of its particles at rest, length
+    std::vector<int> particles;            ///< by slice from the head, then y, then z
+    std::vector<std::vector<int>> slices;  ///< the particles of each slice
+    double length = 0;                     ///< head to tail at rest, length
+    double spacing = 0;                    ///< of its particles at rest, length
 };
 
 /// A swimmer beside the one that is evaluated.
 struct CompanionBody {
-    Body body;
-    Gait gait;
+    Body body;               ///< its particles
+    Gait gait;               ///< by which it swims
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
 };
 
 /// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none
 /// changes it. Per-particle vectors have the length of `position`.
 struct Model {
-    Scheme scheme = Scheme::conserving;
-    SolverParameters parameters;
-    double time_step = 1.0 / 60;  ///< one frame, s
+    Scheme scheme = Scheme::conserving;  ///< by which it is computed
+    SolverParameters parameters;         ///< of the solver
+    double time_step = 1.0 / 60;         ///< one frame, s
 
-    std::vector<Eigen::Vector3d> position;  ///< at the start
-    std::vector<Eigen::Vector3d> velocity;  ///< at the start
-    std::vector<double> inverse_mass;       ///< 0 = held in place
-    std::vector<std::uint32_t> phase;
+    std::vector<Eigen::Vector3d> position;       ///< at the start
+    std::vector<Eigen::Vector3d> velocity;       ///< at the start
+    std::vector<double> inverse_mass;            ///< 0 = held in place
+    std::vector<std::uint32_t> phase;            ///< group and flags, see natator::phase
     std::vector<Eigen::Vector3d> rest_position;  ///< for self_collide_filter; empty if no particle has it
 
-    std::vector<Plane> planes;
-    std::optional<WaterBox> water_box;   ///< the water of scheme `lattice`, if any; in the others it is particles
-    std::vector<PeriodicAxis> periodic;  ///< at most one an axis; all planes are along them
-    std::vector<Spring> springs;
-    std::vector<Cluster> clusters;
-    std::vector<Muscle> muscles;
-    int actuators = 0;  ///< number of the body's actuators; a gait has as many
-    Body body;
-    std::vector<CompanionBody> companions;
+    std::vector<Plane> planes;              ///< walls of the tank
+    std::optional<WaterBox> water_box;      ///< the water of scheme `lattice`, if any; in the others it is particles
+    std::vector<PeriodicAxis> periodic;     ///< at most one an axis; all planes are along them
+    std::vector<Spring> springs;            ///< those of muscles among them
+    std::vector<Cluster> clusters;          ///< from the head on
+    std::vector<Muscle> muscles;            ///< the springs that actuators drive
+    int actuators = 0;                      ///< number of the body's actuators; a gait has as many
+    Body body;                              ///< the swimmer that is evaluated; without particles if there is none
+    std::vector<CompanionBody> companions;  ///< the others
 
-    int particles() const { return static_cast<int>(position.size()); }
-    bool is_fluid(int i) const { return (phase[i] & natator::phase::fluid) != 0; }
+    int particles() const { return static_cast<int>(position.size()); }             ///< their number
+    bool is_fluid(int i) const { return (phase[i] & natator::phase::fluid) != 0; }  ///< whether particle i is of water
 };
 
 /// Lays out the particles, clusters and muscles of a scene: first the body (by slice from the head, then y, then z),
@@ -125,6 +125,7 @@ struct Model {
 /// All else has the ranges of that page, which load_scene and parse_scene have checked.
 Model build_model(const Scene& scene);
 
+/// A place, velocity or force along x, y, z.
 template <class Real>
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
@@ -132,8 +133,8 @@ using Vector3 = Eigen::Matrix<Real, 3, 1>;
 /// Real is float (default) or double (reference runs).
 template <class Real>
 struct State {
-    std::vector<Vector3<Real>> position;
-    std::vector<Vector3<Real>> velocity;
+    std::vector<Vector3<Real>> position;                    ///< length
+    std::vector<Vector3<Real>> velocity;                    ///< length/s
     std::vector<Eigen::Quaternion<Real>> cluster_rotation;  ///< kept between iterations, substeps and frames
     std::vector<Vector3<Real>> cluster_centre;              ///< stored centre with its dead band
     std::vector<Real> spring_rest_length;                   ///< length, as the muscles are driven

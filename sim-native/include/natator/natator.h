@@ -1,5 +1,6 @@
 #pragma once
 
+/// @mainpage
 /// All of the library. A program begins with load_scene.h or scene.h, what is simulated; simulation.h, a run frame by
 /// frame; evaluate.h, a whole run of a gait, and batch.h, many of them on a GPU.
 #include "natator/batch.h"
@@ -18,3 +19,6 @@
 #include "natator/simulation.h"
 #include "natator/solver.h"
 #include "natator/version.h"
+
+/// Simulates swimming creatures. Units are those of the scene: length, second, mass.
+namespace natator {}

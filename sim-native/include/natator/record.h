@@ -45,6 +45,7 @@ class WholeFile;
 /// a time.
 class TrajectoryCsv {
 public:
+    /// What has a line in each frame.
     enum class Rows { slices, particles };
 
     /// Throws std::runtime_error when the file can't be written; so do the other members.
@@ -54,7 +55,7 @@ public:
     /// Throws InputError if there are not as many places as the slices have particles, or a whole number of times so
     /// many.
     void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
-    void finish();
+    void finish();  ///< puts the file in its place; nothing may be added after it
 
 private:
     void add_row(double time, std::size_t index, const Eigen::Vector3d& x);

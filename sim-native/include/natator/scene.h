@@ -29,9 +29,9 @@ enum class RelaxationMode {
 
 /// What scheme `flex` alone has, under the names of NVIDIA Flex; from Appendix A of the thesis.
 struct FlexParameters {
-    double viscosity = 8.0;      ///< smoothing of the fluid's velocities, 1/s, >= 0
-    double solidPressure = 0.1;  ///< weight of solid particles in the fluid's density, >= 0
-    RelaxationMode relaxationMode = RelaxationMode::local;
+    double viscosity = 8.0;                                 ///< smoothing of the fluid's velocities, 1/s, >= 0
+    double solidPressure = 0.1;                             ///< weight of solid particles in the fluid's density, >= 0
+    RelaxationMode relaxationMode = RelaxationMode::local;  ///< how corrections of one particle are put together
     int maxNeighborsPerParticle = 96;  ///< fluid neighbours kept per particle, the first found in cell order
 };
 
@@ -58,10 +58,10 @@ struct ConservingParameters {
 /// is read and in build_model, in a Model that a program makes those of `kernel_support` and of radius /
 /// fluid_rest_distance alone.
 struct SolverParameters {
-    int substeps = 4;    ///< substeps per frame, >= 1
-    int iterations = 4;  ///< constraint iterations per substep, >= 1
-    FlexParameters flex;
-    ConservingParameters conserving;
+    int substeps = 4;                 ///< substeps per frame, >= 1
+    int iterations = 4;               ///< constraint iterations per substep, >= 1
+    FlexParameters flex;              ///< of scheme `flex`
+    ConservingParameters conserving;  ///< of schemes `conserving` and `lattice`
 
     Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
     double radius = 0.15;                ///< interaction radius R of particles, length, > 0
@@ -108,8 +108,8 @@ struct SolverParameters {
 
 /// Half space a*x + b*y + c*z + d >= 0 that particles are kept in; (a, b, c) has length 1.
 struct Plane {
-    Eigen::Vector3d normal{0, 1, 0};
-    double offset = 0;  ///< d
+    Eigen::Vector3d normal{0, 1, 0};  ///< (a, b, c), into the half space
+    double offset = 0;                ///< d
 
     /// Signed distance of a point, positive inside.
     double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
@@ -119,14 +119,16 @@ struct Plane {
 /// near one end is next to what is near the other. Water is wrapped; bodies are where they have come to, beyond the
 /// ends too, and the water meets them as many lengths of the tank back. Not in scheme `flex`.
 struct PeriodicAxis {
-    int axis = 0;              ///< 0 = x, 2 = z
-    double low = 0, high = 0;  ///< where the ends are, length
+    int axis = 0;     ///< 0 = x, 2 = z
+    double low = 0;   ///< where the lower end is, length
+    double high = 0;  ///< where the upper end is, length
 
-    double length() const { return high - low; }
+    double length() const { return high - low; }  ///< of the tank
 };
 
 /// What a swimmer is asked to do; its score is the larger the better.
 struct Goal {
+    /// What its score is made of.
     enum class Measure {
         distance,  ///< way along x over ground, length
         forward,   ///< way along the own heading (Course::forward), length
@@ -136,10 +138,10 @@ struct Goal {
         hold,      ///< stay: 1 / (1 + d/L), d the mean distance from the start over ground, L the body's length
         economy,   ///< way along x per muscle work and body mass, s^2/length: one over the cost of transport
     };
-    Measure measure = Measure::distance;
-    double weight = 1;
-    double amount = 0;
-    Eigen::Vector3d place{0, 0, 0};
+    Measure measure = Measure::distance;  ///< what is asked for
+    double weight = 1;                    ///< of its score in the fitness
+    double amount = 0;                    ///< of turn, degrees, and depth, length
+    Eigen::Vector3d place{0, 0, 0};       ///< of reach, length
     /// How near counts as arrived: degrees for turn, else length.
     double within = 0;
     bool stop = true;  ///< arriving ends the run
@@ -154,11 +156,11 @@ const char* to_string(Goal::Measure measure);
 
 /// What became of a goal.
 struct GoalResult {
-    Goal::Measure measure = Goal::Measure::distance;
-    double weight = 1;
-    double score = 0;
-    std::optional<double> left;        ///< at the end, of one that is arrived at: degrees or length
-    std::optional<double> arrived_at;  ///< s
+    Goal::Measure measure = Goal::Measure::distance;  ///< what was asked for
+    double weight = 1;                                ///< of the score in the fitness
+    double score = 0;                                 ///< see Goal; in units of the measure where it is not arrived at
+    std::optional<double> left;                       ///< at the end, of one that is arrived at: degrees or length
+    std::optional<double> arrived_at;                 ///< s
 };
 
 /// How the mass of fluid particles depends on their initial height y.
@@ -170,13 +172,13 @@ enum class MassGradient {
 
 /// A block of fluid particles on a cubic lattice (thesis 2.3).
 struct FluidBlock {
-    Eigen::Vector3i count{10, 10, 10};         ///< lattice points along x, y, z
-    double spacing = 0.1;                      ///< lattice constant, length
-    Eigen::Vector3d origin{0.05, 0.05, 0.05};  ///< first lattice point
-    MassGradient gradient = MassGradient::uniform;
-    double bottom_mass = 1;    ///< mass of the lowest layer
-    double top_mass = 1;       ///< mass of the highest layer
-    double clearance = 0.085;  ///< lattice points closer than this to a body particle are left out
+    Eigen::Vector3i count{10, 10, 10};              ///< lattice points along x, y, z
+    double spacing = 0.1;                           ///< lattice constant, length
+    Eigen::Vector3d origin{0.05, 0.05, 0.05};       ///< first lattice point
+    MassGradient gradient = MassGradient::uniform;  ///< of masses from bottom to top
+    double bottom_mass = 1;                         ///< mass of the lowest layer
+    double top_mass = 1;                            ///< mass of the highest layer
+    double clearance = 0.085;                       ///< lattice points closer than this to a body particle are left out
     /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body
     /// begins in its cells, up to half a cell from its place along each axis; 0: there.
     int disorder = 20;
@@ -193,7 +195,7 @@ struct Slice {
     /// other. Empty: they do, as many to the left as to the right.
     std::vector<std::vector<int>> columns = {};
 
-    int row(int iy) const {
+    int row(int iy) const {  ///< number of particles of a row
         const auto i = static_cast<std::size_t>(iy);
         return !columns.empty() ? static_cast<int>(columns[i].size()) : rows.empty() ? width : rows[i];
     }
@@ -203,7 +205,7 @@ struct Slice {
         return columns.empty() ? 2 * iz - (row(iy) - 1)
                                : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
     }
-    int particles() const {
+    int particles() const {  ///< number of them in the slice
         int sum = 0;
         for (int iy = 0; iy < height; ++iy) sum += row(iy);
         return sum;
@@ -215,8 +217,8 @@ enum class Bend { sideways, vertical };
 
 /// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends() that bend one way.
 struct Actuator {
-    int gap = 0;  ///< 0 = between the first two of these slices
-    Bend bend = Bend::sideways;
+    int gap = 0;                 ///< 0 = between the first two of these slices
+    Bend bend = Bend::sideways;  ///< which way
 };
 
 /// How neighbouring clusters hang together.
@@ -239,15 +241,15 @@ struct Skin {
 
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
 struct Creature {
-    std::string name;
-    std::string description;
-    std::vector<Slice> slices;
+    std::string name;                  ///< as it is looked up by
+    std::string description;           ///< for people
+    std::vector<Slice> slices;         ///< from the head on
     std::vector<int> joints;           ///< indices of the slices shared by neighbouring clusters, ascending
     std::vector<int> muscle_slices;    ///< slices that muscles run between, ascending; empty = the joints (thesis 2.4)
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
     bool of_profile = false;           ///< whether slices and joints were made of curves: `profile` in the JSON
     std::shared_ptr<const Skin> skin;  ///< the mesh that slices and joints were made of: `mesh` in the JSON; null: none
-    Joint joint = Joint::slice;
+    Joint joint = Joint::slice;        ///< of all neighbouring clusters
     /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
     std::vector<std::vector<Bend>> bends;
     double cluster_stiffness = 0.2;           ///< shape-matching stiffness of every cluster, [0, 1]
@@ -260,8 +262,11 @@ struct Creature {
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (build_model).
     int refinement = 1;
 
+    /// Slices that muscles run between.
     const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
+    /// Number of gaps between them, each with muscles.
     int gaps() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    /// Whether muscles of a gap bend this way.
     bool bends_by(Bend bend, int gap) const {
         if (bends.empty()) return bend == Bend::sideways;
         const std::vector<Bend>& ways = bends[static_cast<std::size_t>(gap)];
@@ -281,11 +286,11 @@ struct Creature {
                 if (bends_by(bend, gap)) list.push_back({gap, bend});
         return list;
     }
-    int actuators() const { return static_cast<int>(actuator_list().size()); }
-    double stiffness_of_cluster(int cluster) const {
+    int actuators() const { return static_cast<int>(actuator_list().size()); }  ///< number of values of a gait
+    double stiffness_of_cluster(int cluster) const {                            ///< [0, 1]
         return cluster_stiffnesses.empty() ? cluster_stiffness : cluster_stiffnesses[static_cast<std::size_t>(cluster)];
     }
-    double stiffness_of_springs(int gap) const {
+    double stiffness_of_springs(int gap) const {  ///< [0, 1]
         return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(gap)];
     }
     /// Head to tail at rest, from the first slice's centre to the last one's.
@@ -296,9 +301,9 @@ struct Creature {
 
 /// Brings the initial block to rest before time 0 (thesis 2.3): short updates, velocities zeroed after each.
 struct Settling {
-    int updates = 100;
+    int updates = 100;        ///< their number
     double time_step = 1e-4;  ///< s
-    int substeps = 1;
+    int substeps = 1;         ///< of each update
 };
 
 /// When an evaluation ends before its duration (thesis 2.6).
@@ -309,14 +314,15 @@ struct Stopping {
 
 /// A swimmer beside the one that is evaluated, with a gait of its own.
 struct Companion {
-    Creature creature;
-    Gait gait;
+    Creature creature;  ///< its body
+    Gait gait;          ///< by which it swims
 };
 
 /// Something that water and bodies can't enter and that stays where it is: particles of infinite mass.
 struct Obstacle {
+    /// What it is made of: all of a sphere or box, or the places of `points`.
     enum class Shape { sphere, box, mesh };
-    Shape shape = Shape::sphere;
+    Shape shape = Shape::sphere;          ///< of this one
     Eigen::Vector3d centre{0, 0, 0};      ///< length; of a mesh: the middle of its box
     double radius = 0;                    ///< radius of a sphere, length
     Eigen::Vector3d size{0, 0, 0};        ///< edges of a box, length
@@ -339,22 +345,22 @@ struct MovingTank {
 /// Everything that defines an experiment. What is made without an argument is water of one density, without friction
 /// and drag; it needs some, in `fluid` and between `planes`. Scene JSON has thesis_tank() where it says nothing.
 struct Scene {
-    std::string name;
-    std::string description;
-    Scheme scheme = Scheme::conserving;
-    double duration = 4.0;        ///< s
-    double time_step = 1.0 / 60;  ///< one frame, s
-    SolverParameters solver;
-    std::vector<Plane> planes;
-    std::vector<PeriodicAxis> periodic;  ///< axes that have no ends; no planes stand across them
-    std::optional<FluidBlock> fluid;
-    std::optional<Creature> creature;
-    Settling settling;
-    Stopping stopping;
-    std::optional<MovingTank> moving_tank;
-    std::vector<Companion> companions;
-    std::vector<Obstacle> obstacles;
-    std::vector<Goal> goals;  ///< none: the distance along x
+    std::string name;                       ///< as messages give it
+    std::string description;                ///< for people
+    Scheme scheme = Scheme::conserving;     ///< by which it is computed
+    double duration = 4.0;                  ///< s
+    double time_step = 1.0 / 60;            ///< one frame, s
+    SolverParameters solver;                ///< parameters of the scheme
+    std::vector<Plane> planes;              ///< walls of the tank
+    std::vector<PeriodicAxis> periodic;     ///< axes that have no ends; no planes stand across them
+    std::optional<FluidBlock> fluid;        ///< the water; none: there is none
+    std::optional<Creature> creature;       ///< the swimmer that is evaluated; none: there is none
+    Settling settling;                      ///< before time 0
+    Stopping stopping;                      ///< before the duration is over
+    std::optional<MovingTank> moving_tank;  ///< none: the tank stays
+    std::vector<Companion> companions;      ///< other swimmers
+    std::vector<Obstacle> obstacles;        ///< what stands in the tank
+    std::vector<Goal> goals;                ///< none: the distance along x
 
     /// Distance through the water along x, length, of a swimmer that got `distance` (length) along x over ground in
     /// `time` (s).

@@ -17,19 +17,20 @@ namespace natator {
 /// failed writes are ignored.
 class SettledStateCache {
 public:
-    explicit SettledStateCache(std::filesystem::path folder);
+    explicit SettledStateCache(std::filesystem::path folder);  ///< the folder is made when something is kept
 
     /// In $NATATOR_CACHE, else $XDG_CACHE_HOME/natator, else $HOME/.cache/natator; none if that is empty or unset.
     static std::optional<SettledStateCache> of_user();
 
-    /// `by`: what settles it, if that is not the CPU.
+    /// The start of a model, none if it is not kept. `by`: what settles it, if that is not the CPU.
     template <class Real>
     std::optional<State<Real>> find(const Model& model, const Settling& settling, const std::string& by = {}) const;
+    /// Keeps a start; the oldest file gives way to it.
     template <class Real>
     void keep(const Model& model, const Settling& settling, const State<Real>& settled,
               const std::string& by = {}) const;
 
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_; }  ///< where starts are kept
 
     static constexpr int max_files = 64;  ///< kept; the oldest give way
 

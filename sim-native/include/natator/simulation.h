@@ -44,8 +44,8 @@ public:
     /// Settles a scene that is looked up by its name. Throws as for a scene.
     explicit Simulation(const SimulationSetup& setup, const Execution& execution = {});
     ~Simulation();
-    Simulation(Simulation&&) noexcept;
-    Simulation& operator=(Simulation&&) noexcept;
+    Simulation(Simulation&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+    Simulation& operator=(Simulation&&) noexcept;  ///< likewise
 
     /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
     /// starts anew.
@@ -77,11 +77,11 @@ public:
 
     /// What runs now; its gait is always there.
     const SimulationSetup& setup() const { return setup_; }
-    const Gait& gait() const { return *setup_.gait; }
-    const Scene& scene() const;
-    const Model& model() const;
-    const State<Real>& state() const { return state_; }
-    double time() const { return state_.time; }  ///< s since the start
+    const Gait& gait() const { return *setup_.gait; }    ///< that drives the muscles
+    const Scene& scene() const;                          ///< with all overrides
+    const Model& model() const;                          ///< of that scene
+    const State<Real>& state() const { return state_; }  ///< of this moment
+    double time() const { return state_.time; }          ///< s since the start
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
     /// What the next frame is steered to.
@@ -98,7 +98,7 @@ public:
     /// The water on a grid: the cells of scheme `lattice`, the particles of the others as water_field has them. Throws
     /// InputError as that.
     WaterField water() const;
-    const std::optional<Instability>& instability() const { return instability_; }
+    const std::optional<Instability>& instability() const { return instability_; }  ///< none: it is stable
 
 private:
     struct Run;

@@ -17,16 +17,17 @@ class SettledStateCache;
 /// Wall time by stage of a step, see solver/step.h. For one thread at a time.
 class StageProfile {
 public:
+    /// What one stage took.
     struct Entry {
-        std::string stage;
-        long calls = 0;
-        double seconds = 0;
+        std::string stage;   ///< its name
+        long calls = 0;      ///< how often it ran
+        double seconds = 0;  ///< wall time of all calls, s
     };
 
-    void add(const char* stage, double seconds);
+    void add(const char* stage, double seconds);  ///< counts a call of a stage that took so long (s)
     /// Times by stage, in the order in which stages first ran.
     const std::vector<Entry>& entries() const { return entries_; }
-    double seconds() const;
+    double seconds() const;  ///< of all stages together, s
 
 private:
     std::vector<Entry> entries_;
@@ -34,7 +35,7 @@ private:
 
 /// Residual of constraints of one kind: 0 if there are none, or if they are met.
 struct Residual {
-    double max = 0;
+    double max = 0;   ///< of one particle, spring or cluster
     double mean = 0;  ///< over all of the kind
 };
 
@@ -75,32 +76,32 @@ struct Execution {
 
 /// The stages that a Model needs, decided once: a stage that is false here does not run and owns no memory.
 struct Plan {
-    bool fluid = false;            ///< density constraint of scheme `flex`, fluid neighbour lists
-    bool water = false;            ///< pressure solves of scheme `conserving`
-    bool contacts = false;         ///< pairs that are not both fluid; in scheme `conserving` of solids alone
-    bool mutual_contacts = false;  ///< a pair that one side feels is felt by both, so that momentum is kept
-    bool solid_pressure = false;   ///< solids add to the fluid's density
-    bool uniform_fluid = false;    ///< every fluid particle collides with every other: no test per pair
-    bool springs = false;
-    bool clusters = false;
-    bool planes = false;
-    bool particle_friction = false;
-    bool plane_friction = false;
-    bool viscosity = false;
-    bool damping = false;
-    bool clamp_acceleration = false;
-    bool clamp_speed = false;
+    bool fluid = false;               ///< density constraint of scheme `flex`, fluid neighbour lists
+    bool water = false;               ///< pressure solves of scheme `conserving`
+    bool contacts = false;            ///< pairs that are not both fluid; in scheme `conserving` of solids alone
+    bool mutual_contacts = false;     ///< a pair that one side feels is felt by both, so that momentum is kept
+    bool solid_pressure = false;      ///< solids add to the fluid's density
+    bool uniform_fluid = false;       ///< every fluid particle collides with every other: no test per pair
+    bool springs = false;             ///< springs, muscles among them
+    bool clusters = false;            ///< shape matching
+    bool planes = false;              ///< contacts with planes
+    bool particle_friction = false;   ///< SolverParameters::particle_friction
+    bool plane_friction = false;      ///< SolverParameters::dynamic_friction and static_friction
+    bool viscosity = false;           ///< FlexParameters::viscosity or ConservingParameters::kinematic_viscosity
+    bool damping = false;             ///< SolverParameters::damping
+    bool clamp_acceleration = false;  ///< SolverParameters::max_acceleration
+    bool clamp_speed = false;         ///< SolverParameters::max_speed
 
     // Off in the thesis.
-    bool restitution = false;
-    bool adhesion = false;
-    bool sleep = false;
-    bool shock_propagation = false;
-    bool dissipation = false;
-    bool cohesion = false;
-    bool surface_tension = false;
-    bool vorticity = false;
-    bool free_surface_drag = false;
+    bool restitution = false;        ///< SolverParameters::restitution
+    bool adhesion = false;           ///< SolverParameters::adhesion
+    bool sleep = false;              ///< SolverParameters::sleep_threshold
+    bool shock_propagation = false;  ///< SolverParameters::shock_propagation
+    bool dissipation = false;        ///< SolverParameters::dissipation
+    bool cohesion = false;           ///< SolverParameters::cohesion
+    bool surface_tension = false;    ///< SolverParameters::surface_tension
+    bool vorticity = false;          ///< SolverParameters::vorticity_confinement
+    bool free_surface_drag = false;  ///< SolverParameters::free_surface_drag
     /// any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity
     /// in `flex`
     bool fluid_forces = false;
@@ -140,9 +141,10 @@ template <class Real>
 class StepObserver {
 public:
     virtual ~StepObserver() = default;
+    /// before the first iteration, length
     virtual void predicted(const std::vector<Vector3<Real>>& positions) = 0;
-    virtual void iterated(const std::vector<Vector3<Real>>& positions) = 0;
-    virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
+    virtual void iterated(const std::vector<Vector3<Real>>& positions) = 0;        ///< after each iteration, length
+    virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;  ///< those of its end, length/s
 };
 
 template <class Real>
@@ -164,8 +166,8 @@ public:
     explicit Solver(const Model& model, const Execution& execution = {});
     explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();
-    Solver(Solver&&) noexcept;
-    Solver& operator=(Solver&&) noexcept;
+    Solver(Solver&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+    Solver& operator=(Solver&&) noexcept;  ///< likewise
 
     /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds.
     /// Returns where the state stopped being finite; `state` then keeps its values from before that substep. Throws

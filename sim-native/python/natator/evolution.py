@@ -1,9 +1,11 @@
 """Evolution of a gait, with a verdict from runs that had no part in choosing it."""
 
+import json
 import math
 import statistics
 import warnings
 from dataclasses import dataclass
+from pathlib import Path
 
 from natator.errors import InputError
 from natator.gait import Gait, whole
@@ -41,7 +43,7 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
     if optimizer is None:
         optimizer = _cma_es(1 + 2 * actuators, population, seed)
     half = merged(request.get("overrides"), {"solver": {"substeps": 2 * about["definition"]["solver"]["substeps"]}})
-    first, judged, best = seed * 1_000_003, [], []
+    first, judged, best, history = seed * 1_000_003, [], [], []
 
     with Simulator(workers, arguments, program) as simulator:
         def runs(gaits, count, **other):
@@ -58,15 +60,17 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
             gaits = [_gait(genes, actuators) for genes in asked]
             ways, scheme = runs(gaits, starts)
             judged += zip(gaits, ways)
-            optimizer.tell(asked, [-_fitness(way) for way in ways])
+            worth = [_fitness(way) for way in ways]
+            optimizer.tell(asked, [-one for one in worth])
             best = sorted(judged, key=lambda one: _fitness(one[1]), reverse=True)[:BEST]
             judged = list(best)
+            history.append((_fitness(best[0][1]), statistics.fmean(worth)))
         again = [(gait, way + more) for (gait, way), more in zip(best, runs([gait for gait, _ in best], max(2, starts))[0])]
         gait, way = max(again, key=lambda one: _fitness(one[1]) - _error(one[1]))
         fresh, = runs([gait], max(4, 2 * starts))[0]
         first -= len(fresh)  # the same starts
         at_half, = runs([gait], len(fresh), overrides=half)[0]
-    return Evolved(scene, gait, _fitness(way), fresh, at_half, duration, about["bodyLength"], scheme, request)
+    return Evolved(scene, gait, _fitness(way), fresh, at_half, duration, about["bodyLength"], scheme, request, history)
 
 
 @dataclass(frozen=True, repr=False)
@@ -82,6 +86,7 @@ class Evolved:
     body_length: float
     scheme: str
     request: dict        #: what else it was asked with
+    history: list = ()   #: of each generation the best mean distance so far, and the mean over its gaits, length
 
     def __repr__(self):
         lengths = self.body_length * self.duration
@@ -92,6 +97,12 @@ class Evolved:
         doubt = ("a run was unstable" if None in self.half_step else "the time step makes it" if abs(half - mean) > MOST_CHANGE * mean
                  else "scheme flex does not keep momentum" if self.scheme == "flex" else None)
         return f"may swim: {told}; {doubt}" if doubt else f"swims: {told}"
+
+    def save(self, file):
+        """Writes gait and verdict as JSON, which every --gait takes but natator-sim's: that is the key gait alone. Raises OSError."""
+        told = {"scene": self.scene, "gait": self.gait.to_json(), "verdict": repr(self), "distances": self.distances, "halfStep": self.half_step,
+                "duration": self.duration, "scheme": self.scheme, "selected": self.selected, "history": self.history, "request": self.request}
+        Path(file).write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
 
     def swim(self, **options):
         """One swim of it, to be seen: see natator.swim."""

@@ -72,6 +72,7 @@ class SwimmerEnv(gymnasium.Env):
         self._views = Views(stream.scene, stream.frame.position) if self.render_mode else None
 
     def reset(self, *, seed=None, options=None):
+        """As of gymnasium.Env. options: {"start": number of a start} chooses one. Raises InputError."""
         self.begin_reset(seed, options)
         return self.end_reset()
 
@@ -96,6 +97,7 @@ class SwimmerEnv(gymnasium.Env):
         return self._observation(), self._info()
 
     def step(self, action):
+        """As of gymnasium.Env. Raises InputError for an action of another shape."""
         self.begin_step(action)
         return self.end_step()
 
@@ -157,6 +159,7 @@ class SwimmerEnv(gymnasium.Env):
         return self._views.pixels(self._stream.frame.position, self._senses, self._point is not None)
 
     def close(self):
+        """Ends its program."""
         self._stream.close()
 
     def _drain(self):
@@ -256,6 +259,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return infos
 
     def step(self, actions):
+        """As of gymnasium.vector.VectorEnv: a row of actions for each environment. Raises InputError."""
         actions = np.asarray(actions)
         if actions.ndim == 0:
             raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
@@ -294,6 +298,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close_extras(self, **_):
+        """Ends their programs."""
         close_all([env._stream for env in self.envs])
 
 

@@ -71,6 +71,7 @@ class Swimming:
         return found
 
     def envelope(self, places):
+        """The largest size of z at each of the places, length."""
         return np.abs(self.at(places)).max(axis=0)
 
 

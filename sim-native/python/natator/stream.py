@@ -139,6 +139,7 @@ class Stream:
 
     @property
     def actuators(self):
+        """Their number."""
         return self.scene["actuators"]
 
     def sense(self, flow=None, within=None, target=None, **more):
