@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <iostream>
 #include <map>
 #include <memory>
@@ -143,7 +141,7 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
 int serve(ServeOptions& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
-    LineQueue queue(STDIN_FILENO, {.lines = options.most,
+    LineQueue queue({.lines = options.most,
                                    .bytes = limits::document_bytes,
                                    .waiting_bytes = limits::waiting_bytes});
     Tally tally;

