@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/install/roots.sh
 
 readonly file=.devcontainer/Dockerfile wanted=" $* "
-declare -A variables
+declare -A variables folder_of  # of stages: WORKDIR
 stage=final root='' work=/ entry=()
 
 fail() {
@@ -29,9 +29,9 @@ context() {
 }
 
 begin_stage() {  # IMAGE [AS NAME]
-    stage=${3:-final}
-    work=/
     local base=$1
+    stage=${3:-final}
+    work=${folder_of[$base]:-/}
     if [[ $base == debian:12-slim ]]; then
         make_root image/debian bookworm
     else
@@ -75,6 +75,7 @@ run() {
 }
 
 end_stage() {
+    folder_of[$stage]=$work
     $skipped || printf '%s: %d s, %d MB\n' "$stage" $((SECONDS - began)) "$(du -sm "$root" | cut -f1)"
 }
 
@@ -93,7 +94,10 @@ while read -r -u 3 instruction rest; do
             name=${rest%%=*}
             variables[$name]=${!name:-${rest#*=}}
             ;;
-        WORKDIR) work=$rest && mkdir -p "$root$work" ;;
+        WORKDIR)
+            work=$rest
+            $skipped || mkdir -p "$root$work"
+            ;;
         # shellcheck disable=SC2086
         COPY) $skipped || copy $rest ;;
         RUN) $skipped || run sh -c "$rest" ;;
