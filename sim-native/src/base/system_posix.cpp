@@ -23,10 +23,13 @@
 
 namespace natator::system {
 
-int process_id() { return ::getpid(); }
+int process_id() {
+    return ::getpid();
+}
 
 double memory_of_machine() {
-    const double pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES)), page = static_cast<double>(::sysconf(_SC_PAGESIZE));
+    const double pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES)),
+                 page = static_cast<double>(::sysconf(_SC_PAGESIZE));
     return pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::max();
 }
 
@@ -35,7 +38,8 @@ std::filesystem::path program_file() {
 #if defined(__APPLE__)
     std::array<char, 4096> name{};
     auto size = static_cast<std::uint32_t>(name.size());
-    return ::_NSGetExecutablePath(name.data(), &size) == 0 ? std::filesystem::canonical(name.data(), failed) : std::filesystem::path();
+    return ::_NSGetExecutablePath(name.data(), &size) == 0 ? std::filesystem::canonical(name.data(), failed)
+                                                           : std::filesystem::path();
 #else
     return std::filesystem::read_symlink("/proc/self/exe", failed);
 #endif
@@ -46,7 +50,7 @@ std::string build_id() {  // ELF note NT_GNU_BUILD_ID
     std::string id;
     const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
         const auto here = reinterpret_cast<std::uintptr_t>(&build_id);
-        const auto holds = [&](const ElfW(Phdr)& part) {
+        const auto holds = [&](const ElfW(Phdr) & part) {
             return part.p_type == PT_LOAD && here - (info->dlpi_addr + part.p_vaddr) < part.p_memsz;
         };
         if (std::none_of(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum, holds)) return 0;
@@ -71,22 +75,32 @@ std::string build_id() {  // ELF note NT_GNU_BUILD_ID
     return id;
 }
 #else
-std::string build_id() { return {}; }
+std::string build_id() {
+    return {};
+}
 #endif
 
-bool is_writable(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+bool is_writable(const std::filesystem::path& path) {
+    return ::access(path.c_str(), W_OK) == 0;
+}
 
 bool is_standard_output(const std::filesystem::path& file) {
     struct stat there {};
     if (::stat(file.c_str(), &there) != 0) return false;
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        if (struct stat open {}; ::fstat(stream, &open) == 0 && open.st_dev == there.st_dev && open.st_ino == there.st_ino) return true;
+        if (struct stat open{};
+            ::fstat(stream, &open) == 0 && open.st_dev == there.st_dev && open.st_ino == there.st_ino)
+            return true;
     return false;
 }
 
-bool is_output_terminal() { return ::isatty(STDOUT_FILENO) != 0; }
+bool is_output_terminal() {
+    return ::isatty(STDOUT_FILENO) != 0;
+}
 
-void remove_file(const char* name) { ::unlink(name); }
+void remove_file(const char* name) {
+    ::unlink(name);
+}
 
 namespace {
 
@@ -94,8 +108,10 @@ void (*call_before_end)();
 
 /// Reading and writing a stream that was closed fails as before.
 void hold_closed_streams() {
-    for (const auto& [stream, mode] : {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
-        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", mode);  // has the lowest number that is free
+    for (const auto& [stream, mode] :
+         {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+            ::open("/dev/null", mode);  // has the lowest number that is free
 }
 
 extern "C" void clean_up_and_end(int signal) {
@@ -110,14 +126,18 @@ void prepare_program(void (*before_end)()) {
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
     call_before_end = before_end;
     for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU}) {
-        struct sigaction before {}, handler {};
+        struct sigaction before {
+        }, handler{};
         handler.sa_handler = clean_up_and_end;
         handler.sa_flags = SA_RESETHAND;
-        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) ::sigaction(signal, &handler, nullptr);
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
+            ::sigaction(signal, &handler, nullptr);
     }
 }
 
-void become(const std::string& program, char** arguments) { ::execv(program.c_str(), arguments); }
+void become(const std::string& program, char** arguments) {
+    ::execv(program.c_str(), arguments);
+}
 
 FileLock::FileLock(const std::filesystem::path& file) {
     const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_CREAT, 0666);
@@ -159,6 +179,8 @@ std::size_t Input::read(char* buffer, std::size_t size) {
     }
 }
 
-void Input::stop() { [[maybe_unused]] const ssize_t written = ::write(static_cast<int>(wake_[1]), "", 1); }
+void Input::stop() {
+    [[maybe_unused]] const ssize_t written = ::write(static_cast<int>(wake_[1]), "", 1);
+}
 
 }  // namespace natator::system

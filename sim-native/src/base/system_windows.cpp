@@ -17,7 +17,9 @@
 namespace natator::system {
 namespace {
 
-HANDLE as_handle(std::intptr_t number) { return reinterpret_cast<HANDLE>(number); }
+HANDLE as_handle(std::intptr_t number) {
+    return reinterpret_cast<HANDLE>(number);
+}
 
 /// Which file a handle is of; `file` is all 0 where the system does not tell.
 BY_HANDLE_FILE_INFORMATION identity(HANDLE handle) {
@@ -35,12 +37,15 @@ extern "C" void clean_up_and_end(int signal) {
 
 }  // namespace
 
-int process_id() { return ::_getpid(); }
+int process_id() {
+    return ::_getpid();
+}
 
 double memory_of_machine() {
     MEMORYSTATUSEX memory{};
     memory.dwLength = sizeof memory;
-    return ::GlobalMemoryStatusEx(&memory) ? static_cast<double>(memory.ullTotalPhys) : std::numeric_limits<double>::max();
+    return ::GlobalMemoryStatusEx(&memory) ? static_cast<double>(memory.ullTotalPhys)
+                                           : std::numeric_limits<double>::max();
 }
 
 std::filesystem::path program_file() {
@@ -48,9 +53,13 @@ std::filesystem::path program_file() {
     return {name.data(), name.data() + ::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()))};
 }
 
-std::string build_id() { return {}; }
+std::string build_id() {
+    return {};
+}
 
-bool is_writable(const std::filesystem::path& path) { return ::_waccess(path.c_str(), 2) == 0; }
+bool is_writable(const std::filesystem::path& path) {
+    return ::_waccess(path.c_str(), 2) == 0;
+}
 
 bool is_standard_output(const std::filesystem::path& file) {
     constexpr DWORD any = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
@@ -67,9 +76,13 @@ bool is_standard_output(const std::filesystem::path& file) {
     return false;
 }
 
-bool is_output_terminal() { return ::_isatty(1) != 0; }
+bool is_output_terminal() {
+    return ::_isatty(1) != 0;
+}
 
-void remove_file(const char* name) { ::_unlink(name); }
+void remove_file(const char* name) {
+    ::_unlink(name);
+}
 
 void prepare_program(void (*before_end)()) {
     for (const int stream : {0, 1}) ::_setmode(stream, _O_BINARY);  // lines end as elsewhere
@@ -77,11 +90,13 @@ void prepare_program(void (*before_end)()) {
     for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, clean_up_and_end);
 }
 
-void become(const std::string&, char**) { errno = ENOSYS; }
+void become(const std::string&, char**) {
+    errno = ENOSYS;
+}
 
 FileLock::FileLock(const std::filesystem::path& file) {
-    const HANDLE handle = ::CreateFileW(file.c_str(), GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, nullptr, OPEN_ALWAYS,
-                                        FILE_ATTRIBUTE_NORMAL, nullptr);
+    const HANDLE handle = ::CreateFileW(file.c_str(), GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, nullptr,
+                                        OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
     if (handle == INVALID_HANDLE_VALUE) {
         errno = ::GetLastError() == ERROR_PATH_NOT_FOUND ? ENOENT : EACCES;
         state_ = State::failed;
@@ -107,12 +122,14 @@ Input::~Input() {
 std::size_t Input::read(char* buffer, std::size_t size) {
     if (wake_[0] == -1) {
         HANDLE self = nullptr;
-        ::DuplicateHandle(::GetCurrentProcess(), ::GetCurrentThread(), ::GetCurrentProcess(), &self, 0, FALSE, DUPLICATE_SAME_ACCESS);
+        ::DuplicateHandle(::GetCurrentProcess(), ::GetCurrentThread(), ::GetCurrentProcess(), &self, 0, FALSE,
+                          DUPLICATE_SAME_ACCESS);
         wake_[0] = reinterpret_cast<std::intptr_t>(self);
     }
     DWORD count = 0;
     reading_ = true;  // before it asks whether it is stopped: stop() sees one or the other
-    if (!stopped_ && !::ReadFile(::GetStdHandle(STD_INPUT_HANDLE), buffer, static_cast<DWORD>(size), &count, nullptr)) count = 0;
+    if (!stopped_ && !::ReadFile(::GetStdHandle(STD_INPUT_HANDLE), buffer, static_cast<DWORD>(size), &count, nullptr))
+        count = 0;
     reading_ = false;
     return count;
 }
