@@ -41,7 +41,7 @@ begin_stage() {  # IMAGE [AS NAME]
     local from=$root
     root=$roots/image/$stage
     skipped=false
-    [[ $wanted == '  ' || $wanted == *" $stage "* ]] || skipped=true
+    [[ -z ${wanted// } || $wanted == *" $stage "* ]] || skipped=true
     $skipped && return
     rm -rf "$root"
     cp --archive --reflink=auto "$from" "$root"
@@ -107,6 +107,7 @@ while read -r -u 3 instruction rest; do
 done 3<"$file"
 end_stage
 
+[[ -d $root ]] || exit 0  # the last one was not asked for
 run "${entry[@]}" --version
 run "${entry[@]}" run pool/eel --duration 0.5
 run natator --version
