@@ -28,6 +28,9 @@ RoofKernels roof_kernels();
 namespace avx512 {
 RoofKernels roof_kernels();
 }
+namespace neon {
+RoofKernels roof_kernels();
+}
 
 /// Those of the instruction set in use.
 RoofKernels roof_kernels();

@@ -23,6 +23,8 @@ RoofKernels roof_kernels() {
 #if defined(NATATOR_X86_KERNELS)
     if (instruction_set() == InstructionSet::avx512) return avx512::roof_kernels();
     if (instruction_set() == InstructionSet::avx2) return avx2::roof_kernels();
+#elif defined(NATATOR_ARM_KERNELS)
+    if (instruction_set() == InstructionSet::neon) return neon::roof_kernels();
 #endif
     return portable::roof_kernels();
 }

@@ -1,8 +1,7 @@
-#include <unistd.h>
-
 #include <iostream>
 #include <memory>
 
+#include "base/system.h"
 #include "commands.h"
 #include "job.h"
 #include "json_argument.h"
@@ -41,7 +40,7 @@ int run_evaluate(EvaluateOptions& options) {
     } catch (const std::exception& error) {
         // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code. A person
         // who sees both needs it once.
-        if (!options.plain && !isatty(STDOUT_FILENO))
+        if (!options.plain && !system::is_output_terminal())
             print(error_json(id, message_of(error)).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
         throw;
     }

@@ -1,42 +1,10 @@
 #include "line_queue.h"
 
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <system_error>
 
 namespace natator::cli {
-namespace {
-
-int make_event() {
-    const int event = ::eventfd(0, EFD_CLOEXEC);
-    if (event < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
-    return event;
-}
-
-/// Waits until there is something to read, and reads it. 0 at the end of the stream, and when `wake` is readable.
-std::size_t read_some(int input, int wake, char* buffer, std::size_t size) {
-    for (;;) {
-        std::array<pollfd, 2> files{{{input, POLLIN, 0}, {wake, POLLIN, 0}}};
-        if (::poll(files.data(), files.size(), -1) < 0) {
-            if (errno == EINTR) continue;
-            return 0;
-        }
-        if (files[1].revents != 0) return 0;
-        const ssize_t count = ::read(input, buffer, size);
-        if (count >= 0) return static_cast<std::size_t>(count);
-        if (errno != EINTR && errno != EAGAIN) return 0;
-    }
-}
-
-}  // namespace
-
-LineQueue::LineQueue(int input, Limits limits)
-    : input_(input), limits_(limits), wake_(make_event()), reader_([this] { read(); }) {}
+LineQueue::LineQueue(Limits limits) : limits_(limits), reader_([this] { read(); }) {}
 
 LineQueue::~LineQueue() {
     {
@@ -44,10 +12,8 @@ LineQueue::~LineQueue() {
         closing_ = true;
     }
     room_.notify_one();
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = ::write(wake_, &one, sizeof one);
+    input_.stop();
     reader_.join();
-    ::close(wake_);
 }
 
 void LineQueue::read() {
@@ -55,7 +21,7 @@ void LineQueue::read() {
     std::string line;
     bool open = true;
     while (open) {
-        const std::size_t count = read_some(input_, wake_, buffer.data(), buffer.size());
+        const std::size_t count = input_.read(buffer.data(), buffer.size());
         if (count == 0) break;
         const char* at = buffer.data();
         const char* const end = at + count;

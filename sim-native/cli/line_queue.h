@@ -2,16 +2,17 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/system.h"
+
 namespace natator::cli {
 
-/// Lines of a stream as they come in, read by a thread of its own, which ends with the stream or with the queue.
+/// Lines of standard input as they come in, read by a thread of its own, which ends with the stream or with the queue.
 class LineQueue {
 public:
     using Clock = std::chrono::steady_clock;
@@ -22,8 +23,8 @@ public:
         std::size_t waiting_bytes = SIZE_MAX;  ///< of all lines that wait; the last one may go beyond
     };
 
-    /// Reads the file descriptor `input`. Throws std::system_error when there is no thread to be had.
-    explicit LineQueue(int input, Limits limits);
+    /// Throws std::system_error when there is no thread to be had.
+    explicit LineQueue(Limits limits);
     ~LineQueue();
     LineQueue(const LineQueue&) = delete;
     LineQueue& operator=(const LineQueue&) = delete;
@@ -46,9 +47,8 @@ private:
     bool full() const { return lines_.size() >= limits_.lines || bytes_ >= limits_.waiting_bytes; }
     std::vector<std::string> take_locked(std::size_t max_lines);
 
-    const int input_;
+    system::Input input_;
     const Limits limits_;
-    const int wake_;  ///< readable when the queue is being destroyed
 
     std::mutex mutex_;
     std::condition_variable changed_, room_;

@@ -1,10 +1,9 @@
 #include "output_file.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <system_error>
 
+#include "base/system.h"
 #include "base/whole_file.h"
 
 namespace natator::cli {
@@ -16,7 +15,7 @@ void require_writable(const std::string& path) {
     const bool exists = fs::exists(path, not_there);
     if (!fs::is_directory(folder, not_there)) throw cannot_be_written(path, "no such folder");
     if (fs::is_directory(path, not_there)) throw cannot_be_written(path, "is a folder");
-    if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0) throw cannot_be_written(path);
+    if (!system::is_writable(exists ? fs::path(path) : folder)) throw cannot_be_written(path);
 }
 
 }  // namespace natator::cli

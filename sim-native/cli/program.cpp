@@ -1,11 +1,7 @@
 #include "program.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -14,6 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "base/unfinished_file.h"
 #include "natator/error.h"
@@ -99,32 +96,6 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     return "unknown option " + *option + fields::did_you_mean(*option, {names.begin(), names.end()});
 }
 
-/// Keeps the numbers of standard streams that are closed: else what is opened next has one, and is read or written for
-/// it. Reading and writing them fails as before.
-void hold_closed_streams() {
-    for (const auto& [stream, mode] :
-         {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
-        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-            ::open("/dev/null", mode);  // has the lowest number that is free
-}
-
-extern "C" void remove_unfinished_and_end(int signal) {
-    remove_unfinished_files();
-    std::raise(signal);  // which ends the program as if there were no handler
-}
-
-/// Lets a program that is told to end leave no file that it has begun. A signal that is ignored stays so, as under
-/// nohup.
-void leave_nothing_unfinished() {
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU}) {
-        struct sigaction before{}, handler{};
-        handler.sa_handler = remove_unfinished_and_end;
-        handler.sa_flags = SA_RESETHAND;
-        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
-            ::sigaction(signal, &handler, nullptr);
-    }
-}
-
 }  // namespace
 
 int run_program(CLI::App& app, const int& status, int argc, char** argv) {
@@ -148,10 +119,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
 }
 
 int report_errors(const std::string& program, const std::function<int()>& work) {
-    hold_closed_streams();
-    // A closed pipe and a file that is larger than it may be are errors of who writes, not a death.
-    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
-    leave_nothing_unfinished();
+    system::prepare_program(remove_unfinished_files);
     try {
         return work();
     } catch (const InputError& error) {

@@ -1,9 +1,5 @@
 #include "run_record.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -40,17 +36,8 @@ bool is_run(const json& line) {
 
 RunRecord::RunRecord(const std::string& path) : path_(path) {
     if (path.empty()) return;
-    try {
-        lock();
-        read();
-    } catch (...) {
-        ::close(lock_);
-        throw;
-    }
-}
-
-RunRecord::~RunRecord() {
-    if (lock_ >= 0) ::close(lock_);
+    lock();
+    read();
 }
 
 /// Opens the file, which is made if it is not there: so it is known to be writable before anything is computed.
@@ -59,12 +46,13 @@ void RunRecord::lock() {
     const bool exists = std::filesystem::exists(path_, failed);
     if (exists && !std::filesystem::is_regular_file(path_, failed))
         refuse(path_, "is no regular file; must be one, or a new name");
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | (exists ? 0 : O_CREAT), 0666);
+    using State = system::FileLock::State;
+    const State state = lock_.emplace(path_).state();
     const std::string why = std::generic_category().message(errno);
-    if (lock_ < 0 && exists) refuse(path_, "cannot be read: " + why);
-    if (lock_ < 0) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written: " + why);
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // else a file system without locks
-        refuse(path_, "is in use by another natator-sim converge");
+    if (state == State::failed && exists) refuse(path_, "cannot be read: " + why);
+    if (state == State::failed)
+        throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written: " + why);
+    if (state == State::taken) refuse(path_, "is in use by another natator-sim converge");
 }
 
 void RunRecord::read() {

@@ -1,23 +1,23 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "base/system.h"
 
 namespace natator::cli {
 
 /// Runs that are done, each a line of a file: {"of": what determines it, "request": ..., "result": ...}. A line is
 /// written as soon as its run has ended, so that what an interrupted command computed is there for the next. The file
-/// is locked meanwhile (flock): of two commands at once each would do the runs of the other again.
+/// is locked meanwhile: of two commands at once each would do the runs of the other again.
 class RunRecord {
 public:
     /// Without a path nothing is kept. Reads what the file holds if there is one; what is behind its last whole line is
     /// cut off. Throws InputError when a line is none of such a file or another command has it, std::runtime_error
     /// when it can't be made.
     explicit RunRecord(const std::string& path);
-    ~RunRecord();
-    RunRecord(const RunRecord&) = delete;
-    RunRecord& operator=(const RunRecord&) = delete;
 
     /// The result of a run that is there; null otherwise.
     nlohmann::json find(const nlohmann::json& of) const;
@@ -29,7 +29,7 @@ private:
     void read();
 
     std::string path_;
-    int lock_ = -1;  ///< descriptor
+    std::optional<system::FileLock> lock_;
     std::vector<nlohmann::json> lines_;
 };
 

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <iostream>
 #include <map>
 #include <memory>
@@ -145,7 +143,6 @@ int serve(ServeOptions& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
     LineQueue queue(
-        STDIN_FILENO,
         {.lines = options.max_lines, .bytes = limits::document_bytes, .waiting_bytes = limits::waiting_bytes});
     Tally tally;
     for (;;) {

@@ -1,19 +1,18 @@
-#include <unistd.h>
-
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
+#include "base/system.h"
 #include "commands.h"
 
 namespace natator::cli {
 
 void start_bench(char** arguments) {
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const auto folder = system::program_file().parent_path();
     const std::string program = (folder / "natator-bench").string();
-    ::execv(program.c_str(), arguments);
+    system::become(program, arguments);
     if (errno != ENOENT) throw std::system_error(errno, std::generic_category(), program);
     const std::filesystem::path build = folder.parent_path();
     const bool built_here = std::filesystem::exists(build / "CMakeCache.txt");

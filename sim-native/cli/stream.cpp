@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -58,7 +56,7 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 template <class Real>
 void run_stream(StreamOptions& options) {
     StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
-    LineQueue commands(STDIN_FILENO, {.lines = max_waiting, .bytes = stream::max_command});
+    LineQueue commands({.lines = max_waiting, .bytes = stream::max_command});
     session.run(commands);
 }
 

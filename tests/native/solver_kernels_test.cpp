@@ -390,7 +390,8 @@ TEST_P(SolverKernels, FiniteSeesEveryValue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSets, SolverKernels,
-                         testing::Values(InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512),
+                         testing::Values(InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512,
+                                         InstructionSet::neon),
                          [](const auto& set) { return to_string(set.param); });
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(InfoTest, ReadsTheInstructionSetFromTheEnvironment) {
     EXPECT_EQ(run_limited("export NATATOR_ISA=", {"info"}).exit_code, 0);
     const Outcome refused = run_limited("export NATATOR_ISA=sse", {"info"});
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_ISA = \"sse\": must be portable, avx2 or avx512\n");
+    EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_ISA = \"sse\": must be portable, avx2, avx512 or neon\n");
 }
 
 TEST(InfoTest, RefusesALimitInTheEnvironmentThatIsNoDecimalNumber) {

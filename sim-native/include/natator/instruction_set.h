@@ -3,10 +3,10 @@
 namespace natator {
 
 /// Vector instruction set the hot kernels are run with. The same set gives the same bits on any machine.
-enum class InstructionSet { portable, avx2, avx512 };
+enum class InstructionSet { portable, avx2, avx512, neon };
 
 /// The best set this machine has, unless the environment variable NATATOR_ISA, set and not empty, names another one
-/// (portable, avx2, avx512). Throws InputError when it names none or one that this machine lacks.
+/// (portable, avx2, avx512, neon). Throws InputError when it names none or one that this machine lacks.
 InstructionSet instruction_set();
 
 /// Whether this machine and this build have it.

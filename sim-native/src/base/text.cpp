@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -82,8 +83,18 @@ std::string on_one_line(const json& value, std::size_t max_length) {
 std::optional<double> decimal_number(std::string_view text) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0;
+#if defined(__cpp_lib_to_chars)
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_whole = error == std::errc() && end == text.data() + text.size();
+#else  // as in libc++ before 20; strtod takes more, such as 0x2 and spaces in front
+    if (text.empty() || text.starts_with('+') || text.find_first_not_of("0123456789+-.eE") != text.npos)
+        return std::nullopt;
+    const std::string whole(text);
+    char* end = nullptr;
+    errno = 0;
+    value = std::strtod(whole.c_str(), &end);
+    const bool is_whole = (errno == 0 || value != 0) && end == whole.c_str() + whole.size();
+#endif
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

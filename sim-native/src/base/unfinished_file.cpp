@@ -1,8 +1,8 @@
 #include "unfinished_file.h"
 
-#include <unistd.h>
-
 #include <array>
+
+#include "system.h"
 
 namespace natator {
 namespace {
@@ -12,7 +12,7 @@ static_assert(std::atomic<std::string*>::is_always_lock_free, "a signal's handle
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(const std::filesystem::path& path) : name_(new std::string(path)) {
+UnfinishedFile::UnfinishedFile(const std::filesystem::path& path) : name_(new std::string(path.string())) {
     for (auto& slot : slots) {
         std::string* none = nullptr;
         if (!slot.compare_exchange_strong(none, name_)) continue;
@@ -29,7 +29,7 @@ UnfinishedFile::~UnfinishedFile() {
 
 void remove_unfinished_files() {
     for (auto& slot : slots)
-        if (const std::string* name = slot.exchange(nullptr)) ::unlink(name->c_str());
+        if (const std::string* name = slot.exchange(nullptr)) system::remove_file(name->c_str());
 }
 
 }  // namespace natator

@@ -1,11 +1,9 @@
 #include "whole_file.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <system_error>
 
+#include "system.h"
 #include "text.h"
 
 namespace natator {
@@ -20,23 +18,17 @@ fs::path place_of(const fs::path& path) {
     return failed ? path : found;
 }
 
-bool is_open_as(int descriptor, const fs::path& file) {
-    struct stat open{}, there{};
-    return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &there) == 0 && open.st_dev == there.st_dev &&
-           open.st_ino == there.st_ino;
-}
-
 /// Whether another file may take the place of what is there.
 bool can_be_replaced(const fs::path& file) {
     std::error_code failed;
     const fs::file_status there = fs::symlink_status(file, failed);
     if (!fs::exists(there)) return true;
-    return fs::is_regular_file(there) && !is_open_as(STDOUT_FILENO, file) && !is_open_as(STDERR_FILENO, file) &&
-           ::access(fs::absolute(file).parent_path().c_str(), W_OK) == 0;
+    return fs::is_regular_file(there) && !system::is_standard_output(file) &&
+           system::is_writable(fs::absolute(file).parent_path());
 }
 
 fs::path sibling(fs::path file) {
-    return (file += ".") += std::to_string(::getpid());
+    return (file += ".") += std::to_string(system::process_id());
 }
 
 }  // namespace
@@ -52,7 +44,7 @@ std::runtime_error cannot_be_written(const std::string& path) {
 WholeFile::WholeFile(const fs::path& path, std::ios::openmode mode)
     : target_(place_of(path)), written_(can_be_replaced(target_) ? sibling(target_) : target_) {
     if (written_ != target_) unfinished_.emplace(written_);
-    stream_.open(written_, mode | std::ios::out);
+    stream_.open(written_, mode | std::ios::out | std::ios::binary);
     std::error_code failed;
     if (!stream_ || written_ == target_) return;
     if (const fs::file_status there = fs::status(target_, failed); fs::exists(there))

@@ -88,14 +88,14 @@ NATATOR_HD double positive_part(double v) {
 
 /// a b + c, with one rounding where the instruction set has that.
 NATATOR_HD float fused(float a, float b, float c) {
-#if defined(__FMA__) && !defined(__CUDA_ARCH__)
+#if (defined(__FMA__) || defined(NATATOR_NEON)) && !defined(__CUDA_ARCH__)
     return __builtin_fmaf(a, b, c);
 #else
     return a * b + c;
 #endif
 }
 NATATOR_HD double fused(double a, double b, double c) {
-#if defined(__FMA__) && !defined(__CUDA_ARCH__)
+#if (defined(__FMA__) || defined(NATATOR_NEON)) && !defined(__CUDA_ARCH__)
     return __builtin_fma(a, b, c);
 #else
     return a * b + c;

@@ -8,6 +8,8 @@
 #include <immintrin.h>
 #elif defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(NATATOR_NEON)
+#include <arm_neon.h>
 #endif
 
 namespace natator::physics::inline NATATOR_SET {
@@ -155,5 +157,8 @@ inline void store_quadruples(double* to, Four<Doubles> v) {
 #elif defined(__AVX2__)
 #include "physics/pack/avx2.h"
 #else
+#if defined(NATATOR_NEON)
+#include "physics/pack/neon.h"
+#endif
 #include "physics/pack/portable.h"
 #endif

@@ -1,14 +1,12 @@
 #include "natator/cost.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "base/system.h"
 #include "base/text.h"
 #include "model/max_iterations.h"
 #include "natator/error.h"
@@ -169,12 +167,6 @@ double from_environment(const char* name, double usual) {
     return *value;
 }
 
-double memory_of_machine() {
-    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES)),
-                 page = static_cast<double>(sysconf(_SC_PAGESIZE));
-    return pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::max();
-}
-
 std::string in_gib(double bytes) {
     return figure_text(bytes / gibibyte) + " GiB";
 }
@@ -253,7 +245,7 @@ Cost cost_of(const Model& model, const Computing& computing) {
 }
 
 Budget Budget::of_user() {
-    const double memory = limits::part_of_memory * memory_of_machine() / gibibyte;
+    const double memory = limits::part_of_memory * system::memory_of_machine() / gibibyte;
     return {from_environment("NATATOR_MOST_WORK", limits::work),
             gibibyte * from_environment("NATATOR_MOST_MEMORY", memory)};
 }

@@ -1,46 +1,11 @@
 #include "settled_state_key.h"
 
-#include <link.h>
-
-#include <algorithm>
-#include <cstdint>
-
+#include "base/system.h"
 #include "byte_writer.h"
 #include "natator/instruction_set.h"
 
 namespace natator {
 namespace {
-
-/// The build id that the linker put into the program or shared library that holds this function (ELF note
-/// NT_GNU_BUILD_ID): a digest of all its code. Empty without one.
-std::string build_id() {
-    std::string id;
-    const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
-        const auto here = reinterpret_cast<std::uintptr_t>(&build_id);
-        const auto holds = [&](const ElfW(Phdr) & part) {
-            return part.p_type == PT_LOAD && here - (info->dlpi_addr + part.p_vaddr) < part.p_memsz;
-        };
-        if (std::none_of(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum, holds)) return 0;
-        for (int i = 0; i < info->dlpi_phnum; ++i) {
-            if (info->dlpi_phdr[i].p_type != PT_NOTE) continue;
-            // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
-            const char* at = reinterpret_cast<const char*>(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr);
-            const char* const end = at + info->dlpi_phdr[i].p_memsz;
-            const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-            while (at + sizeof(ElfW(Nhdr)) <= end) {
-                const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at);
-                const char* const name = at + sizeof *note;
-                const char* const content = name + padded(note->n_namesz);
-                if (note->n_type == NT_GNU_BUILD_ID && std::string(name, note->n_namesz) == std::string("GNU\0", 4))
-                    static_cast<std::string*>(found)->assign(content, note->n_descsz);
-                at = content + padded(note->n_descsz);
-            }
-        }
-        return 1;
-    };
-    dl_iterate_phdr(look, &id);
-    return id;
-}
 
 template <class... Values>
 void add(ByteWriter& key, const Values&... values) {
@@ -77,7 +42,7 @@ void add_water_box(ByteWriter& key, const WaterBox& box) {
 }  // namespace
 
 std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
-    static const std::string id = build_id();
+    static const std::string id = system::build_id();
     if (id.empty()) return {};
     ByteWriter key;
     add(key, id, instruction_set(), real_bytes);

@@ -7,6 +7,7 @@
 
 #include "base/field.h"
 #include "base/strict_json.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "natator/error.h"
 
@@ -45,9 +46,7 @@ bool is_plain_name(const std::string& name) {
 
 fs::path data_directory() {
     if (const char* const chosen = std::getenv("NATATOR_DATA"); chosen && *chosen != '\0') return chosen;
-    std::error_code failed;
-    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-    return program.parent_path().parent_path() / "share" / "natator";
+    return system::program_file().parent_path().parent_path() / "share" / "natator";
 }
 
 nlohmann::json read_data_file(const std::string& kind, const std::string& name, const fs::path& data) {

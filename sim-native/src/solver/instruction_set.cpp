@@ -16,26 +16,29 @@
 namespace natator {
 
 bool available(InstructionSet set) {
+    if (set == InstructionSet::portable) return true;
 #if defined(NATATOR_X86_KERNELS)
     switch (set) {
-        case InstructionSet::portable:
-            return true;
         case InstructionSet::avx2:
             return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
         case InstructionSet::avx512:
             return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("bmi2");
+        default:
+            return false;
     }
-    return false;
+#elif defined(NATATOR_ARM_KERNELS)
+    return set == InstructionSet::neon;  // which all have
 #else
-    return set == InstructionSet::portable;
+    return false;
 #endif
 }
 
 namespace {
 
-constexpr std::array best_first{InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable};
+constexpr std::array best_first{InstructionSet::avx512, InstructionSet::avx2, InstructionSet::neon,
+                                InstructionSet::portable};
 
 [[noreturn]] void refuse(const char* wanted, const std::string& must_be) {
     throw InputError("environment: NATATOR_ISA = " + quoted(wanted) + ": must be " + must_be);
@@ -49,7 +52,7 @@ InstructionSet choose() {
         if (available(set)) return set;
         refuse(wanted, "one that this machine has");
     }
-    refuse(wanted, "portable, avx2 or avx512");
+    refuse(wanted, "portable, avx2, avx512 or neon");
 }
 
 }  // namespace
@@ -67,6 +70,8 @@ const char* to_string(InstructionSet set) {
             return "avx2";
         case InstructionSet::avx512:
             return "avx512";
+        case InstructionSet::neon:
+            return "neon";
     }
     return "unknown";
 }
@@ -81,16 +86,19 @@ namespace cpu {
         return chosen;                                         \
     }
 #if defined(NATATOR_X86_KERNELS)
-#define NATATOR_MADE_FOR_X86(set, Kernels, make)                              \
+#define NATATOR_MADE_HERE(set, Kernels, make)                                 \
     if (set == InstructionSet::avx512) NATATOR_MADE_BY(avx512, Kernels, make) \
     if (set == InstructionSet::avx2) NATATOR_MADE_BY(avx2, Kernels, make)
+#elif defined(NATATOR_ARM_KERNELS)
+#define NATATOR_MADE_HERE(set, Kernels, make) \
+    if (set == InstructionSet::neon) NATATOR_MADE_BY(neon, Kernels, make)
 #else
-#define NATATOR_MADE_FOR_X86(set, Kernels, make)
+#define NATATOR_MADE_HERE(set, Kernels, make)
 #endif
 #define NATATOR_CHOICE(Kernels, make)                                \
     template <class Real>                                            \
     const Kernels<Real>& make([[maybe_unused]] InstructionSet set) { \
-        NATATOR_MADE_FOR_X86(set, Kernels, make)                     \
+        NATATOR_MADE_HERE(set, Kernels, make)                        \
         NATATOR_MADE_BY(portable, Kernels, make)                     \
     }                                                                \
     template const Kernels<float>& make<float>(InstructionSet);      \

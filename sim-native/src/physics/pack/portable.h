@@ -1,17 +1,26 @@
-// Of pack.h: 4 floats by what every compiler makes of vectors, and SSE2 where that is better.
+// Of pack.h: 4 floats by what every compiler makes of vectors, and SSE2 or NEON where that is better.
 #pragma once
 
 #include "physics/pack/lane_lists.h"
 
 namespace natator::physics::inline NATATOR_SET {
 
+#if !defined(NATATOR_NEON)
 inline Floats fused(Floats a, Floats b, Floats c) {
+    return a * b + c;
+}
+inline Doubles fused(Doubles a, Doubles b, Doubles c) {
     return a * b + c;
 }
 inline Floats square_root(Floats v) {
     for (int lane = 0; lane < width; ++lane) v[lane] = __builtin_sqrtf(v[lane]);
     return v;
 }
+inline Doubles square_root(Doubles v) {
+    for (int lane = 0; lane < double_width; ++lane) v[lane] = __builtin_sqrt(v[lane]);
+    return v;
+}
+#endif
 inline Floats positive_part(Floats v) {
 #if defined(__SSE2__)
     return _mm_max_ps(v, Floats{});  // g++ makes two instructions of the other form
@@ -100,13 +109,6 @@ inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler)
     return values;
 }
 
-inline Doubles fused(Doubles a, Doubles b, Doubles c) {
-    return a * b + c;
-}
-inline Doubles square_root(Doubles v) {
-    for (int lane = 0; lane < double_width; ++lane) v[lane] = __builtin_sqrt(v[lane]);
-    return v;
-}
 inline Four<Doubles> gather(const double* packed, const std::int32_t* index) {
     const auto part = [&](int lane, int at) { return load(packed + 4 * static_cast<std::int64_t>(index[lane]) + at); };
     const Doubles a = part(0, 0), b = part(1, 0), c = part(0, 2), d = part(1, 2);

@@ -18,5 +18,9 @@
     template <class Real>                      \
     Kernels<Real> make();                      \
     }                                          \
+    namespace neon {                           \
+    template <class Real>                      \
+    Kernels<Real> make();                      \
+    }                                          \
     template <class Real>                      \
     const Kernels<Real>& make(InstructionSet set);
