@@ -6,7 +6,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -89,7 +89,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
             throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
                     + " has finished, 0 to " + last);
         }
-        JudgedGait found = run.bestUntil(generation);
+        GaitScore found = run.bestUntil(generation);
         if (found == null) {
             throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
                     + ", only the best of all; leave out --generation");

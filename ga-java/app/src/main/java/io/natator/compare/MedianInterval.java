@@ -22,23 +22,23 @@ public record MedianInterval(double median, double low, double high) {
 
     /** Of a sample with at least one value. */
     public static MedianInterval of(double[] values) {
-        return of(median(values), values.length > 1, random -> median(drawn(values, random)));
+        return of(median(values), values.length > 1, random -> median(resample(values, random)));
     }
 
     /** Of the difference of two samples with at least one value each. */
     public static MedianInterval ofDifference(double[] first, double[] second) {
         return of(median(first) - median(second), first.length > 1 && second.length > 1,
-                random -> median(drawn(first, random)) - median(drawn(second, random)));
+                random -> median(resample(first, random)) - median(resample(second, random)));
     }
 
-    private static MedianInterval of(double median, boolean hasSpread, Function<Random, Double> resample) {
+    private static MedianInterval of(double median, boolean hasSpread, Function<Random, Double> sample) {
         if (!hasSpread) {
             return new MedianInterval(median, Double.NaN, Double.NaN);
         }
         Random random = new Random(SEED);
         double[] medians = new double[RESAMPLES];
         for (int i = 0; i < RESAMPLES; i++) {
-            medians[i] = resample.apply(random);
+            medians[i] = sample.apply(random);
         }
         double[] ends = Quantile.withDefaults().evaluate(medians, TAIL, 1 - TAIL);
         return new MedianInterval(median, ends[0], ends[1]);
@@ -48,7 +48,7 @@ public record MedianInterval(double median, double low, double high) {
         return Median.withDefaults().evaluate(values);
     }
 
-    private static double[] drawn(double[] values, Random random) {
+    private static double[] resample(double[] values, Random random) {
         return random.ints(values.length, 0, values.length).mapToDouble(i -> values[i]).toArray();
     }
 

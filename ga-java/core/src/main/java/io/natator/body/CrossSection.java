@@ -4,14 +4,14 @@ package io.natator.body;
 final class CrossSection {
 
     /** Fewest spacings that count as two particles across. */
-    static final double LEAST = 1.5;
+    static final double MIN_EXTENT = 1.5;
     /** Spacings by which a particle may lie outside. */
     private static final double ROUNDING = 1e-9;
 
     private CrossSection() {
     }
 
-    /** Particles inside an ellipse of at least {@value #LEAST} each way. */
+    /** Particles inside an ellipse of at least {@value #MIN_EXTENT} each way. */
     static int ellipse(double height, double width) {
         double area = Math.PI / 4 * height * width;
         boolean oddRows = isOdd(height);

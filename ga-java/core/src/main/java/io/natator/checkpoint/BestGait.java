@@ -59,7 +59,7 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
      *
      * @param own from the scene's own start
      */
-    public BestGait examined(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
+    public BestGait withExamination(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
         return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater,
                 selected, runs,
                 again);

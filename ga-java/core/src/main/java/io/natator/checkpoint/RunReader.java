@@ -7,7 +7,6 @@ import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
-import io.natator.config.OptimizerKind;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
@@ -144,18 +143,18 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
     static EvolutionSettings settingsBefore(Path directory) {
-        Begun begun = begun(directory);
-        return begun == null ? null : begun.settings();
+        Origin origin = origin(directory);
+        return origin == null ? null : origin.settings();
     }
 
     /** By what the run has computed as yet; null if it has not begun, or that is damaged. */
-    static Begun begun(Path directory) {
-        return readable(directory, RunWriter.ENVIRONMENT, Begun.class);
+    static Origin origin(Path directory) {
+        return readable(directory, RunWriter.ENVIRONMENT, Origin.class);
     }
 
     /** What {@code environment.json} tells of the experiment; null what an earlier version did not write. */
     @JsonIgnoreProperties(ignoreUnknown = true)
-    record Begun(String sceneSha256, EvolutionSettings settings) {
+    record Origin(String sceneSha256, EvolutionSettings settings) {
     }
 
     private static <T> T optional(Path directory, String name, Class<T> type) {
@@ -249,8 +248,8 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** The best gait of all generations up to this one, the earliest of equals; null if none is recorded. */
-    public JudgedGait bestUntil(int generation) {
-        JudgedGaits gaits = new JudgedGaits(settings);
+    public GaitScore bestUntil(int generation) {
+        GaitRanking gaits = new GaitRanking(settings);
         evaluations().stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
         return gaits.best();
     }
@@ -260,7 +259,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
      * objective first; else none.
      */
     public List<Individual> front() {
-        boolean several = settings.search().optimizer() == OptimizerKind.NSGA2 && state != null;
+        boolean several = settings.search().optimizer().takesSeveralObjectives() && state != null;
         return several ? ParetoRanking.front(state.population(),
                 settings.problem().genome().genes()) : List.of();
     }
@@ -270,16 +269,16 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
      * kinds were others.
      */
     public EliteMap elites() {
-        boolean isMapped = settings.search().optimizer() == OptimizerKind.MAP_ELITES && state != null
+        boolean isMapped = settings.search().optimizer().mapsKinds() && state != null
                 && state.population().stream().anyMatch(one -> one.effort() != null);
         return isMapped ? new EliteMap(state.population()) : null;
     }
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */
-    public SortedMap<Integer, JudgedGait> bestsByGeneration() {
+    public SortedMap<Integer, GaitScore> bestsByGeneration() {
         List<EvaluationRecord> all = evaluations();
-        JudgedGaits gaits = new JudgedGaits(settings);
-        SortedMap<Integer, JudgedGait> bests = new TreeMap<>();
+        GaitRanking gaits = new GaitRanking(settings);
+        SortedMap<Integer, GaitScore> bests = new TreeMap<>();
         for (int i = 0; i < all.size(); i++) {
             int generation = all.get(i).generation();
             gaits.add(all.get(i));
@@ -292,8 +291,8 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** All gaits, the best first. */
-    public List<JudgedGait> gaits() {
-        return JudgedGaits.ranked(settings, evaluations());
+    public List<GaitScore> gaits() {
+        return GaitRanking.ranked(settings, evaluations());
     }
 
     /** What the best is worth after each evaluation; NaN before there is one. */
@@ -307,16 +306,16 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     /** The course of the run: whom it would have taken for its winner, the earliest first. */
     public List<Leader> leaders() {
         List<EvaluationRecord> all = evaluations();
-        JudgedGaits gaits = new JudgedGaits(settings);
+        GaitRanking gaits = new GaitRanking(settings);
         List<Leader> leaders = new ArrayList<>();
-        JudgedGait before = null;
+        GaitScore before = null;
         double simulated = 0;
         for (int i = 0; i < all.size(); i++) {
             gaits.add(all.get(i));
             if (statistics != null) {
                 simulated += all.get(i).result().simulatedOf(statistics.duration());
             }
-            JudgedGait best = gaits.best();
+            GaitScore best = gaits.best();
             if (best != null && !best.equals(before)) {
                 leaders.add(new Leader(i, statistics == null ? null : simulated, best.genes(), best.score()));
                 before = best;

@@ -228,8 +228,10 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
     public void changeGenerations(int generations) {
-        if (dropped > 0 && settings.search().optimizer() == OptimizerKind.CMA_ES) {
-            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
+        OptimizerKind optimizer = settings.search().optimizer();
+        if (dropped > 0 && optimizer.needsAllEvaluations()) {
+            refuse(directory + " has not all of its evaluations any more, which " + Json.name(optimizer)
+                    + " would go on from");
         }
         settings = settings.withGenerations(generations);
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));

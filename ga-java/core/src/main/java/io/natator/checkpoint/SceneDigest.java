@@ -49,9 +49,9 @@ public final class SceneDigest {
      * @throws InvalidInputException that says which scene
      */
     public static void check(Path directory, EvolutionSettings settings, String digest) {
-        RunReader.Begun begun = RunReader.begun(directory);
-        if (isWith(begun, settings)) {
-            check(directory, begun, digest);
+        RunReader.Origin origin = RunReader.origin(directory);
+        if (isWith(origin, settings)) {
+            check(directory, origin, digest);
         }
     }
 
@@ -61,24 +61,24 @@ public final class SceneDigest {
      * @param simulator the native program
      */
     static void check(Path directory, EvolutionSettings settings, Path simulator) throws InterruptedException {
-        RunReader.Begun begun = RunReader.begun(directory);
-        if (isWith(begun, settings)) {
-            check(directory, begun, of(settings, simulator));
+        RunReader.Origin origin = RunReader.origin(directory);
+        if (isWith(origin, settings)) {
+            check(directory, origin, of(settings, simulator));
         }
     }
 
-    private static void check(Path directory, RunReader.Begun begun, String digest) {
-        if (!begun.sceneSha256().equals(digest)) {
+    private static void check(Path directory, RunReader.Origin origin, String digest) {
+        if (!origin.sceneSha256().equals(digest)) {
             throw new InvalidInputException(
-                    "scene " + begun.settings().problem().scene() + " was changed after " + directory
+                    "scene " + origin.settings().problem().scene() + " was changed after " + directory
                             + " was begun; expected the scene that it was begun with, or a new run");
         }
     }
 
     /** Whether it is known what these settings' scene was when the run was begun. */
-    private static boolean isWith(RunReader.Begun begun, EvolutionSettings settings) {
-        return isKnown(begun) && begun.settings().problem().scene().equals(settings.problem().scene())
-                && Objects.equals(begun.settings().problem().overrides(), settings.problem().overrides());
+    private static boolean isWith(RunReader.Origin origin, EvolutionSettings settings) {
+        return isKnown(origin) && origin.settings().problem().scene().equals(settings.problem().scene())
+                && Objects.equals(origin.settings().problem().overrides(), settings.problem().overrides());
     }
 
     /**
@@ -88,11 +88,11 @@ public final class SceneDigest {
      * @param simulator the native program
      */
     public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
-        RunReader.Begun begun = RunReader.begun(directory);
-        return isKnown(begun) && !begun.sceneSha256().equals(of(begun.settings(), simulator));
+        RunReader.Origin origin = RunReader.origin(directory);
+        return isKnown(origin) && !origin.sceneSha256().equals(of(origin.settings(), simulator));
     }
 
-    private static boolean isKnown(RunReader.Begun begun) {
-        return begun != null && begun.sceneSha256() != null && begun.settings() != null;
+    private static boolean isKnown(RunReader.Origin origin) {
+        return origin != null && origin.sceneSha256() != null && origin.settings() != null;
     }
 }

@@ -16,7 +16,7 @@ import java.util.stream.Collectors;
 /** What is wrong with a JSON text, without the names that classes and settings have in this program. */
 final class JsonErrors {
 
-    private static final int LONGEST = 60;
+    private static final int MAX_SHOWN = 60;
     private static final Pattern REFUSED_VALUE = Pattern.compile("^Cannot coerce \\w+ value \\(\"?(.*?)\"?\\) to ");
 
     private JsonErrors() {
@@ -67,7 +67,7 @@ final class JsonErrors {
     /** The beginning of a value, as messages have it. */
     static String shown(Object value) {
         String text = String.valueOf(value);
-        return text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text;
+        return text.length() > MAX_SHOWN ? text.substring(0, MAX_SHOWN) + "…" : text;
     }
 
     private static String described(Class<?> type) {

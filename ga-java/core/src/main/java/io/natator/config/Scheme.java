@@ -1,6 +1,7 @@
 package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
+import java.util.Arrays;
 
 /** How the simulator solves a step. */
 public enum Scheme {
@@ -12,5 +13,15 @@ public enum Scheme {
     CONSERVING,
     /** The same bodies in water on a lattice, which has no surface. */
     @JsonProperty("lattice")
-    LATTICE
+    LATTICE;
+
+    /** The scheme that a result names; null without one. */
+    public static Scheme of(String name) {
+        return Arrays.stream(values()).filter(one -> Json.name(one).equals(name)).findFirst().orElse(null);
+    }
+
+    /** Whether bodies move by their own forces alone, so that a body that advances in water swims. */
+    public boolean keepsMomentum() {
+        return this != FLEX;
+    }
 }

@@ -1,7 +1,6 @@
 package io.natator.config;
 
 import io.soabase.recordbuilder.core.RecordBuilder;
-import java.util.Locale;
 
 /**
  * How gaits are searched for, and how each is judged.
@@ -42,7 +41,7 @@ public record Search(OptimizerKind optimizer, int population, long seed, Operato
                 "a whole number from 1 to " + Limits.STARTS);
         Limits.require(starts >= judge.leastRuns(), "starts", starts,
                 "at least " + judge.leastRuns() + " with --judge "
-                        + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
+                        + Json.name(judge));
     }
 
     /** Runs of a generation that go to the best gaits so far, to know them better; none with a single start. */

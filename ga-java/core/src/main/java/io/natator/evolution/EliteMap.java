@@ -16,7 +16,7 @@ import java.util.TreeMap;
 public final class EliteMap {
 
     /** What beats more often for a body length gets nowhere, which is a kind by itself. */
-    public static final double MOST_BEATS = 128;
+    public static final double MAX_BEATS = 128;
     /** Cells in an octave. */
     private static final int PER_OCTAVE = 2;
 
@@ -59,7 +59,7 @@ public final class EliteMap {
 
     /** The kind of what took this. Without any work, as with muscles that are pushed, it is of the kind that gets nowhere. */
     static Cell cell(Effort effort) {
-        boolean moves = effort.beatsPerLength() < MOST_BEATS && effort.work() > 0;
+        boolean moves = effort.beatsPerLength() < MAX_BEATS && effort.work() > 0;
         return moves ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport())) : Cell.NOWHERE;
     }
 

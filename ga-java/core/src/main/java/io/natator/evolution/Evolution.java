@@ -79,7 +79,7 @@ public final class Evolution {
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
                 born.clear();
-                List<List<Double>> newborn = begun(optimizer.propose(generation, parents));
+                List<List<Double>> newborn = announce(optimizer.propose(generation, parents));
                 state = finish(state, optimizer.population(newborns(newborn, simulate(runs(newborn)))));
             }
             return state;
@@ -134,7 +134,7 @@ public final class Evolution {
     }
 
     /** What of a proposal can still be simulated, announced to the listeners. */
-    private List<List<Double>> begun(List<List<Double>> proposed) {
+    private List<List<Double>> announce(List<List<Double>> proposed) {
         int starts = settings.search().starts();
         List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
         born.addAll(genomes);

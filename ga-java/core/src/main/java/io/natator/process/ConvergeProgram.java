@@ -22,8 +22,6 @@ public final class ConvergeProgram {
 
     /** Half the spacing takes eight times as many particles. */
     private static final int TIMES_AS_LONG = 16;
-    /** It has an answer, without the runs that became unstable. */
-    private static final int UNSTABLE = 3;
     private static final String PROGRESS = NativeProgram.Output.NAME + NativeProgram.Output.PROGRESS;
 
     private final ExecutionSettings execution;
@@ -92,7 +90,7 @@ public final class ConvergeProgram {
         String subject = "scene " + request.scene() + " at other levels";
         try (NativeProgram program = new NativeProgram(execution.simulator(), limit)) {
             NativeProgram.Output output = program.call(arguments, "", lines);
-            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
+            if (output.exitStatus() != ExitStatus.OK && output.exitStatus() != ExitStatus.UNSTABLE) {
                 throw output.failure(subject);
             }
             return Json.parse(output.text(), JsonNode.class);

@@ -98,7 +98,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
             NativeProgram.Output output = program.call(arguments, "", line -> {
             });
-            if (output.exitStatus() != 0) {
+            if (output.exitStatus() != ExitStatus.OK) {
                 throw output.failure(subject);
             }
             return output.text();

@@ -8,6 +8,7 @@ import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Scheme;
 import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
 import io.natator.process.ProgramInfo;
@@ -20,7 +21,6 @@ public final class ControlRuns {
 
     /** The largest number that a particle's acceleration can be: no clamp. */
     private static final double NO_CLAMP = 3.4028234663852886e38;
-    private static final String FLEX = "flex";
 
     private final EvolutionSettings settings;
     private final ExecutionSettings execution;
@@ -54,7 +54,7 @@ public final class ControlRuns {
                     swimmer, 1);
             SwimSample vacuum = again.sample(evaluator.evaluate(again.requests(swimmer, starts, null).stream()
                     .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList()), swimmer, 1);
-            SwimSample clampOff = scheme.equals(FLEX)
+            SwimSample clampOff = Scheme.of(scheme) == Scheme.FLEX
                     ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1)
                     : null;
             SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())),

@@ -139,7 +139,7 @@ public final class EvolutionRun {
         }
         BestGait best = folder.writeResults(state);
         if (best != null) {
-            best = examined(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
+            best = examine(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
                     best.body() == null ? scene.bodyLength()
                             : Double.valueOf(settings.problem().bodyLength(best.body())));
             folder.write(best);
@@ -148,10 +148,10 @@ public final class EvolutionRun {
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */
-    private BestGait examined(BestGait best, Individual winner, FreshStarts starts, Evaluator evaluator,
+    private BestGait examine(BestGait best, Individual winner, FreshStarts starts, Evaluator evaluator,
             Double bodyLength) throws InterruptedException {
         SimulationResult own = winner.runs() == 1 ? winner.result() : starts.fromOwnStart(winner);
         SimulationResult vacuum = VacuumCheck.drift(winner, settings, own.simulated(), evaluator);
-        return best.examined(own, bodyLength, vacuum, starts.of(winner));
+        return best.withExamination(own, bodyLength, vacuum, starts.of(winner));
     }
 }

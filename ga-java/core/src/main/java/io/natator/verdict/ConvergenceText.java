@@ -10,10 +10,6 @@ import java.util.stream.Collectors;
 /** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
 public final class ConvergenceText {
 
-    /** Share of the speed that it changes by at most where it is called converged. */
-    private static final double CONVERGED = 0.1;
-    /** Standard errors on either side of a figure in which the true one is taken to be. */
-    private static final double SURE = 2;
 
     private ConvergenceText() {
     }
@@ -36,10 +32,10 @@ public final class ConvergenceText {
             return "no speed that could be told from none";
         }
         List<Convergence.Level> finer = finer(convergence);
-        if (finer.stream().anyMatch(level -> reach(level, -SURE) > CONVERGED)) {
+        if (finer.stream().anyMatch(level -> reach(level, -Limit.SURE) > Limit.CONVERGED)) {
             return "not converged";
         }
-        return finer.stream().allMatch(level -> reach(level, SURE) <= CONVERGED) ? "converged to within 10 %"
+        return finer.stream().allMatch(level -> reach(level, Limit.SURE) <= Limit.CONVERGED) ? "converged to within 10 %"
                 : "not known whether converged";
     }
 
@@ -52,7 +48,7 @@ public final class ConvergenceText {
     private static boolean speedMayBeNone(Convergence convergence) {
         Convergence.Value base = baseSpeed(convergence);
         return base != null
-                && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= SURE * base.error());
+                && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= Limit.SURE * base.error());
     }
 
     private static Convergence.Value baseSpeed(Convergence convergence) {

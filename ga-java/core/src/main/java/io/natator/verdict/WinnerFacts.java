@@ -21,7 +21,7 @@ public final class WinnerFacts {
 
     private static final int DIGITS = 3;
     private static final double WORTH_TELLING = 0.01; // body volumes of cavities
-    private static final double LEAST_ACROSS = 3.99; // spacings of the water, less rounding, that a body needs
+    private static final double MIN_ACROSS = 3.99; // spacings of the water, less rounding, that a body needs
 
     private WinnerFacts() {
     }
@@ -98,7 +98,7 @@ public final class WinnerFacts {
         if (cavities != null && cavities >= WORTH_TELLING) {
             parts.add("cavities in the water " + Numbers.significant(cavities, DIGITS) + " body volumes");
         }
-        if (across != null && across > 0 && across < LEAST_ACROSS) {
+        if (across != null && across > 0 && across < MIN_ACROSS) {
             parts.add("body " + Numbers.significant(across, 2) + " spacings of the water across");
         }
         return parts;

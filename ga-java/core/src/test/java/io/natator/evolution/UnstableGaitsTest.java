@@ -3,7 +3,7 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
-import io.natator.checkpoint.JudgedGaits;
+import io.natator.checkpoint.GaitRanking;
 import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
@@ -119,7 +119,7 @@ class UnstableGaitsTest {
         }
         Set<List<Double>> broken = recorder.evaluations.stream().filter(one -> one.result().status() == Status.UNSTABLE)
                 .map(EvaluationRecord::genes).collect(Collectors.toSet());
-        assertThat(JudgedGaits.ranked(settings, recorder.evaluations)).isNotEmpty()
+        assertThat(GaitRanking.ranked(settings, recorder.evaluations)).isNotEmpty()
                 .allSatisfy(one -> assertThat(broken).doesNotContain(one.genes()));
     }
 

@@ -5,7 +5,7 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
-import io.natator.process.ProcessSimulator;
+import io.natator.process.ProcessEvaluator;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
@@ -115,7 +115,7 @@ final class ExecutorSimulator {
 
     private SimulationResult swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {
         SimulationRequest here = located(sample);
-        try (ProcessSimulator single = new ProcessSimulator(settings)) {
+        try (ProcessEvaluator single = new ProcessEvaluator(settings)) {
             return single.evaluate(here);
         } catch (RequestRejectedException e) {
             throw new UnfitExecutorException(e.getMessage(), e);

@@ -1,10 +1,10 @@
 package io.natator.stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
 import io.natator.config.Scheme;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Locale;
 import java.util.stream.Collectors;
 
 /**
@@ -53,7 +53,7 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         List<String> arguments = new ArrayList<>(List.of("stream", scene));
         add(arguments, "--overrides", overrides);
         add(arguments, "--gait", gait);
-        add(arguments, "--scheme", scheme == null ? null : scheme.name().toLowerCase(Locale.ROOT));
+        add(arguments, "--scheme", scheme == null ? null : Json.name(scheme));
         add(arguments, "--precision", precision);
         add(arguments, "--fields", fields.stream().sorted().map(StreamField::text).collect(Collectors.joining(",")));
         add(arguments, "--rate", rate);

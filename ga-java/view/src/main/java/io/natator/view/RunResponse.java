@@ -4,7 +4,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.MergePatch;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
@@ -110,9 +110,9 @@ record RunResponse(int id, String name, String scene, ObjectNode overrides, Opti
 
     /** Of several starts, the gait that was the best so far at a generation's end. */
     private static List<Best> champions(RunReader run, List<Generation> generations) {
-        Map<Integer, JudgedGait> bests = run.bestsByGeneration();
+        Map<Integer, GaitScore> bests = run.bestsByGeneration();
         return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
-            JudgedGait best = bests.get(one.generation());
+            GaitScore best = bests.get(one.generation());
             return Best.of(one, best.score(), run.settings(), best.swimmer());
         }).toList();
     }

@@ -35,8 +35,8 @@ import org.slf4j.LoggerFactory;
 final class StreamSession implements AutoCloseable {
 
     private static final Logger LOG = LoggerFactory.getLogger(StreamSession.class);
-    private static final int MOST_RESTARTS = 3;
-    private static final int MOST_REASON_BYTES = 100;
+    private static final int MAX_RESTARTS = 3;
+    private static final int MAX_REASON_BYTES = 100;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
 
     private final Session socket;
@@ -199,7 +199,7 @@ final class StreamSession implements AutoCloseable {
         while (now - deaths.getFirst() > WITHIN_NANOSECONDS) {
             deaths.removeFirst();
         }
-        return deaths.size() <= MOST_RESTARTS;
+        return deaths.size() <= MAX_RESTARTS;
     }
 
     /** From here on the page may start another simulation. */
@@ -294,8 +294,8 @@ final class StreamSession implements AutoCloseable {
 
     /** The reason of a close frame has at most 123 bytes. */
     static String shortened(String reason) {
-        int end = Math.min(reason.length(), MOST_REASON_BYTES);
-        while (reason.substring(0, end).getBytes(StandardCharsets.UTF_8).length > MOST_REASON_BYTES) {
+        int end = Math.min(reason.length(), MAX_REASON_BYTES);
+        while (reason.substring(0, end).getBytes(StandardCharsets.UTF_8).length > MAX_REASON_BYTES) {
             end--;
         }
         return reason.substring(0, end);

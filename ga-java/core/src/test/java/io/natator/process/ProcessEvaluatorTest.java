@@ -23,7 +23,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
-class ProcessSimulatorTest {
+class ProcessEvaluatorTest {
 
     /** For an answer, s; reached by failures only. */
     private static final double PATIENCE = 300;
@@ -32,7 +32,7 @@ class ProcessSimulatorTest {
     private Path folder;
 
     private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
-        try (Evaluator simulator = new ProcessSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+        try (Evaluator simulator = new ProcessEvaluator(FakeSimulator.execution(folder, timeoutSeconds))) {
             return simulator.evaluate(FakeSimulator.request(7, scene));
         }
     }
@@ -93,7 +93,7 @@ class ProcessSimulatorTest {
         ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
         SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
 
-        try (Evaluator simulator = new ProcessSimulator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+        try (Evaluator simulator = new ProcessEvaluator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
             assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
         }
         assertThatNoChildIsLeft();
@@ -126,7 +126,7 @@ class ProcessSimulatorTest {
 
     @Test
     void interruptionKillsTheProcess() throws InterruptedException {
-        try (Evaluator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ProcessEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             Thread caller = new Thread(() -> {
                 try {
                     simulator.evaluate(FakeSimulator.request(1, "fault/hang"));
