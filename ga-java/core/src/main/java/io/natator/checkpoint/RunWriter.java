@@ -45,11 +45,9 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
     static final String EVALUATIONS = "evaluations.jsonl";
     private static final String GENERATIONS = "generations.csv";
     private static final String TIMINGS = "timings.csv";
-    /** Of earlier versions, with a picture. */
-    private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
-    private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
+    private static final List<String> FILES = List.of(CHECKPOINT, BEST, SAVINGS, VACUUM, CONTROLS, CONVERGENCE,
+            CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
             RunDigests.LINES, RunDigests.WHOLE, CONFIG, ".");
 
     private final Path directory;
@@ -135,8 +133,7 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
 
     /** Refuses a folder, a pipe, or the like, in place of a file that a run writes. */
     static void checkRegular(Path directory) {
-        FILES.stream().filter(name -> !name.equals(PLOTS) && !name.equals("."))
-                .forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
+        FILES.stream().filter(name -> !name.equals(".")).forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
     }
 
     /** Whether there is anything at this path but an empty folder. */

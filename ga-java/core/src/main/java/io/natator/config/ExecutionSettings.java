@@ -108,9 +108,4 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         return with(to -> to.mode(newMode).master(newMode == SimulatorMode.SPARK ? master : null));
     }
 
-    /** These settings in mode spark with a master, or null for the one that the program was submitted to. */
-    @Override
-    public ExecutionSettings withMaster(String newMaster) {
-        return with(to -> to.mode(SimulatorMode.SPARK).master(newMaster));
-    }
 }

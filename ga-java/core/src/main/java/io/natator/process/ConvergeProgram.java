@@ -48,22 +48,13 @@ public final class ConvergeProgram {
     /**
      * Runs a swim as it is asked for and at finer levels, all from the same starts.
      *
-     * @param starts how many, at least 2
-     * @param levels beside its own, each once
+     * @param starts   how many, at least 2
+     * @param levels   beside its own, each once
+     * @param runs     gets a line for each run; those that it has already are not done again
+     * @param listener called in another thread
      * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
-     */
-    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
-        return call(request, starts, levels, List.of(), line -> {
-        });
-    }
-
-    /**
-     * The same, telling of it while it lasts and keeping each run.
-     *
-     * @param runs     gets a line for each run; those that it has already are not done again
-     * @param listener called in another thread
      */
     public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs, Listener listener)
             throws InterruptedException {
@@ -74,18 +65,11 @@ public final class ConvergeProgram {
                 listener.table(line);
             }
         };
-        return call(request, starts, levels, List.of("--output", runs.toString()), lines);
-    }
-
-    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more,
-            Consumer<String> lines)
-            throws InterruptedException {
         List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
                 "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend",
-                execution.backend().argument()));
+                execution.backend().argument(), "--output", runs.toString()));
         arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
                 : List.of("--device", "" + execution.device()));
-        arguments.addAll(more);
         Duration limit = execution.timeout().multipliedBy((long) TIMES_AS_LONG * starts * (1 + levels.size()));
         String subject = "scene " + request.scene() + " at other levels";
         try (NativeProgram program = new NativeProgram(execution.simulator(), limit)) {

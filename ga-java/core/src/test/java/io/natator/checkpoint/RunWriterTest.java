@@ -84,7 +84,7 @@ class RunWriterTest {
     @ParameterizedTest
     @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "best.json", "environment.json", "savings.json",
             "evaluations.jsonl",
-            "generations.csv", "timings.csv", "plots/fitness.png"})
+            "generations.csv", "timings.csv"})
     void aFolderAndALinkThatLeadsNowhereInPlaceOfAFileAreRefused(String name) throws IOException {
         RunWriter.create(run, settings(OperatorSet.CORRECTED)).close();
         Path file = run.resolve(name);

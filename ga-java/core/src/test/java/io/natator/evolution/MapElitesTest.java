@@ -15,7 +15,7 @@ import io.natator.encoding.Gait;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
-import io.natator.protocol.SimulationResult;
+import io.natator.protocol.Results;
 import java.util.List;
 import java.util.SortedMap;
 import org.junit.jupiter.api.Test;
@@ -102,9 +102,7 @@ class MapElitesTest {
     /** As scheme flex, which cannot tell what its muscles do. */
     @Test
     void withoutWorkThereAreNoKinds() {
-        FakePool.Simulation flex = request -> new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0,
-                "completed", 4.0, 240, "flex", "float",
-                null, null, null);
+        FakePool.Simulation flex = request -> Results.ok(request.id(), 1.0).withScheme("flex");
         try (Evaluator pool = new FakePool(flex, 1)) {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
                     new RecordedEvaluations(0, List.of()));

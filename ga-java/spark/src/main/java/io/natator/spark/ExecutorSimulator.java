@@ -10,6 +10,7 @@ import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResultBuilder;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -161,7 +162,6 @@ final class ExecutorSimulator {
 
     /** With the request's number, where it is known which of them it was. */
     private static SimulationResult refused(Long id, String reason) {
-        return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null,
-                reason);
+        return SimulationResultBuilder.builder().id(id).status(SimulationResult.Status.ERROR).error(reason).build();
     }
 }

@@ -10,7 +10,6 @@ import io.natator.stream.StreamProcess;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.Iterator;
@@ -39,7 +38,7 @@ final class StreamSession implements AutoCloseable {
     private static final int MAX_REASON_BYTES = 100;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
 
-    private final Session socket;
+    final Session socket;
     private final Path simulator;
     private final Set<String> files;
     private final ReentrantLock sending = new ReentrantLock();
@@ -308,11 +307,6 @@ final class StreamSession implements AutoCloseable {
     /** Process id of the simulator, for those who watch it; −1 without one. */
     synchronized long pid() {
         return course == null ? -1 : process.pid();
-    }
-
-    /** How long its page may take nothing; zero for any time. */
-    Duration mostSilence() {
-        return socket.getIdleTimeout();
     }
 
     /** Ends the simulator. The socket is the caller's. */
