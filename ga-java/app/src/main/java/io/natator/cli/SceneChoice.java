@@ -15,8 +15,7 @@ import picocli.CommandLine.ParameterException;
 final class SceneChoice {
 
     @Option(names = "--creature", paramLabel = "1..4|NAME",
-            description = "Creature of the thesis, or another bundled body: "
-                    + "eel, ray, tadpole, tuna. Default: 1.")
+            description = "Creature of the thesis, or another bundled body: eel, ray, tadpole, tuna. Default: 1.")
     private String creature;
 
     @Option(names = "--scene", paramLabel = "NAME|FILE",

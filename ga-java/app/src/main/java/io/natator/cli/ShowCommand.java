@@ -107,22 +107,19 @@ final class ShowCommand implements Callable<Integer> {
             text.append(", ").append(Numbers.count(settings.budget().evaluations(), "evaluation"));
         }
         text.append(settings.problem().evolve() == null ? ""
-                : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait"
-                        : ", gaits and bodies");
+                : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait" : ", gaits and bodies");
         text.append(", seed ").append(settings.search().seed());
         text.append(", ").append(EnumNames.of(settings.problem().encoding())).append(" genes");
         if (settings.search().optimizer().usesOperators() && settings.search().gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.search().gaussianDeviation());
         }
         text.append(settings.search().starts() == 1 ? ""
-                : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts()
-                        + " starts");
+                : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts() + " starts");
         text.append(settings.problem().objectives() == null ? ""
                 : ", objectives " + WeightedObjective.text(settings.problem().objectives()));
         text.append(settings.problem().fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.budget().backend().argument());
-        text.append(settings.problem().scheme() == null ? ""
-                : ", scheme " + EnumNames.of(settings.problem().scheme()));
+        text.append(settings.problem().scheme() == null ? "" : ", scheme " + EnumNames.of(settings.problem().scheme()));
         text.append(settings.problem().duration() == null ? "" : ", " + settings.problem().duration() + " s");
         text.append(settings.problem().overrides() == null ? "" : ", overrides " + settings.problem().overrides());
         return text.toString();
@@ -137,8 +134,7 @@ final class ShowCommand implements Callable<Integer> {
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 run.settings().problem().worthText(last.best()), run.settings().problem().worthText(last.mean()),
-                run.settings().problem().worthText(last.median()),
-                run.state().isLastOf(run.settings()) ? "finished"
+                run.settings().problem().worthText(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 

@@ -67,8 +67,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
         return new SwimSource(run.directory(),
                 SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
                 MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(),
-                settings.problem().scheme(),
-                settings.problem().duration(), best);
+                settings.problem().scheme(), settings.problem().duration(), best);
     }
 
     private static Swimmer best(RunReader run) {

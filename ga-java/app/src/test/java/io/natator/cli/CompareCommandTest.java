@@ -68,8 +68,7 @@ class CompareCommandTest extends FakeSimulatorTest {
         out.getBuffer().setLength(0);
 
         assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(),
-                folder.resolve("long").toString()))
-                .isZero();
+                folder.resolve("long").toString())).isZero();
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
     }
 
@@ -127,8 +126,7 @@ class CompareCommandTest extends FakeSimulatorTest {
                 "best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
         out.getBuffer().setLength(0);
         assertThat(natator("compare", "--starts", "2", folder.resolve("random").toString(),
-                folder.resolve("cma-es").toString()))
-                .isZero();
+                folder.resolve("cma-es").toString())).isZero();
         assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d")
                 .containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
     }

@@ -25,7 +25,8 @@ class ProgressTest {
     private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
             .withSize(10, 2);
     private static final EvolutionState BEFORE = new EvolutionState(1, 29, List.of(),
-            new Individual(List.of(), 1, Results.ok(7, 0.25)), List.of(new GenerationSummary(0, 0, 0, 0, 0, 10, 10, 0, 0),
+            new Individual(List.of(), 1, Results.ok(7, 0.25)),
+            List.of(new GenerationSummary(0, 0, 0, 0, 0, 10, 10, 0, 0),
                     new GenerationSummary(1, 0, 0, 0, 0, 29, 19, 0, 0)));
 
     private final AtomicLong clock = new AtomicLong();

@@ -105,8 +105,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
                 "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 8, column 5); taken from checkpoint.json instead",
                 "savings " + folder.resolve("run/savings.json")
-                        + ": ends too early; expected the rest of the JSON text "
-                        + "(line 1, column 2); shown without it",
+                        + ": ends too early; expected the rest of the JSON text (line 1, column 2); shown without it",
                 "check " + folder.resolve("run/check.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 1, column 2); shown without it");
         assertThat(file("run", "best.json")).isEqualTo(best);
@@ -201,8 +200,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
         assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "9")).isEqualTo(2);
         assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run")
-                + " ends after its 20 evaluations, however many --generations "
-                + "it may have\n");
+                + " ends after its 20 evaluations, however many --generations it may have\n");
         assertThat(file("run", "config.json")).isEqualTo(config);
     }
 

@@ -86,7 +86,8 @@ public final class BodyGenome {
     private void addSections(String name, Curve curve) {
         for (Point point : curve.points()) {
             if (isShown(point)) {
-                add(named(name, point), Math.max(thinnest(), MIN_THICKNESS * point.value()), MAX_THICKNESS * point.value(),
+                add(named(name, point), Math.max(thinnest(), MIN_THICKNESS * point.value()),
+                        MAX_THICKNESS * point.value(),
                         point.value());
             }
         }

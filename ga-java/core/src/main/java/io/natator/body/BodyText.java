@@ -35,8 +35,7 @@ public final class BodyText {
         return ", the scene's " + ofScene;
     }
 
-    private static String curves(ProfileBody body, ProfileBody scene, Function<ProfileBody, Curve> which,
-            String unit) {
+    private static String curves(ProfileBody body, ProfileBody scene, Function<ProfileBody, Curve> which, String unit) {
         List<Double> places = which.apply(body).points().stream().map(Curve.Point::at).toList();
         Function<ProfileBody, String> values = one -> places.stream().map(place -> number(which.apply(one).at(place)))
                 .collect(Collectors.joining(" "));

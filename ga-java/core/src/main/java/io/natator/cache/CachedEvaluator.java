@@ -66,8 +66,7 @@ public final class CachedEvaluator implements Evaluator {
             }
         }
         evaluator.evaluateAll(missing, result -> {
-            if (result.status() == SimulationResult.Status.OK
-                    || result.status() == SimulationResult.Status.UNSTABLE) {
+            if (result.status() == SimulationResult.Status.OK || result.status() == SimulationResult.Status.UNSTABLE) {
                 cache.store(missed.get(result.id()), result.withId(0L));
             }
             whenDone.accept(result);

@@ -42,7 +42,6 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
         Objects.requireNonNull(result, "result");
     }
 
-
     /** The best gait as far as evolution tells. */
     public static BestGait of(String scene, Individual best, Swimmer swimmer) {
         return new BestGait(scene, best.genes(), swimmer.gait(), swimmer.body(), best.result().distance(),
@@ -54,10 +53,10 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
      *
      * @param own from the scene's own start
      */
-    public BestGait withExamination(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
+    public BestGait withExamination(SimulationResult own, Double length, SimulationResult withoutWater,
+            FreshRuns again) {
         return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater,
-                selected, runs,
-                again);
+                selected, runs, again);
     }
 
     /** Whether this is an individual of a run with all that is found out at the end. */

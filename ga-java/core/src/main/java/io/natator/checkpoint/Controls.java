@@ -58,7 +58,6 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
         return Math.sqrt(swimming * swimming / water.runs() + drifting * drifting / resting.runs());
     }
 
-
     /** Keeps them in a run folder. */
     public void write(Path run) {
         AtomicFile.write(run.resolve(RunWriter.CONTROLS), Json.document(this));

@@ -26,7 +26,6 @@ import java.util.Objects;
 public record Program(String version, String commit, String instructionSet, Backend backend, String gpu,
         String simulatorSha256) {
 
-
     /** The program at a path. */
     public static Program at(Path simulator, Backend backend, int device) throws InterruptedException {
         ProgramInfo info = ProgramInfo.of(simulator);
@@ -59,7 +58,6 @@ public record Program(String version, String commit, String instructionSet, Back
         }
         return String.join("; ", found);
     }
-
 
     private static void add(List<String> found, String name, String mine, String other) {
         if (!Objects.equals(mine, other)) {

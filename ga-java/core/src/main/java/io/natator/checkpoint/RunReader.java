@@ -82,8 +82,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
         return Stream.of(RunDamage.editedSettings(directory, settings),
                 compact ? null : RunDamage.lostEvaluations(directory, state, recorded.end()),
-                RunDamage.misplacedEvaluation(directory, recorded))
-                .filter(Objects::nonNull).findFirst().orElse(null);
+                RunDamage.misplacedEvaluation(directory, recorded)).filter(Objects::nonNull).findFirst().orElse(null);
     }
 
     /**
@@ -260,8 +259,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public List<Individual> front() {
         boolean several = settings.search().optimizer().takesSeveralObjectives() && state != null;
-        return several ? ParetoRanking.front(state.population(),
-                settings.problem().genome().genes()) : List.of();
+        return several ? ParetoRanking.front(state.population(), settings.problem().genome().genes()) : List.of();
     }
 
     /**

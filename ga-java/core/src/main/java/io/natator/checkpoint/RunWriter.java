@@ -133,7 +133,8 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
 
     /** Refuses a folder, a pipe, or the like, in place of a file that a run writes. */
     static void checkRegular(Path directory) {
-        FILES.stream().filter(name -> !name.equals(".")).forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
+        FILES.stream().filter(name -> !name.equals("."))
+                .forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
     }
 
     /** Whether there is anything at this path but an empty folder. */

@@ -34,8 +34,7 @@ import java.util.function.Function;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
         Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities,
-        Double work,
-        Double costOfTransport, Spread goals) {
+        Double work, Double costOfTransport, Spread goals) {
 
     /**
      * Has to have a distance and a speed, and with body lengths those per beat.

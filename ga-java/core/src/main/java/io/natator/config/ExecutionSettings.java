@@ -48,8 +48,7 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         }
         if (mode == SimulatorMode.SPARK && backend == Backend.AUTO) {
             throw new InvalidInputException(
-                    "backend is auto; expected cpu or cuda in simulator mode spark, the same on "
-                            + "all machines");
+                    "backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
         }
         if (devices.isEmpty() || devices.stream().anyMatch(device -> device < 0)
                 || devices.stream().distinct().count() < devices.size()) {

@@ -44,8 +44,7 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
         int broken = (int) more.stream().filter(one -> one.status() == SimulationResult.Status.UNSTABLE).count()
                 + (unstable == null ? 0 : unstable);
         return new Estimate(broken == 0 ? judge.of(all) : Math.min(Collections.min(all), 0), all, means(more),
-                sum(more),
-                broken == 0 ? null : broken);
+                sum(more), broken == 0 ? null : broken);
     }
 
     /** The same, of a gait that was unstable in a run that is not among these. */

@@ -118,8 +118,7 @@ public final class Evolution {
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, population, simulated.size(),
                 count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED))
-                .withUnchanged(unchanged(population))
-                .withLaws(broken()));
+                .withUnchanged(unchanged(population)).withLaws(broken()));
         EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions,
                 refused);
         listeners.forEach(listener -> listener.generationFinished(state));
@@ -220,8 +219,7 @@ public final class Evolution {
             evaluator.evaluateAll(requests, Evaluator.inOrder(requests, result -> {
                 Run run = runs.get(simulated.size() - before);
                 accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(),
-                        result,
-                        run.start()));
+                        result, run.start()));
             }));
         } catch (InterruptedException e) {
             throw new EvolutionStoppedException("stopped in generation " + generation + " after "

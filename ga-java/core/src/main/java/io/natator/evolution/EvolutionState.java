@@ -35,8 +35,7 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         history = List.copyOf(Objects.requireNonNull(history, "history"));
         if (generation < 0 || history.size() != generation + 1L) {
             throw new InvalidInputException("history has " + Numbers.count(history.size(), "generation")
-                    + "; expected those from 0 to generation, "
-                    + generation);
+                    + "; expected those from 0 to generation, " + generation);
         }
         champions = champions == null ? null : List.copyOf(champions);
         refused = refused == null ? null : refused.stream().map(List::copyOf).toList();

@@ -41,7 +41,6 @@ public record GenerationSummary(int generation, double best, double mean, double
         laws = laws == null || laws.isEmpty() ? null : laws;
     }
 
-
     /** A summary without a count of what was unchanged. */
     public GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
             int evaluations, int unstable, int failed) {

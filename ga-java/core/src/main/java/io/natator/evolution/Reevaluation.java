@@ -137,8 +137,7 @@ final class Reevaluation {
             Individual one = ranked.get(i);
             double toLead = i == 0 ? lead - ranked.get(1).score() : lead - one.score();
             // All gaits are taken to scatter alike: a few runs do not tell by how much each does.
-            closeness.put(one.genes(),
-                    Math.min(Math.abs(one.score() - border), toLead) * Math.sqrt(one.runs()));
+            closeness.put(one.genes(), Math.min(Math.abs(one.score() - border), toLead) * Math.sqrt(one.runs()));
         }
         ranked.sort(Comparator.comparingDouble(one -> closeness.get(one.genes())));
         return ranked;

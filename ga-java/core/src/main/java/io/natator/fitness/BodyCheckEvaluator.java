@@ -72,8 +72,7 @@ public final class BodyCheckEvaluator implements Evaluator {
         if (body.bodyParticles() != null
                 && Math.abs(body.bodyParticles() - scene.bodyParticles()) > HELD * scene.bodyParticles()) {
             return "body has " + Numbers.count(body.bodyParticles(), "particle") + "; expected the "
-                    + scene.bodyParticles()
-                    + " of the scene's, within " + Math.round(100 * HELD) + " %";
+                    + scene.bodyParticles() + " of the scene's, within " + Math.round(100 * HELD) + " %";
         }
         return NOTHING;
     }

@@ -81,11 +81,13 @@ public final class FitnessEvaluator implements Evaluator {
             return of(evaluator, problem);
         }
         if (problem.evolve() != null) {
-            return new FitnessEvaluator(evaluator, problem, optimizer, request -> problem.bodyLength(request.overrides()));
+            return new FitnessEvaluator(evaluator, problem, optimizer,
+                    request -> problem.bodyLength(request.overrides()));
         }
         if (scene.bodyLength() == null || !(scene.bodyLength() > 0)) {
-            throw new InvalidInputException("optimizer " + Json.name(optimizer) + ": the body's length is " + scene.bodyLength()
-                    + "; expected a simulator that tells it, and a scene with a body");
+            throw new InvalidInputException(
+                    "optimizer " + Json.name(optimizer) + ": the body's length is " + scene.bodyLength()
+                            + "; expected a simulator that tells it, and a scene with a body");
         }
         return new FitnessEvaluator(evaluator, problem, optimizer, request -> scene.bodyLength());
     }

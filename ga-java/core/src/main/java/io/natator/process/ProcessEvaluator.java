@@ -78,8 +78,7 @@ public final class ProcessEvaluator extends WorkerPool {
         }
         int expected = result.status() == SimulationResult.Status.UNSTABLE ? ExitStatus.UNSTABLE : ExitStatus.OK;
         if (result.id() == null || result.id() != request.id()) {
-            throw new SimulatorFailure("no valid result: id is " + result.id() + ", not " + request.id()
-                    + end(output));
+            throw new SimulatorFailure("no valid result: id is " + result.id() + ", not " + request.id() + end(output));
         }
         if (output.exitStatus() != expected || result.status() == SimulationResult.Status.ERROR) {
             throw new SimulatorFailure("no valid result: status " + result.status().name().toLowerCase()

@@ -65,8 +65,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
             numbers = Arrays.stream(choice.split(",")).map(Integer::valueOf).toList();
         } else {
             throw new InvalidInputException(
-                    "--device is " + choice + "; expected a GPU's number, several with commas between "
-                            + "them, or all");
+                    "--device is " + choice + "; expected a GPU's number, several with commas between them, or all");
         }
         List<String> kinds = numbers.stream().flatMap(number -> kind(number).stream()).distinct().toList();
         if (kinds.size() > 1) {

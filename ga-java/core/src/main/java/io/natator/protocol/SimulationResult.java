@@ -41,8 +41,7 @@ import java.util.Objects;
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
         SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift,
-        List<Double> objectives, Double worth,
-        Effort effort)
+        List<Double> objectives, Double worth, Effort effort)
         implements SimulationResultBuilder.With {
 
     /** Why a simulation ended that {@code stopping.planeContact} ended: its body touched a wall. */

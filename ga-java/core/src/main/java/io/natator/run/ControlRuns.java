@@ -64,8 +64,7 @@ public final class ControlRuns {
                     swimmer, 1);
             Backend other = otherBackend();
             return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer),
-                    water, resting,
-                    vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
+                    water, resting, vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
                     other == null ? null : other.argument(), null);
         }
     }

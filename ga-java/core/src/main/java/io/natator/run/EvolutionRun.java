@@ -123,8 +123,7 @@ public final class EvolutionRun {
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all,
-                folder.recorded())
-                .run(folder.checkpoint());
+                folder.recorded()).run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
     }

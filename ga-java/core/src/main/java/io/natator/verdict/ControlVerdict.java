@@ -40,8 +40,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
                             + percent(left(clampOff, controls)) + " of its way is left");
         }
         String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2)
-                + " " + name
-                + "/s more than a resting body";
+                + " " + name + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, length);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
@@ -64,8 +63,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         SwimSample clampOff = controls.clampOff();
         if (clampOff != null && left(clampOff, controls) - error(clampOff, controls) < Limit.MIN_LEFT) {
             doubts.add("without the acceleration clamp " + percent(left(clampOff, controls)) + " ± "
-                    + percent(error(clampOff, controls))
-                    + " of its way is left");
+                    + percent(error(clampOff, controls)) + " of its way is left");
         }
         if (controls.underWater() != null && controls.underWater() < Limit.MIN_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");

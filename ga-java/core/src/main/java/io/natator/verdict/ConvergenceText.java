@@ -10,7 +10,6 @@ import java.util.stream.Collectors;
 /** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
 public final class ConvergenceText {
 
-
     private ConvergenceText() {
     }
 
@@ -35,7 +34,8 @@ public final class ConvergenceText {
         if (finer.stream().anyMatch(level -> reach(level, -Limit.SURE) > Limit.CONVERGED)) {
             return "not converged";
         }
-        return finer.stream().allMatch(level -> reach(level, Limit.SURE) <= Limit.CONVERGED) ? "converged to within 10 %"
+        return finer.stream().allMatch(level -> reach(level, Limit.SURE) <= Limit.CONVERGED)
+                ? "converged to within 10 %"
                 : "not known whether converged";
     }
 

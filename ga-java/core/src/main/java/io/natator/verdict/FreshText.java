@@ -43,8 +43,7 @@ public final class FreshText {
         lines.put("selected", Numbers.worth(fresh.selected()) + " by " + (fresh.selectedRuns() == 1 ? "one run"
                 : judge(fresh.judge()) + " of " + fresh.selectedRuns() + " runs") + ", "
                 + (fresh.judge() == Aggregate.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again())
-                + " again"
-                + (fresh.selectionLoss() == null ? ""
+                + " again" + (fresh.selectionLoss() == null ? ""
                         : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
         return lines;
     }

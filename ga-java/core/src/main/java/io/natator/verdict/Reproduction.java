@@ -78,7 +78,6 @@ public final class Reproduction {
 
     private String told(double today, String reason) {
         return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program "
-                + Numbers.fixed(today, DIGITS)
-                + " (" + reason + ")";
+                + Numbers.fixed(today, DIGITS) + " (" + reason + ")";
     }
 }

@@ -202,12 +202,14 @@ public record Verdict(Kind kind, String text, String advice) {
 
         static Swim of(SimulationResult one) {
             return one.status() != SimulationResult.Status.OK ? new Swim(0, 0, 0, null, null, null, why(one))
-                    : new Swim(one.distance(), one.speed(), one.simulated(), one.stopped(), Scheme.of(one.scheme()), null, null);
+                    : new Swim(one.distance(), one.speed(), one.simulated(), one.stopped(), Scheme.of(one.scheme()),
+                            null, null);
         }
 
         static Swim of(FreshRuns fresh, SimulationResult one) {
             SwimSample base = fresh.base();
-            return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(), Scheme.of(one.scheme()), fresh, null);
+            return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(),
+                    Scheme.of(one.scheme()), fresh, null);
         }
     }
 

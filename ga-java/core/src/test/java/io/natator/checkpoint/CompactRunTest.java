@@ -77,8 +77,7 @@ class CompactRunTest {
     void aCompactRunGoesOnAsIfItHadNeverStopped(String optimizer, int starts) throws Exception {
         OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withStarts(starts, Aggregate.MEAN)
-                .withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
+                .withStarts(starts, Aggregate.MEAN).withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
                         : List.of(new WeightedObjective(Objective.DISTANCE, null),
                                 new WeightedObjective(Objective.WORK, null)));
         Path parts = folder.resolve("parts");

@@ -141,7 +141,8 @@ class EvolutionTest {
     /** Backward swimmers have fitness 0 for JGAP, and their distance in the record. */
     @Test
     void negativeDistancesAreKeptInTheRecord() {
-        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), request -> Results.ok(request.id(), -0.25), 2);
+        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), request -> Results.ok(request.id(), -0.25),
+                2);
 
         assertThat(end.best().result().distance()).isEqualTo(-0.25);
         assertThat(end.history()).extracting(GenerationSummary::mean)

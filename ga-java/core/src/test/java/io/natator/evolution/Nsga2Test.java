@@ -22,8 +22,7 @@ class Nsga2Test {
 
     private static EvolutionState run(int generations, int starts) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withSize(24, generations)
-                .withSeed(3).withStarts(starts, Aggregate.MEAN)
+                .withSize(24, generations).withSeed(3).withStarts(starts, Aggregate.MEAN)
                 .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
         try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
             return new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),

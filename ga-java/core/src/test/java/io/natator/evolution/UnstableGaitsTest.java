@@ -71,8 +71,7 @@ class UnstableGaitsTest {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
             new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder),
-                    new RecordedEvaluations(0, List.of()))
-                    .run(null);
+                    new RecordedEvaluations(0, List.of())).run(null);
         }
         return recorder;
     }
@@ -135,8 +134,7 @@ class UnstableGaitsTest {
         int all = laws.values().stream().mapToInt(Integer::intValue).sum();
         assertThat(end.history().stream().mapToInt(GenerationSummary::unstable).sum()).isEqualTo(all);
         assertThat(Refusals.of(end)).startsWith("refused " + all + " of " + end.evaluations() + " evaluations: ")
-                .doesNotContain("\n")
-                .contains(" broke law ");
+                .doesNotContain("\n").contains(" broke law ");
         laws.forEach((law, count) -> assertThat(Refusals.of(end))
                 .containsPattern("\\b" + count + "( broke law)? " + law + "\\b"));
         assertThat(Json.parse(Json.document(end), EvolutionState.class)).as("kept in a checkpoint").isEqualTo(end);

@@ -88,11 +88,9 @@ class FitnessEvaluatorTest {
         assertThat(inner.closed).isEqualTo(4);
 
         assertThatThrownBy(() -> FitnessEvaluator.of(inner, MAP, scene(null, null)))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("the body's length is null");
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("the body's length is null");
         assertThatThrownBy(() -> FitnessEvaluator.of(inner, NET, scene(1.0, List.of("turn"))))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("--fitness net");
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("--fitness net");
         assertThat(inner.closed).isEqualTo(4);
     }
 }

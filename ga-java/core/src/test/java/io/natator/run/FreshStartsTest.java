@@ -136,13 +136,10 @@ class FreshStartsTest {
     @Test
     void distancesAreThoseOfTheWholeTime() {
         List<SimulationResult> results = List.of(result("touched-plane", 0.6, 1.0, 0.5),
-                result("completed", 0.4, 4.0, 1.5),
-                Results.unstable(0, "tank"),
-                SimulationResult.failed(0, "crashed"));
+                result("completed", 0.4, 4.0, 1.5), Results.unstable(0, "tank"), SimulationResult.failed(0, "crashed"));
 
         SwimSample sample = SwimSample.of(results, 4,
-                EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)),
-                4.0, 1.25);
+                EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)), 4.0, 1.25);
 
         assertThat(sample.distance().mean()).isCloseTo(0.25, within(1e-12));
         assertThat(sample.distance().sd()).isCloseTo(0.3, within(1e-12));

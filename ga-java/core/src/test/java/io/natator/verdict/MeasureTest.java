@@ -34,8 +34,7 @@ class MeasureTest {
                         tuple("without water", "0 % of its speed", HOLDS),
                         tuple("lost since it was chosen", "20.0 %", FAILS),
                         tuple("resting muscles", "0.000 ± 0.000 body lengths", HOLDS),
-                        tuple("mirrored", "25 % of its way", FAILS),
-                        tuple("on cuda", "100 % of its way", HOLDS),
+                        tuple("mirrored", "25 % of its way", FAILS), tuple("on cuda", "100 % of its way", HOLDS),
                         tuple("share of the body under water", "40 %", FAILS));
     }
 

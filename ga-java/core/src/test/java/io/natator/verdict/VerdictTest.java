@@ -161,8 +161,7 @@ class VerdictTest {
     @CsvSource({"0.001, 0.00", "0.75, 0.19"})
     void aRunThatGoesOnIsNotJudgedByUnits(double way, String speed) {
         assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null))
-                .extracting(Verdict::kind, Verdict::text)
-                .containsExactly(Verdict.Kind.UNPROVEN,
+                .extracting(Verdict::kind, Verdict::text).containsExactly(Verdict.Kind.UNPROVEN,
                         "not judged: moves at " + speed + " units/s; not run in vacuum yet");
     }
 

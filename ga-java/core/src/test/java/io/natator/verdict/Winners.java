@@ -30,7 +30,8 @@ public final class Winners {
     /** One with this result in water and without. */
     public static BestGait best(String scene, SimulationResult water, Double length, SimulationResult vacuum,
             FreshRuns fresh) {
-        return new BestGait(scene, List.of(1.0), GAIT, null, water.distanceOrZero(), water.speed(), water, length, vacuum,
+        return new BestGait(scene, List.of(1.0), GAIT, null, water.distanceOrZero(), water.speed(), water, length,
+                vacuum,
                 2.5, 1, fresh);
     }
 

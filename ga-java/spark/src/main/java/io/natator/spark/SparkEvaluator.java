@@ -151,8 +151,7 @@ final class SparkEvaluator implements Evaluator {
                     Sha256.of(execution.simulator()),
                     here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),
                     execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut),
-                    hash,
-                    null);
+                    hash, null);
             config = here ? first : like(first);
         }
         return config;

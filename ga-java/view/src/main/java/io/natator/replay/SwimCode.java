@@ -183,8 +183,7 @@ final class SwimCode {
         }).toArray(Quantiser[]::new);
     }
 
-    private double[] ends(int[] particles, int components, int component,
-            Function<StreamFrame, float[]> field) {
+    private double[] ends(int[] particles, int components, int component, Function<StreamFrame, float[]> field) {
         double low = Double.POSITIVE_INFINITY;
         double high = Double.NEGATIVE_INFINITY;
         for (StreamFrame frame : swim.frames()) {

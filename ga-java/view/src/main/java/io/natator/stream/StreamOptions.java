@@ -44,8 +44,7 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
 
     /** The same with other fields. */
     public StreamOptions withFields(List<StreamField> newFields) {
-        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless,
-                paused);
+        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless, paused);
     }
 
     /** The arguments after the program's name. */

@@ -109,8 +109,7 @@ public final class ViewServer implements AutoCloseable {
             }
         } catch (UnknownHostException e) {
             throw new InvalidInputException(
-                    "--host is " + host + ", an unknown name; expected a name or address of this "
-                            + "machine",
+                    "--host is " + host + ", an unknown name; expected a name or address of this machine",
                     e);
         } catch (SocketException e) {
             LOG.debug("network interfaces not known", e);

@@ -271,8 +271,7 @@ class StreamReaderTest {
             assertThat(wrong).isNotEqualTo(skin);
             scene.set("skin", Json.parse(wrong, JsonNode.class));
             assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
-                    .isInstanceOf(StreamException.class)
-                    .hasMessageContaining("skin");
+                    .isInstanceOf(StreamException.class).hasMessageContaining("skin");
         }
     }
 }
