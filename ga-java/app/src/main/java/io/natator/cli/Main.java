@@ -46,7 +46,7 @@ public final class Main implements Callable<Integer> {
     }
 
     /**
-     * The same with a command line that may have been changed.
+     * Runs a command with a command line that may have been changed.
      *
      * @param command see {@link #commandLine}
      */

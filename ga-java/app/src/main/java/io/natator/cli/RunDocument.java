@@ -38,7 +38,7 @@ final class RunDocument {
     private final BestGait best;
 
     /**
-     * Of a run.
+     * The document of a run.
      *
      * @throws InvalidInputException if it has no best gait or no checkpoint yet
      */

@@ -138,7 +138,7 @@ final class ShowCommand implements Callable<Integer> {
                         : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
-    /** Of a run without a checkpoint: that it has none yet, or has lost it. */
+    /** How far a run without a checkpoint is: it has none yet, or has lost it. */
     private static String withoutCheckpoint(RecordedEvaluations recorded) {
         long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
         return recorded.end() > first

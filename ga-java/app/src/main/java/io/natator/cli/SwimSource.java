@@ -23,7 +23,7 @@ import java.util.Arrays;
 import java.util.Objects;
 
 /**
- * Who swims where: a run's best swimmer in its scene, or a scene with or without a gait.
+ * A swimmer and its scene: a run's best swimmer in its scene, or a scene with or without a gait.
  *
  * @param run        its folder, or null
  * @param scene      name or path
@@ -37,7 +37,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
         Double duration, BestGait best) {
 
     /**
-     * Whom the user named.
+     * The swimmer that the user named.
      *
      * @param source     a run folder, else a scene
      * @param gait       a file, or null for a run's best

@@ -20,12 +20,12 @@ public record MedianInterval(double median, double low, double high) {
     private static final long SEED = 20190101;
     private static final double TAIL = 0.025;
 
-    /** Of a sample with at least one value. */
+    /** Median and interval of a sample with at least one value. */
     public static MedianInterval of(double[] values) {
         return of(median(values), values.length > 1, random -> median(resample(values, random)));
     }
 
-    /** Of the difference of two samples with at least one value each. */
+    /** Difference of the medians of two samples with at least one value each, and its interval. */
     public static MedianInterval ofDifference(double[] first, double[] second) {
         return of(median(first) - median(second), first.length > 1 && second.length > 1,
                 random -> median(resample(first, random)) - median(resample(second, random)));

@@ -74,7 +74,7 @@ public record PairTest(String first, String second, MedianInterval difference, R
     }
 
     /**
-     * In words, no more than test and interval support, of samples of any quantity.
+     * The result in words: no more than test and interval support.
      *
      * @param greater comparative for the greater sample, such as {@code better than}
      */

@@ -23,7 +23,7 @@ public final class BodyGenome {
     private static final double MIN_STIFFNESS = 0.1;
     /** Share of the way to the next joint that a joint may move. */
     private static final double JOINT_MOVE = 0.45;
-    /** Of the body's length. */
+    /** Least range of a joint on either side, as a share of the body's length. */
     private static final double MIN_MOVE = 0.001;
     /** Share of the particles that may be too many or too few. */
     private static final double HELD = 0.01;

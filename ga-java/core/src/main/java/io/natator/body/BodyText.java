@@ -15,7 +15,7 @@ public final class BodyText {
     private BodyText() {
     }
 
-    /** By what each is about: lengths in scene units, places in percent of the body's length. */
+    /** Rows of name and text; lengths in scene units, places in percent of the body's length. */
     public static Map<String, String> of(ProfileBody body, ProfileBody scene) {
         Map<String, String> text = new LinkedHashMap<>();
         text.put("length", number(body.length()) + " units" + beside(number(scene.length())));

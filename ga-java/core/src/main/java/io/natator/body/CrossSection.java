@@ -36,7 +36,7 @@ final class CrossSection {
         return Math.round(extent) % 2 != 0;
     }
 
-    /** Of the ellipse with an odd or even number of rows, and of particles in each; 0 if that is fewer than two each way. */
+    /** Particles of an ellipse with an odd or even number of rows and columns; 0 if it has fewer than two each way. */
     private static int particles(double height, double width, boolean oddRows, boolean oddColumns) {
         int rows = within(height / 2, oddRows);
         int filled = 0;

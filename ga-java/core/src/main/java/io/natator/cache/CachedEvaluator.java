@@ -39,7 +39,7 @@ public final class CachedEvaluator implements Evaluator {
         this(evaluator, cache, new EvaluationKeys(execution));
     }
 
-    /** The same evaluator and cache with a count of its own; the evaluator is closed with either. */
+    /** A view of this evaluator and cache with a count of its own; closing either closes the evaluator. */
     public CachedEvaluator counting() {
         return new CachedEvaluator(evaluator, cache, keys);
     }

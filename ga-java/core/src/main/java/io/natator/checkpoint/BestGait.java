@@ -34,7 +34,7 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
         SimulationResult result, Double bodyLength, SimulationResult vacuum, double selected, int runs,
         FreshRuns fresh) {
 
-    /** Has to have who swam where, and how far. */
+    /** Requires scene, genes, gait and result. */
     public BestGait {
         Objects.requireNonNull(scene, "scene");
         Objects.requireNonNull(genes, "genes");
@@ -65,7 +65,7 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
                 && genes.equals(best.genes()) && best.score() == selected && best.runs() == runs;
     }
 
-    /** What swam. */
+    /** The swimmer: gait and body. */
     public Swimmer swimmer() {
         return new Swimmer(gait, body);
     }

@@ -36,7 +36,7 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
         String backend, Double underWater) implements AboutWinner, ControlsBuilder.With {
 
-    /** Has to have the gait, and the swims that there are of every winner. */
+    /** Requires the gait and the swims that every winner has. */
     public Controls {
         Objects.requireNonNull(gait, "gait");
         Objects.requireNonNull(water, "water");

@@ -22,7 +22,7 @@ public record EvaluationStatistics(long evaluations, long unchanged, long fromCa
         return evaluations - refused;
     }
 
-    /** Of an evaluation that nothing ends early, in seconds; 0 without simulations. */
+    /** Simulated time of an evaluation that nothing ends early, in seconds; 0 without simulations. */
     public double duration() {
         return simulations() == 0 ? 0 : wholeSeconds / simulations();
     }

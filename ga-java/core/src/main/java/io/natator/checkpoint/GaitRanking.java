@@ -86,7 +86,7 @@ public final class GaitRanking {
         }
     }
 
-    /** Whom the run would take for its winner, had it ended here; null without any. */
+    /** The gait that the run would take for its winner, had it ended here; null without any. */
     GaitScore best() {
         List<Runs> best = ranked.stream()
                 .limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();

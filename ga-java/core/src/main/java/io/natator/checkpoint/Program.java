@@ -43,7 +43,7 @@ public record Program(String version, String commit, String instructionSet, Back
         return Files.exists(file) ? Json.read(file, Program.class, "environment") : null;
     }
 
-    /** In what this one differs from another, in words; empty if in nothing that is known. */
+    /** How this program differs from another, in words; empty if no difference is known. */
     public String differenceTo(Program other) {
         List<String> found = new ArrayList<>();
         add(found, "version", version, other.version);

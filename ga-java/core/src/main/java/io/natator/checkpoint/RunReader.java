@@ -43,7 +43,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         RecordedEvaluations recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
     private static final Logger LOG = LoggerFactory.getLogger(RunReader.class);
-    /** What has been said of damaged files: a page, for one, reads them again and again. */
+    /** Warnings already given: a page reads damaged files again and again. */
     private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
 
     /** Copies the list. */
@@ -146,7 +146,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return origin == null ? null : origin.settings();
     }
 
-    /** By what the run has computed as yet; null if it has not begun, or that is damaged. */
+    /** Scene and settings that the run was begun with; null if it has not begun, or {@code environment.json} is damaged. */
     static Origin origin(Path directory) {
         return readable(directory, RunWriter.ENVIRONMENT, Origin.class);
     }
@@ -210,7 +210,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return best(directory, settings(directory), state(directory));
     }
 
-    /** As written, else as it follows from the checkpoint, then without what it does in vacuum. */
+    /** The best gait as written; else as the checkpoint gives it, without its run in vacuum. */
     private static BestGait best(Path directory, EvolutionSettings settings, EvolutionState state) {
         try {
             BestGait written = optional(directory, RunWriter.BEST, BestGait.class);
@@ -254,7 +254,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
-     * Of a run with several objectives, the individuals that no other is better than in all of them, the best by the first
+     * The front of a run with several objectives: the individuals that no other is better than in all of them, the best by the first
      * objective first; else none.
      */
     public List<Individual> front() {
@@ -301,7 +301,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return best;
     }
 
-    /** The course of the run: whom it would have taken for its winner, the earliest first. */
+    /** The leading gait after each evaluation at which it changed. */
     public List<Leader> leaders() {
         List<EvaluationRecord> all = evaluations();
         GaitRanking gaits = new GaitRanking(settings);

@@ -204,7 +204,7 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
         }
     }
 
-    /** Where it is. */
+    /** The run folder. */
     public Path directory() {
         return directory;
     }

@@ -11,7 +11,7 @@ import io.natator.process.SceneInfo;
 import java.nio.file.Path;
 import java.util.Objects;
 
-/** By what a scene is known again: a file that was changed since a run was begun makes another experiment of it. */
+/** Digests by which a scene that was changed since a run was begun is noticed: it makes another experiment. */
 public final class SceneDigest {
 
     private static final String WITHOUT_EFFECT = "description";
@@ -20,7 +20,7 @@ public final class SceneDigest {
     }
 
     /**
-     * Of the scene of a run with all that it builds on and the run's overrides, but for descriptions.
+     * Digest of the scene of a run with all that it builds on and the run's overrides, but for descriptions.
      *
      * @param simulator the native program
      * @return SHA-256 in hexadecimal digits
@@ -56,7 +56,7 @@ public final class SceneDigest {
     }
 
     /**
-     * The same, by a digest that is worked out only of a run that can tell.
+     * Refuses to go on with a run whose scene was changed; the digest is worked out only where it can tell.
      *
      * @param simulator the native program
      */

@@ -133,7 +133,7 @@ public final class Json {
         return reason(e, "line " + (e.getLocation() == null ? 0 : e.getLocation().getLineNr()) + ", ");
     }
 
-    /** The same of a text that is a line of a file, whose number the caller tells. */
+    /** Why a line of a file was refused, without the number of the line, which the caller tells. */
     public static String reasonInLine(JsonProcessingException e) {
         return reason(e, "");
     }

@@ -5,13 +5,13 @@ import java.util.Arrays;
 
 /** How the simulator solves a step. */
 public enum Scheme {
-    /** As NVIDIA Flex 1.2.0 was measured. */
+    /** Position-based dynamics as NVIDIA Flex 1.2.0 was measured to do it. */
     @JsonProperty("flex")
     FLEX,
     /** Incompressible water, and bodies that move by their own forces alone. */
     @JsonProperty("conserving")
     CONSERVING,
-    /** The same bodies in water on a lattice, which has no surface. */
+    /** The bodies of {@code conserving} in water on a lattice, which has no surface. */
     @JsonProperty("lattice")
     LATTICE;
 

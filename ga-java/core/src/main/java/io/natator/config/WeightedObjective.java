@@ -18,7 +18,7 @@ import java.util.stream.Collectors;
 public record WeightedObjective(Objective objective, Double weight) {
 
     /**
-     * As the user writes them: {@code distance,work}, or with weights {@code forward=1,straight=0.2}.
+     * Reads objectives as the user writes them: {@code distance,work}, or with weights {@code forward=1,straight=0.2}.
      *
      * @throws InvalidInputException if that is no such list
      */

@@ -30,7 +30,7 @@ public final class EliteMap {
      */
     public record Cell(int beats, int cost) implements Comparable<Cell> {
 
-        /** Of all that get nowhere, whatever that costs. */
+        /** The kind of all gaits that get nowhere, at whatever cost. */
         public static final Cell NOWHERE = new Cell(Integer.MAX_VALUE, 0);
 
         @Override
@@ -40,7 +40,7 @@ public final class EliteMap {
     }
 
     /**
-     * Of these individuals, the first of equals.
+     * The map of individuals; of equals it keeps the first.
      *
      * @throws EvolutionFailedException if it is not known what a swim took
      */
@@ -63,7 +63,7 @@ public final class EliteMap {
         return moves ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport())) : Cell.NOWHERE;
     }
 
-    /** The same bits on every machine, as the course of a run depends on it. */
+    /** Number of a cell; the same on every machine, since the course of a run depends on it. */
     private static int number(double value) {
         return (int) Math.floor(PER_OCTAVE * StrictMath.log(value) / StrictMath.log(2));
     }
@@ -78,7 +78,7 @@ public final class EliteMap {
         return elites;
     }
 
-    /** The same without the kind that gets nowhere. */
+    /** The best of each kind that gets somewhere, by cells. */
     public SortedMap<Cell, Individual> moving() {
         return elites.headMap(Cell.NOWHERE);
     }

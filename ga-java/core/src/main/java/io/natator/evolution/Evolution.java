@@ -142,7 +142,7 @@ public final class Evolution {
         return genomes;
     }
 
-    /** Of new genomes: each from all starts of the generation. */
+    /** Runs of new genomes: each from all starts of the generation. */
     private List<Run> runs(List<List<Double>> genomes) {
         int starts = settings.search().starts();
         List<Run> runs = new ArrayList<>();

@@ -41,13 +41,13 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         refused = refused == null ? null : refused.stream().map(List::copyOf).toList();
     }
 
-    /** Of an evolution in which no gait was unstable in some of its runs. */
+    /** The state of an evolution in which no gait was unstable in some of its runs. */
     public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
             List<GenerationSummary> history, List<Individual> champions) {
         this(generation, evaluations, population, best, history, champions, null);
     }
 
-    /** Of an evolution in which every gait is run once. */
+    /** The state of an evolution in which every gait is run once. */
     public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
             List<GenerationSummary> history) {
         this(generation, evaluations, population, best, history, null);

@@ -41,7 +41,7 @@ final class Reevaluation {
     }
 
     /**
-     * In a generation.
+     * The re-evaluation of a generation.
      *
      * @param population its individuals
      * @param champions  of the generation before
@@ -57,7 +57,7 @@ final class Reevaluation {
         champions.forEach(this::enter);
     }
 
-    /** Who was unstable stays known, but is no more ranked: the runs before must not win for it. */
+    /** An unstable gait stays in the field but is never ranked, whatever its earlier runs. */
     private void enter(Individual entering) {
         Individual one = refused.contains(entering.genes()) ? entering.withEstimate(entering.estimate().refused())
                 : entering;
@@ -94,7 +94,7 @@ final class Reevaluation {
         return first(ranked());
     }
 
-    /** Whom of the champions to take for the best; null without champions. */
+    /** The champion to take for the best; null without champions. */
     Individual winner() {
         List<Individual> champions = first(ranked());
         return champions.isEmpty() ? null

@@ -65,7 +65,7 @@ public final class FitnessEvaluator implements Evaluator {
     }
 
     /**
-     * The same, whose results also tell by what a run's optimizer tells gaits apart.
+     * An evaluator whose results are worth what a run rewards, with their effort where the optimizer needs it.
      *
      * @throws InvalidInputException if the scene has goals, and the run would have another fitness; or if the optimizer asks for a
      *                               body's length, and that is not known

@@ -66,7 +66,7 @@ public final class BatchEvaluator implements Evaluator {
         }
     }
 
-    /** Whom a thread that has ended worked for would wait for ever. */
+    /** Rethrows what ended a worker thread; its callers would block for ever. */
     private void failIfThreadFailed() {
         if (failure.get() instanceof Error lacking) {
             throw lacking;

@@ -37,7 +37,7 @@ public final class ConvergeProgram {
     }
 
     /**
-     * Of an execution.
+     * The program of an execution.
      *
      * @param execution with a time limit for one evaluation; each run has as many threads as it has workers
      */

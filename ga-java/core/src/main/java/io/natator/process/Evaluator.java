@@ -61,7 +61,7 @@ public interface Evaluator extends AutoCloseable {
         return results;
     }
 
-    /** One evaluation. */
+    /** Carries out one evaluation. */
     default SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
         return evaluate(List.of(request)).get(0);
     }

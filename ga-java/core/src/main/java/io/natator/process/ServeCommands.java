@@ -65,7 +65,7 @@ final class ServeCommands {
         }
     }
 
-    /** All of them. */
+    /** All commands. */
     List<Command> all() {
         return List.copyOf(commands);
     }

@@ -48,7 +48,7 @@ final class ServeProcess implements AutoCloseable {
         }
     }
 
-    /** What it was started by. */
+    /** The command that started it. */
     ServeCommands.Command command() {
         return command;
     }

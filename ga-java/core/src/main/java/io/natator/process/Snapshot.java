@@ -113,7 +113,7 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
         return body.stream().filter(one -> one[1] < level).count() / (double) body.size();
     }
 
-    /** Of fluid particles that fill their box. */
+    /** Mean distance of fluid particles that fill their box, in scene units. */
     private double meanDistance() {
         double volume = 1;
         for (int axis = 0; axis < 3; axis++) {

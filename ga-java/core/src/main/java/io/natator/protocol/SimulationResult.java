@@ -47,7 +47,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** Why a simulation ended that {@code stopping.planeContact} ended: its body touched a wall. */
     public static final String AT_WALL = "touched-plane";
 
-    /** Copies the lists. What is {@code ok} has to have a distance and a time. */
+    /** Copies the lists; status {@code ok} requires a distance and a time. */
     public SimulationResult {
         Objects.requireNonNull(status, "status");
         if (status == Status.OK) {

@@ -69,7 +69,7 @@ public final class ControlRuns {
         }
     }
 
-    /** The same runs on another backend. */
+    /** Runs from the same starts on another backend. */
     private SwimSample onOther(Swimmer swimmer, Backend backend) throws InterruptedException {
         ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);

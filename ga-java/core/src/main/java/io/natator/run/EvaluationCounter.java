@@ -63,7 +63,7 @@ final class EvaluationCounter implements EvolutionListener {
         saved = Math.round((before.wholeSeconds() - before.simulatedSeconds()) * NANOSECONDS);
     }
 
-    /** Of the run so far; a damaged file of them costs only how many results came from the cache. */
+    /** Statistics of the run so far; a damaged file costs only the number of results from the cache. */
     private static EvaluationStatistics statistics(RunWriter folder) {
         try {
             return RunReader.statistics(folder.directory());

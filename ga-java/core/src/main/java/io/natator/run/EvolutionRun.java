@@ -59,7 +59,7 @@ public final class EvolutionRun {
                 settings.problem().duration()));
     }
 
-    /** The same with the longest of the limits that suit several settings. */
+    /** The execution with the longest of the time limits that suit several settings. */
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, Collection<EvolutionSettings> all)
             throws InterruptedException {
         Duration longest = Duration.ZERO;

@@ -91,7 +91,7 @@ public final class FreshStarts {
         }
     }
 
-    /** The winner from the scene's own start, as whoever watches it sees it. */
+    /** Runs the winner from the scene's own start, as it is watched. */
     SimulationResult fromOwnStart(Individual winner) throws InterruptedException {
         return evaluator.evaluate(SimulationRequest.of(winner.result().id(), settings, genome.decode(winner.genes())));
     }

@@ -83,7 +83,7 @@ public final class ConvergenceText {
         return withError(speed, error, one -> one / length.unit(), 3) + " " + length.name() + "/s";
     }
 
-    /** In other units; one run does not tell its error. */
+    /** Value and error in other units; a single run has no known error. */
     private static String withError(double value, Double error, DoubleUnaryOperator units, int decimals) {
         double shown = units.applyAsDouble(value);
         return error == null ? Numbers.fixed(shown, decimals) + " ± ?"

@@ -17,7 +17,7 @@ public final class FreshText {
     private FreshText() {
     }
 
-    /** By what it is about: distance, the same at half the time step, speed, selected. Empty without fresh runs. */
+    /** Rows of name and text: distance, half step, goals, speed, selected. Empty without fresh runs. */
     public static Map<String, String> of(BestGait best) {
         Map<String, String> lines = new LinkedHashMap<>();
         FreshRuns fresh = best.fresh();

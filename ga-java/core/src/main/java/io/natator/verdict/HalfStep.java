@@ -19,7 +19,7 @@ final class HalfStep {
         return Math.abs(atHalf - way) <= Limit.MAX_CHANGE * Math.abs(way);
     }
 
-    /** In words how they do not agree; null if they do. */
+    /** How the two ways disagree, in words; null if they agree. */
     static String doubt(double way, double atHalf) {
         return agrees(way, atHalf) ? null
                 : (atHalf - way) * way > 0 ? "it gets more than half as far again at half the time step"

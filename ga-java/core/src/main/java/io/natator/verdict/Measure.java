@@ -24,7 +24,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
 
     /** Whether a measure is as expected. */
     public enum Outcome {
-        /** As expected. */
+        /** It is as expected. */
         HOLDS,
         /** Otherwise. */
         FAILS,
@@ -78,7 +78,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
                 outcome(HalfStep.agrees(way, half.mean())));
     }
 
-    /** By speeds, since old folders have runs of other lengths. */
+    /** Compares speeds, since the run without water ends when the one in water did. */
     private static Measure vacuum(SimulationResult vacuum, BestGait best, double way) {
         String expected = "less than half of its speed";
         if (vacuum == null || vacuum.status() != SimulationResult.Status.OK || way == 0) {

@@ -58,7 +58,7 @@ public final class Reproduction {
     }
 
     /**
-     * The same where only the distance at {@link #lastFrame()} is known.
+     * What to say of a result of which only the distance at {@link #lastFrame()} is known.
      *
      * @param error that the distance may have by its rounding, in scene units
      */

@@ -87,7 +87,7 @@ public record Verdict(Kind kind, String text, String advice) {
                 moves + ", " + Numbers.fixed(vacuum.speed() / length.unit(), 2) + " in vacuum");
     }
 
-    /** By the drift first, since that is no swimming wherever it leads. */
+    /** Judges the drift first, since that is no swimming wherever it leads. */
     private static Verdict judge(Swim water, SimulationResult vacuum, Length length, String speeds) {
         boolean keepsMomentum = water.scheme() != null && water.scheme().keepsMomentum();
         double drift = vacuum.speed() / water.speed();

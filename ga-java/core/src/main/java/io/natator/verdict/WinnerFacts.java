@@ -27,7 +27,7 @@ public final class WinnerFacts {
     }
 
     /**
-     * By what each is about, the verdict first; what is not known is left out.
+     * Rows of name and text, the verdict first; what is not known is left out.
      *
      * @param run folder of it, for what {@code natator check} and {@code natator converge} found
      */
@@ -82,7 +82,7 @@ public final class WinnerFacts {
         return parts;
     }
 
-    /** The same for all runs of a body in one water. */
+    /** Spacings of the water across the body: the same in all its runs. */
     private static Double across(SwimmingNumbers one) {
         return one == null ? null : one.across();
     }

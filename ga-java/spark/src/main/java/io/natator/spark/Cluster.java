@@ -148,7 +148,7 @@ final class Cluster {
         return send(SentFile.name(kind, digest), copy -> Files.copy(file, copy));
     }
 
-    /** The same of a text. */
+    /** Gives a text to all executors, as a file. */
     String send(String kind, String text) {
         return send(SentFile.name(kind, Sha256.of(text)), copy -> Files.writeString(copy, text));
     }

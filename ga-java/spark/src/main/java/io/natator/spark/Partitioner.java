@@ -19,7 +19,7 @@ final class Partitioner {
     static final double MAX_SECONDS = 2;
     /** Time below which a part is not made shorter, s: ten times what it costs. */
     static final double MIN_SECONDS = 0.05;
-    /** Of what is left, a part has one in so many for each slot. */
+    /** A part takes this fraction (1/n) of what is left for each slot. */
     private static final int SHARES = 2;
     /** Parts for each slot at most while it is not known how long evaluations take. */
     private static final int UNKNOWN = 256;

@@ -30,7 +30,7 @@ final class SceneFiles {
                 SceneInfo.definition(request.scene(), request.overrides(), simulator))));
     }
 
-    /** The same request in the scene of that file. */
+    /** The request in the scene of that file. */
     static SimulationRequest withScene(SimulationRequest request, String file) {
         return request.withScene(file).withOverrides(null);
     }

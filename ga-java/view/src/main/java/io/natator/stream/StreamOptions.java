@@ -36,13 +36,13 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         return new StreamOptions(scene, overrides, gait, null, null, ALL, 0, until, true, false);
     }
 
-    /** The same with another scheme and precision; null leaves either to the scene and the program. */
+    /** These options with another scheme and precision; null leaves either to the scene and the program. */
     public StreamOptions with(Scheme newScheme, String newPrecision) {
         return new StreamOptions(scene, overrides, gait, newScheme, newPrecision, fields, rate, until, lossless,
                 paused);
     }
 
-    /** The same with other fields. */
+    /** These options with other fields. */
     public StreamOptions withFields(List<StreamField> newFields) {
         return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless, paused);
     }

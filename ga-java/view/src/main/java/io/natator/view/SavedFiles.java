@@ -110,7 +110,7 @@ final class SavedFiles implements AutoCloseable {
         }
     }
 
-    /** Of what a file names there are two places: beside the file, and from the working directory, where it is looked for next. */
+    /** A named file is looked for beside the file that names it, then from the working directory. */
     private static void addNamed(Path file, String name, Map<Path, Stamp> stamps, int levels) {
         Path beside;
         try {
