@@ -114,8 +114,7 @@ final class CompareCommand implements Callable<Integer> {
             comparison.run(evaluator, execution.simulator());
             if (json != null) {
                 AtomicFile.write(json, String.join("\n",
-                        comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator()))
-                        + "\n");
+                        comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n");
             }
         }
         comparison.lines().forEach(out::println);

@@ -42,9 +42,8 @@ class BadUsageTest extends FakeSimulatorTest {
             "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
             "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
     void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
-        assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains(message);
+        assertThat(natator(arguments.replace("NEVER", path("never")).split(" "))).isEqualTo(2);
+        assertThat(err.toString()).hasLineCount(1).contains(message);
         assertThat(folder.resolve("never")).doesNotExist();
     }
 
@@ -66,12 +65,11 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @Test
     void refusesAFolderThatIsNotEmpty() {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         err.getBuffer().setLength(0);
 
         assertThat(evolve("run")).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains("is not empty");
+        assertThat(err.toString()).hasLineCount(1).contains("is not empty");
     }
 
     @ParameterizedTest
@@ -124,12 +122,11 @@ class BadUsageTest extends FakeSimulatorTest {
             "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
             "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help"})
     void badUsageIsOneLineAndStatus2(String arguments, String message) {
-        List<String> all = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve("never").toString()));
+        List<String> all = new ArrayList<>(List.of("evolve", "--output-dir", path("never")));
         all.addAll(List.of(arguments.split(" ")));
 
-        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evolve: ").contains(message);
+        assertThat(natator(all)).isEqualTo(2);
+        assertThat(err.toString()).hasLineCount(1).startsWith("natator evolve: ").contains(message);
         assertThat(out.toString()).isEmpty();
         assertThat(folder.resolve("never")).doesNotExist();
     }
@@ -153,11 +150,11 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @Test
     void aDocumentOfARunNeedsACheckpoint() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.delete(folder.resolve("run/checkpoint.json"));
         err.getBuffer().setLength(0);
 
-        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(natator("show", "--json", path("run"))).isEqualTo(2);
         assertThat(err.toString()).isEqualTo(
                 "natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
@@ -166,14 +163,14 @@ class BadUsageTest extends FakeSimulatorTest {
     @ParameterizedTest
     @ValueSource(strings = {"show --json", "check"})
     void withoutABestGaitIsOneLine(String command) throws IOException {
-        assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
+        ok(evolve("run", "--scene", "fault/unstable"));
         assertThat(out.toString()).contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
         forget();
 
         List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
-        arguments.add(folder.resolve("run").toString());
-        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
+        arguments.add(path("run"));
+        assertThat(natator(arguments)).isEqualTo(2);
 
         assertThat(err.toString()).isEqualTo("natator " + arguments.get(0) + ": " + folder.resolve("run")
                 + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
@@ -182,13 +179,13 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @Test
     void whatHasNoBestGaitYetIsToBeFinished() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         for (String name : List.of("checkpoint.json", "best.json")) {
             Files.delete(folder.resolve("run").resolve(name));
         }
         forget();
 
-        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(natator("show", "--json", path("run"))).isEqualTo(2);
 
         assertThat(err.toString()).isEqualTo(
                 "natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");

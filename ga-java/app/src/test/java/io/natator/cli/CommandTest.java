@@ -1,5 +1,7 @@
 package io.natator.cli;
 
+import static org.assertj.core.api.Assertions.assertThat;
+
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -39,7 +41,25 @@ abstract class CommandTest {
         return execute(all.toArray(String[]::new));
     }
 
-    /** What was printed so far. */
+    int execute(List<String> arguments) {
+        return execute(arguments.toArray(String[]::new));
+    }
+
+    int natator(List<String> arguments) {
+        return natator(arguments.toArray(String[]::new));
+    }
+
+    /** Fails unless a command succeeded. */
+    void ok(int status) {
+        assertThat(status).as(err.toString()).isZero();
+    }
+
+    /** A path in the test's folder. */
+    String path(String name) {
+        return folder.resolve(name).toString();
+    }
+
+    /** Forgets what was printed so far. */
     void forget() {
         out.getBuffer().setLength(0);
         err.getBuffer().setLength(0);

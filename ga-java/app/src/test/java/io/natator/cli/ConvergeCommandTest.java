@@ -18,20 +18,20 @@ class ConvergeCommandTest extends FakeSimulatorTest {
 
     @BeforeEach
     void evolved() {
-        assertThat(evolve("run")).as(err.toString()).isZero();
+        ok(evolve("run"));
         run = folder.resolve("run");
         forget();
     }
 
     @Test
     void tellsAndKeepsWhatTheSpeedGoesTo() throws IOException {
-        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+        ok(natator("converge", run.toString()));
         assertThat(out.toString()).isEqualTo("level      substeps\n" + TEXT + "\n");
         assertThat(err.toString()).isEqualTo("base: run 1 of 2, distance 0.5\n");
         assertThat(file("run", "converge.json")).contains("\"gait\"", "\"discretisation\" : 0.02");
 
         forget();
-        assertThat(natator("show", run.toString())).isZero();
+        ok(natator("show", run.toString()));
         assertThat(out.toString()).contains("  finer steps " + TEXT + "\n");
     }
 
@@ -39,7 +39,7 @@ class ConvergeCommandTest extends FakeSimulatorTest {
     void unstableLevelsAreTold() throws IOException {
         Files.createFile(folder.resolve("unstable"));
 
-        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+        ok(natator("converge", run.toString()));
 
         assertThat(out.toString())
                 .endsWith("not known whether converged: no speed at half the spacing (2 runs unstable)\n");
@@ -72,13 +72,13 @@ class ConvergeCommandTest extends FakeSimulatorTest {
     /** A winner that has changed since has none. */
     @Test
     void whatIsOfAnotherGaitIsNotShown() throws IOException {
-        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+        ok(natator("converge", run.toString()));
         String found = file("run", "converge.json");
         Files.writeString(run.resolve("converge.json"),
                 found.replaceFirst("\"frequency\" : [0-9.]+", "\"frequency\" : 0.123"));
         forget();
 
-        assertThat(natator("show", run.toString())).isZero();
+        ok(natator("show", run.toString()));
 
         assertThat(out.toString()).doesNotContain("converged", "finer steps");
     }

@@ -37,6 +37,6 @@ abstract class FakeSimulatorTest extends CommandTest {
                 List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
                         "5", "--output-dir", folder.resolve(runName).toString()));
         arguments.addAll(List.of(more));
-        return natator(arguments.toArray(String[]::new));
+        return natator(arguments);
     }
 }

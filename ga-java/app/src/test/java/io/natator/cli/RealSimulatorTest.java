@@ -29,10 +29,8 @@ class RealSimulatorTest extends CommandTest {
     void aTinyEvolution() throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(
-                natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
-                        "--duration", "0.1", "--output-dir", run.toString()))
-                .as(err.toString()).isZero();
+        ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
+                "--duration", "0.1", "--output-dir", run.toString()));
 
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(4);
@@ -44,8 +42,8 @@ class RealSimulatorTest extends CommandTest {
                 .as("evaluations that went well").hasSizeGreaterThan(6);
 
         out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", SMALL, "--scheme", "conserving", "--duration", "0.1", "--gait",
-                run.resolve("best.json").toString())).isZero();
+        ok(natator("evaluate", "--scene", SMALL, "--scheme", "conserving", "--duration", "0.1", "--gait",
+                run.resolve("best.json").toString()));
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
@@ -69,16 +67,16 @@ class RealSimulatorTest extends CommandTest {
                 "0.5"};
         List<String> elsewhere = new ArrayList<>(List.of(swim));
         elsewhere.addAll(List.of("--simulator-command", "exec " + SIMULATOR + " serve"));
-        assertThat(natator(swim)).as(err.toString()).isZero();
+        ok(natator(swim));
         String here = out.toString();
         out.getBuffer().setLength(0);
 
-        assertThat(natator(elsewhere.toArray(String[]::new))).as(err.toString()).isZero();
+        ok(natator(elsewhere));
         assertThat(out.toString()).isEqualTo(here);
 
         assumeThat(ProgramInfo.of(SIMULATOR).instructionSet()).isNotEqualTo("portable");
         elsewhere.set(elsewhere.size() - 1, "NATATOR_ISA=portable exec " + SIMULATOR + " serve");
-        assertThat(natator(elsewhere.toArray(String[]::new))).isEqualTo(2);
+        assertThat(natator(elsewhere)).isEqualTo(2);
         assertThat(err.toString()).contains("swims otherwise than this program", "NATATOR_ISA").containsOnlyOnce("\n");
     }
 
@@ -87,11 +85,11 @@ class RealSimulatorTest extends CommandTest {
     @CsvSource({"pool/creature-1, false", "thesis/creature-1, true"})
     void aWinnerIsCheckedByItsControls(String scene, boolean hasClamp) throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
+                "--output-dir", run.toString()));
         out.getBuffer().setLength(0);
 
-        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+        ok(natator("check", "--starts", "2", run.toString()));
 
         assertThat(out.toString()).contains("in water ", "with resting muscles ", "in vacuum ", "half the time step ",
                 "mirrored ", "other backend             not tried", "under water ", "2 completed", "\nverdict: ");
@@ -105,7 +103,7 @@ class RealSimulatorTest extends CommandTest {
         assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
 
         out.getBuffer().setLength(0);
-        assertThat(execute("show", run.toString())).isZero();
+        ok(execute("show", run.toString()));
         assertThat(out.toString()).contains("  checked     ");
     }
 
@@ -118,7 +116,7 @@ class RealSimulatorTest extends CommandTest {
             List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(),
                     "--max-size", "1000000",
                     "thesis/creature-1-vacuum");
-            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isEqualTo(2);
+            assertThat(natator(arguments)).isEqualTo(2);
             assertThat(err.toString()).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
             assertThat(output).doesNotExist();
         }
@@ -128,11 +126,10 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration",
-                "0.105",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration", "0.105",
+                "--output-dir", run.toString()));
         err.getBuffer().setLength(0);
-        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+        ok(natator("check", "--starts", "2", run.toString()));
         assertThat(err.toString()).doesNotContain("no snapshot", "--at");
         assertThat(run.resolve("check.json")).content().contains("underWater");
     }
@@ -141,13 +138,11 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations",
-                "0", "--duration", "0.1",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations", "0",
+                "--duration", "0.1", "--output-dir", run.toString()));
         forget();
 
-        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString())
-                .isZero();
+        ok(natator("converge", "--starts", "2", "--levels", "time/2", run.toString()));
         assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", " at time step and spacing 0, from ");
         assertThat(err.toString().lines()).as("runs").hasSize(4)
                 .allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
@@ -155,7 +150,7 @@ class RealSimulatorTest extends CommandTest {
 
         String found = out.toString();
         forget();
-        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).isZero();
+        ok(natator("converge", "--starts", "2", "--levels", "time/2", run.toString()));
         assertThat(out.toString()).isEqualTo(found);
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4);
     }
@@ -169,16 +164,16 @@ class RealSimulatorTest extends CommandTest {
         List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
                 "--output-dir", run.toString()));
         arguments.addAll(List.of(options.split(" ")));
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        ok(natator(arguments));
         out.getBuffer().setLength(0);
 
-        assertThat(natator("show", run.toString(), "--generation", "0")).isZero();
+        ok(natator("show", run.toString(), "--generation", "0"));
         assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString())).body()).isNull();
         forget();
-        assertThat(execute("show", run.toString())).isZero();
+        ok(execute("show", run.toString()));
         assertThat(out.toString()).contains(line);
         out.getBuffer().setLength(0);
-        assertThat(execute("show", "--json", run.toString())).isZero();
+        ok(execute("show", "--json", run.toString()));
         assertThat(Json.parse(out.toString(), JsonNode.class).get(key)).isNotEmpty();
     }
 
@@ -188,7 +183,7 @@ class RealSimulatorTest extends CommandTest {
             "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
     void whatIsNotMeasuredIsNoObjective(String option, String value, String message) {
         assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
-                "--duration", "0.02", option, value, "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+                "--duration", "0.02", option, value, "--output-dir", path("run"))).isEqualTo(2);
 
         assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow())
                 .startsWith("natator evolve: " + message);
@@ -203,11 +198,9 @@ class RealSimulatorTest extends CommandTest {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
-            assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6",
-                    "--generations", "1",
+            ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "1",
                     "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode,
-                    "--output-dir",
-                    run.toString())).as(err.toString()).isZero();
+                    "--output-dir", run.toString()));
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
 
@@ -222,11 +215,11 @@ class RealSimulatorTest extends CommandTest {
         for (String name : List.of("first", "second", "without")) {
             List<String> arguments = new ArrayList<>(List.of("evolve", "--scene", SMALL, "--scheme", "conserving",
                     "--population", "4", "--generations", "1", "--duration", "0.05", "--output-dir",
-                    folder.resolve(name).toString()));
+                    path(name)));
             if (name.equals("without")) {
                 arguments.add("--no-cache");
             }
-            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+            ok(natator(arguments));
         }
 
         for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
@@ -243,8 +236,8 @@ class RealSimulatorTest extends CommandTest {
     void everyCreatureHasItsActuators(int creature, int actuators) throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0",
-                "--duration", "0.02", "--output-dir", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0", "--duration",
+                "0.02", "--output-dir", run.toString()));
         assertThat(Json.parse(Files.readString(run.resolve("config.json")), JsonNode.class).get("actuators").asInt())
                 .isEqualTo(actuators);
     }
@@ -257,7 +250,7 @@ class RealSimulatorTest extends CommandTest {
         List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
         arguments.addAll(List.of("--overrides", "{\"creature\":{\"joints\":[5]}}", "--output-dir", output.toString()));
 
-        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
+        assertThat(natator(arguments)).isEqualTo(2);
 
         assertThat(err.toString().lines()).singleElement().asString().startsWith("natator " + arguments.get(0))
                 .contains("cannot move by itself: it has no actuators").contains("at least two joints");
@@ -272,7 +265,6 @@ class RealSimulatorTest extends CommandTest {
         assertThat(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
                 .isEqualTo(2);
 
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains(named);
+        assertThat(err.toString()).hasLineCount(1).contains(named);
     }
 }

@@ -33,17 +33,16 @@ class ResumeCommandTest extends FakeSimulatorTest {
     @Test
     void stopsInTimeAndContinues() throws IOException {
         Files.writeString(folder.resolve("slow"), "0.4");
-        assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
+        ok(evolve("run", "--workers", "1", "--stop-after", "5"));
         for (int i = 0; i < 100 && !Files.exists(folder.resolve("run/evaluations.jsonl")); i++) {
-            assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "1", "--stop-after", "5"))
-                    .isZero();
+            ok(natator("resume", path("run"), "--workers", "1", "--stop-after", "5"));
         }
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
         Files.delete(folder.resolve("slow"));
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--simulator", "resident")).isZero();
-        assertThat(evolve("whole")).isZero();
+        ok(natator("resume", path("run"), "--simulator", "resident"));
+        ok(evolve("whole"));
 
         for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
             assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
@@ -61,8 +60,8 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(file("run", "evaluations.jsonl")).doesNotContain("\"failed\"");
 
         assertThat(simulator.toFile().setExecutable(true)).isTrue();
-        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
-        assertThat(evolve("whole", "--scene", "fault/locked")).isZero();
+        ok(natator("resume", path("run")));
+        ok(evolve("whole", "--scene", "fault/locked"));
         for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
             assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
         }
@@ -72,24 +71,24 @@ class ResumeCommandTest extends FakeSimulatorTest {
     @Test
     void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
         Files.writeString(folder.resolve("slow"), "0.5");
-        assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        ok(evolve("run", "--stop-after", "0.3"));
         Files.delete(folder.resolve("slow"));
         err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
+        ok(natator("resume", path("run"), "--backend", "auto"));
 
         assertThat(err.toString()).startsWith("backend was cpu, is now auto: last digits");
         assertThat(Json.parse(file("run", "config.json"), JsonNode.class).get("backend").asText()).isEqualTo("auto");
         assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("backend").asText())
                 .isEqualTo("auto");
         err.getBuffer().setLength(0);
-        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        ok(natator("resume", path("run")));
         assertThat(err.toString()).doesNotContain("backend was");
     }
 
     @Test
     void whatFollowsFromTheCheckpointMayBeDamaged() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String best = file("run", "best.json");
         out.getBuffer().setLength(0);
         Files.writeString(folder.resolve("run/best.json"), best.lines().limit(8).collect(Collectors.joining("\n")));
@@ -97,10 +96,10 @@ class ResumeCommandTest extends FakeSimulatorTest {
         Files.writeString(folder.resolve("run/check.json"), "{");
 
         assertThat(warnings(() -> {
-            assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+            ok(natator("show", path("run")));
             assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
                     "  flow        Reynolds number 131, Strouhal number 0.313\n");
-            assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+            ok(natator("resume", path("run")));
         })).as("each once").containsExactly(
                 "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 8, column 5); taken from checkpoint.json instead",
@@ -127,7 +126,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void genesThatStandForNothingAreNamed() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.delete(folder.resolve("run/best.json"));
         Path checkpoint = folder.resolve("run/checkpoint.json");
         ObjectNode state = Json.read(checkpoint, ObjectNode.class, "checkpoint");
@@ -135,7 +134,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
         Files.writeString(checkpoint, Json.document(state));
         for (String command : List.of("show", "resume")) {
             err.getBuffer().setLength(0);
-            assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
+            assertThat(natator(command, path("run"))).isEqualTo(2);
             assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
                     + " is damaged: genes of checkpoint.json: gene 1 (frequency) is 99.0; expected a number from 0.5 to 2.0\n");
         }
@@ -143,13 +142,13 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void aDamagedCountOfSavingsDoesNotStopARun() throws IOException {
-        assertThat(evolve("whole")).isZero();
-        assertThat(evolve("run")).isZero();
+        ok(evolve("whole"));
+        ok(evolve("run"));
         String before = file("run", "checkpoint.json");
         Files.writeString(folder.resolve("run/savings.json"), "[1");
         Files.delete(folder.resolve("run/checkpoint.json"));
 
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
 
         assertThat(file("run", "checkpoint.json")).isEqualTo(before);
         assertThat(file("run", "savings.json")).isEqualTo(file("whole", "savings.json"));
@@ -157,13 +156,13 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void resumingTellsHowFarTheWholeRunIs() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         List<String> all = file("run", "evaluations.jsonl").lines().toList();
         Files.delete(folder.resolve("run/checkpoint.json"));
         Files.write(folder.resolve("run/evaluations.jsonl"), all.subList(0, all.size() - 3));
         err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow())
                 .startsWith("generation 3 of 3, mean ")
                 .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
@@ -171,10 +170,10 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void aFinishedRunCanHaveMoreGenerations() throws IOException {
-        assertThat(evolve("run", "--starts", "2")).isZero();
-        String folderName = folder.resolve("run").toString();
-        assertThat(natator("resume", folderName, "--generations", "5")).as(err.toString()).isZero();
-        assertThat(evolveTo(5, "whole", "--starts", "2")).isZero();
+        ok(evolve("run", "--starts", "2"));
+        String folderName = path("run");
+        ok(natator("resume", folderName, "--generations", "5"));
+        ok(evolveTo(5, "whole", "--starts", "2"));
         for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
                 "evaluations.jsonl", "savings.json")) {
             assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
@@ -188,17 +187,17 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(natator("resume", folderName, "--generations", "60", "--stop-after", "-1")).isEqualTo(2);
         assertThat(natator("resume", folderName, "--generations", "60", "--simulator-path", "/nowhere")).isNotZero();
         assertThat(file("run", "config.json")).as("nothing was begun").isEqualTo(file("whole", "config.json"));
-        assertThat(natator("resume", folderName, "--generations", "5")).isZero();
+        ok(natator("resume", folderName, "--generations", "5"));
         assertThat(file("run", "checkpoint.json")).isEqualTo(file("whole", "checkpoint.json"));
     }
 
     @Test
     void whatEndsByItsEvaluationsHasNoMoreGenerations() throws IOException {
-        assertThat(evolve("run", "--evaluations", "20")).isZero();
+        ok(evolve("run", "--evaluations", "20"));
         String config = file("run", "config.json");
         err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "9")).isEqualTo(2);
+        assertThat(natator("resume", path("run"), "--generations", "9")).isEqualTo(2);
         assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run")
                 + " ends after its 20 evaluations, however many --generations it may have\n");
         assertThat(file("run", "config.json")).isEqualTo(config);
@@ -206,10 +205,10 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void resumingAFinishedRunChangesNothing() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
+        ok(natator("resume", path("run"), "--workers", "3"));
         assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
                 .isEqualTo(before);
     }
@@ -217,20 +216,20 @@ class ResumeCommandTest extends FakeSimulatorTest {
     /** Neither an idle resume changes anything, nor one that is refused, nor one whose simulator would refuse. */
     @Test
     void aCompactRunStaysAsItIs() throws IOException {
-        assertThat(evolve("run")).isZero();
-        String run = folder.resolve("run").toString();
-        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        ok(evolve("run"));
+        String run = path("run");
+        ok(natator("resume", run, "--compact"));
         assertThat(folder.resolve("run/evaluations.jsonl")).doesNotExist();
         Map<String, String> before = files();
 
-        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--compact"));
         assertThat(files()).isEqualTo(before);
 
-        assertThat(natator("resume", run)).as(err.toString()).isZero();
+        ok(natator("resume", run));
         assertThat(files()).isEqualTo(before);
         assertThat(natator("resume", run, "--generations", "2")).isEqualTo(2);
         assertThat(files()).isEqualTo(before);
-        assertThat(natator("resume", run, "--backend", "cuda")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--backend", "cuda"));
         assertThat(files()).isEqualTo(before);
     }
 
@@ -242,14 +241,14 @@ class ResumeCommandTest extends FakeSimulatorTest {
         if (isStopped) {
             Files.writeString(folder.resolve("slow"), "0.5");
         }
-        assertThat(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
-                isStopped ? "2" : "100")).isZero();
+        ok(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
+                isStopped ? "2" : "100"));
         Files.deleteIfExists(folder.resolve("slow"));
         assertThat(folder.resolve("run/checkpoint.json").toFile().exists()).isNotEqualTo(isStopped);
         if (how.equals("compact")) {
             CompactRun.compact(folder.resolve("run"));
         }
-        String run = folder.resolve("run").toString();
+        String run = path("run");
         String config = file("run", "config.json");
         edit("run/config.json", settings -> {
             settings.put("duration", 3).put("seed", 6).put("population", 9).put("encoding", "sparse")
@@ -268,19 +267,19 @@ class ResumeCommandTest extends FakeSimulatorTest {
         }
         assertThat(files()).isEqualTo(before);
         err.getBuffer().setLength(0);
-        assertThat(natator("show", run)).isZero();
+        ok(natator("show", run));
         assertThat(err.toString()).startsWith("natator show: ")
                 .contains("config.json was edited after the run was begun: scene was").hasLineCount(1);
 
         Files.writeString(folder.resolve("run/config.json"), config);
-        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--generations", "4"));
     }
 
     /** A file's scene may be edited: its name says nothing of that. */
     @Test
     void aSceneThatWasChangedIsRefused() throws IOException {
-        assertThat(evolve("run")).as(err.toString()).isZero();
-        String run = folder.resolve("run").toString();
+        ok(evolve("run"));
+        String run = path("run");
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
         Map<String, String> before = files();
         err.getBuffer().setLength(0);
@@ -291,17 +290,17 @@ class ResumeCommandTest extends FakeSimulatorTest {
                 + " was begun; expected the scene that it was begun with, or a new run\n");
         assertThat(files()).isEqualTo(before);
         Files.delete(folder.resolve("scene"));
-        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--generations", "4"));
     }
 
     /** What a winner does in another scene, or by other settings, is not what it was chosen for, and would stand in the run's folder. */
     @ParameterizedTest
     @ValueSource(strings = {"check", "converge", "compare"})
     void noWinnerIsExaminedInAnotherScene(String command) throws IOException {
-        assertThat(evolve("run")).as(err.toString()).isZero();
-        assertThat(evolve("other")).as(err.toString()).isZero();
-        String run = folder.resolve("run").toString();
-        String[] examined = command.equals("compare") ? new String[] {command, folder.resolve("other").toString(), run}
+        ok(evolve("run"));
+        ok(evolve("other"));
+        String run = path("run");
+        String[] examined = command.equals("compare") ? new String[] {command, path("other"), run}
                 : new String[] {command, run};
         Path scene = Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
         Path config = folder.resolve("run/config.json");
@@ -327,38 +326,36 @@ class ResumeCommandTest extends FakeSimulatorTest {
     void aDescriptionOfTheSceneMayBeChanged() throws IOException {
         Path scene = Files.writeString(folder.resolve("scene"),
                 "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");
-        assertThat(evolve("run")).as(err.toString()).isZero();
+        ok(evolve("run"));
 
         Files.writeString(scene, "{\"creature\":{\"description\":\"a conger\",\"spacing\":1}}");
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
-                .isZero();
+        ok(natator("resume", path("run"), "--generations", "4"));
         Files.writeString(scene, "{\"creature\":{\"spacing\":2}}");
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+        assertThat(natator("resume", path("run"), "--generations", "5")).isEqualTo(2);
     }
 
     @Test
     void aRunThatDoesNotTellItsSceneGoesOn() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         edit("run/environment.json", environment -> environment.remove("sceneSha256"));
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
-                .isZero();
+        ok(natator("resume", path("run"), "--generations", "4"));
 
         Files.delete(folder.resolve("scene"));
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+        assertThat(natator("resume", path("run"), "--generations", "5")).isEqualTo(2);
     }
 
     @Test
     void howFarARunGoesMayBeEditedAndWhatAnEarlierVersionBeganGoesOn() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         edit("run/config.json", settings -> settings.put("generations", 4).put("evaluations", 1000));
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(file("run", "generations.csv").lines()).hasSize(6);
 
         edit("run/environment.json", environment -> environment.remove("settings"));
         edit("run/config.json", settings -> settings.put("generations", 5).remove("evaluations"));
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("settings"))
                 .isEqualTo(Json.parse(file("run", "config.json"), JsonNode.class));
     }
@@ -384,11 +381,11 @@ class ResumeCommandTest extends FakeSimulatorTest {
     /** What was computed on the processor is not said to be of another backend because somebody looked at it again. */
     @Test
     void aFinishedRunKeepsItsBackend() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String before = file("run", "config.json") + file("run", "environment.json");
         err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto", "--workers", "1")).isZero();
+        ok(natator("resume", path("run"), "--backend", "auto", "--workers", "1"));
 
         assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
         assertThat(file("run", "config.json") + file("run", "environment.json")).isEqualTo(before);

@@ -221,7 +221,7 @@ class ViewCommandTest extends CommandTest {
             forget();
             List<String> all = new ArrayList<>(List.of(command.split(" ")));
             all.addAll(List.of("thesis/creature-1", "--gait", gait.toString()));
-            assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
+            assertThat(natator(all)).isEqualTo(2);
             assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait." + message + "\n");
         }
     }
@@ -247,7 +247,7 @@ class ViewCommandTest extends CommandTest {
             if (!arguments.startsWith("--port")) {
                 all.addAll(List.of("--port", "0"));
             }
-            assertThat(natator(all.toArray(String[]::new))).as(err.toString()).isEqualTo(status);
+            assertThat(natator(all)).as(err.toString()).isEqualTo(status);
         }
         assertThat(err.toString()).startsWith(message);
         assertThat(err.toString().lines()).hasSize(1);

@@ -87,8 +87,7 @@ public final class BodyGenome {
         for (Point point : curve.points()) {
             if (isShown(point)) {
                 add(named(name, point), Math.max(thinnest(), MIN_THICKNESS * point.value()),
-                        MAX_THICKNESS * point.value(),
-                        point.value());
+                        MAX_THICKNESS * point.value(), point.value());
             }
         }
     }

@@ -35,8 +35,7 @@ public final class ConvergenceText {
             return "not converged";
         }
         return finer.stream().allMatch(level -> reach(level, Limit.SURE) <= Limit.CONVERGED)
-                ? "converged to within 10 %"
-                : "not known whether converged";
+                ? "converged to within 10 %" : "not known whether converged";
     }
 
     /** How large a level's change may be, or has to be, as a share; nothing is known where it has none or no error. */

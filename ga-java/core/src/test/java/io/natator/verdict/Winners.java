@@ -31,8 +31,7 @@ public final class Winners {
     public static BestGait best(String scene, SimulationResult water, Double length, SimulationResult vacuum,
             FreshRuns fresh) {
         return new BestGait(scene, List.of(1.0), GAIT, null, water.distanceOrZero(), water.speed(), water, length,
-                vacuum,
-                2.5, 1, fresh);
+                vacuum, 2.5, 1, fresh);
     }
 
     /** Runs of 4 s that got so far. */
