@@ -21,10 +21,9 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void showsARunAtAnyTime() throws IOException {
         ok(evolve("run", "--scene", "fault/mixed", "--vacuum-check"));
-        out.getBuffer().setLength(0);
 
-        ok(natator("show", path("run")));
-        assertThat(out.toString()).startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
+        ok(natator("show", path("run")))
+                .startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
                 .contains("generation 3: best ", "; finished", "best gait of fault/mixed after 3 generations",
                         "early stop  0.0 %", "unchanged ", "cache       0 evaluations", "in vacuum",
                         "evaluations failed, the last, ", "no valid result")
@@ -32,9 +31,7 @@ class CompareCommandTest extends FakeSimulatorTest {
 
         Files.delete(folder.resolve("run/checkpoint.json"));
         Files.delete(folder.resolve("run/best.json"));
-        out.getBuffer().setLength(0);
-        ok(natator("show", path("run")));
-        assertThat(out.toString())
+        ok(natator("show", path("run")))
                 .containsPattern("no checkpoint.json, [1-9][0-9] evaluations of several generations; continue by: ");
     }
 
@@ -42,7 +39,6 @@ class CompareCommandTest extends FakeSimulatorTest {
     void comparesRunsAtTheSameNumberOfEvaluations() throws IOException {
         ok(evolve("short", "--optimizer", "cma-es", "--evaluations", "24"));
         ok(evolve("long", "--optimizer", "random", "--evaluations", "32"));
-        out.getBuffer().setLength(0);
 
         ok(natator("compare", path("short"), path("long")));
         List<String> lines = out.toString().lines().toList();
@@ -65,7 +61,6 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(lines.get(21)).startsWith("at equal simulated time (");
         assertThat(lines).hasSize(25);
         assertThat(err.toString()).contains(" swims from fresh starts; --starts 0 leaves that out");
-        out.getBuffer().setLength(0);
 
         ok(natator("compare", "--starts", "0", path("short"), path("long")));
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
@@ -76,7 +71,6 @@ class CompareCommandTest extends FakeSimulatorTest {
     void whatTheBestIsWorthMayBeNegative() throws IOException {
         ok(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16"));
         ok(evolve("two", "--optimizer", "cma-es", "--objectives", "work", "--evaluations", "16"));
-        out.getBuffer().setLength(0);
 
         ok(natator("compare", "--starts", "0", path("one"), path("two")));
         String last = file("one", "generations.csv").lines().reduce((a, b) -> b).orElseThrow();
@@ -93,17 +87,13 @@ class CompareCommandTest extends FakeSimulatorTest {
             ok(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.5", "--evaluations", "16"));
             arguments.add(path(optimizer));
         }
-        out.getBuffer().setLength(0);
-        ok(natator(arguments));
-        assertThat(out.toString())
+        ok(natator(arguments))
                 .contains("from 2 fresh starts: median worth by work=0.5 [95 % bootstrap interval]\n   run 1  -")
                 .doesNotContain("median distance");
 
         ok(evolve("far", "--evaluations", "16"));
         arguments.add(path("far"));
-        out.getBuffer().setLength(0);
-        ok(natator(arguments));
-        assertThat(out.toString()).contains("from 2 fresh starts: median distance [").doesNotContain("median worth");
+        ok(natator(arguments)).contains("from 2 fresh starts: median distance [").doesNotContain("median worth");
     }
 
     @Test
@@ -113,14 +103,10 @@ class CompareCommandTest extends FakeSimulatorTest {
         }
         assertThat(out.toString())
                 .containsPattern("selected +-0\\.0{4,}[1-9]\\d\\d by one run, -0\\.0{4,}[1-9]\\d\\d again");
-        out.getBuffer().setLength(0);
-        ok(natator("show", path("random")));
-        assertThat(out.toString()).containsPattern(
+        ok(natator("show", path("random"))).containsPattern(
                 "best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
-        out.getBuffer().setLength(0);
-        ok(natator("compare", "--starts", "2", path("random"), path("cma-es")));
-        assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d")
-                .containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
+        ok(natator("compare", "--starts", "2", path("random"), path("cma-es")))
+                .containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d").containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
     }
 
     @Test
@@ -130,10 +116,9 @@ class CompareCommandTest extends FakeSimulatorTest {
         double offset = Json.parse(file("dense", "best.json"), JsonNode.class).at("/gait/offset/0").doubleValue();
         String both = String.format(Locale.ROOT, "%.4f %<.4f", offset);
         assertThat(out.toString()).contains("\n  offset      " + both + "\n");
-        out.getBuffer().setLength(0);
 
-        ok(natator("compare", "--starts", "0", path("dense"), path("sparse")));
-        assertThat(out.toString()).contains(", dense-steered genes, ", ", sparse-steered genes, ",
+        ok(natator("compare", "--starts", "0", path("dense"), path("sparse"))).contains(", dense-steered genes, ",
+                ", sparse-steered genes, ",
                 ", offset " + both + "\n");
     }
 
@@ -149,10 +134,8 @@ class CompareCommandTest extends FakeSimulatorTest {
                 arguments.add(run);
             }
         }
-        out.getBuffer().setLength(0);
 
-        ok(natator(arguments));
-        assertThat(out.toString()).contains(
+        ok(natator(arguments)).contains(
                 "at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
                 "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
     }
@@ -198,17 +181,14 @@ class CompareCommandTest extends FakeSimulatorTest {
     void whatIsNoRunIsNamed(String command) {
         String nothing = path("nothing");
 
-        assertThat(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
-                .isEqualTo(2);
-        assertThat(err.toString().strip())
-                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json");
+        refused(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
+                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json\n");
     }
 
     @Test
     void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
         ok(evolve("run"));
         Files.createDirectories(folder.resolve("run/check.json.new/in the way"));
-        forget();
 
         assertThat(natator("check", "--starts", "2", path("run"))).isEqualTo(1);
 
@@ -220,7 +200,6 @@ class CompareCommandTest extends FakeSimulatorTest {
     void aCheckThatCannotLookAtTheWaterKeepsTheRest() throws IOException {
         ok(evolve("run"));
         Files.createFile(folder.resolve("no-recording"));
-        forget();
 
         ok(natator("check", "--starts", "2", path("run")));
 
@@ -233,14 +212,11 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void checkNeedsTwoStartsAndARun() throws IOException {
         ok(evolve("run"));
-        out.getBuffer().setLength(0);
         for (String starts : List.of("1", "0", "2000")) {
-            err.getBuffer().setLength(0);
-            assertThat(natator("check", "--starts", starts, path("run"))).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator check: --starts is " + starts
+            refused(natator("check", "--starts", starts, path("run"))).isEqualTo("natator check: --starts is " + starts
                     + "; expected a whole number from 2 to 1000\n");
         }
-        assertThat(natator("check", folder.toString())).isEqualTo(2);
+        refused(natator("check", folder.toString()));
         assertThat(folder.resolve("run/check.json")).doesNotExist();
     }
 }

@@ -6,7 +6,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
-import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -17,9 +16,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
 
     @Test
     void evolvesAndReports() throws IOException {
-        ok(evolve("run"));
-
-        assertThat(out.toString())
+        ok(evolve("run"))
                 .startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
                 .contains("  evaluations about 50\n", "  time        about ",
                         "best gait of pool/creature-1 after 3 generations",
@@ -50,18 +47,17 @@ class EvolveCommandTest extends FakeSimulatorTest {
     @Test
     void aFolderWithASpaceIsQuotedInCommands() throws IOException {
         String run = "'" + folder.resolve("minnow one") + "'";
-        ok(evolve("minnow one", "--optimizer", "map-elites"));
-        assertThat(out.toString()).contains("natator view --run " + run + "\n", "natator page " + run + "\n",
+        ok(evolve("minnow one", "--optimizer", "map-elites")).contains("natator view --run " + run + "\n",
+                "natator page " + run + "\n",
                 "run folder  " + folder.resolve("minnow one"));
-        ok(natator("show", path("minnow one")));
-        assertThat(out.toString()).contains("natator view --run " + run + " swims them");
+        ok(natator("show", path("minnow one"))).contains("natator view --run " + run + " swims them");
 
         Files.writeString(folder.resolve("slow"), "0.2");
         ok(evolve("one cut", "--workers", "1", "--stop-after", "4"));
         assertThat(err.toString())
                 .endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
-        ok(natator("show", path("one cut")));
-        assertThat(out.toString()).contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
+        ok(natator("show", path("one cut")))
+                .contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
     }
 
     @ParameterizedTest
@@ -69,11 +65,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void theWorkersDoNotChangeAByte(String operators) throws IOException {
         ok(evolve("one", "--workers", "1", "--operators", operators));
         ok(evolve("four", "--workers", "4", "--operators", operators));
-
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
-                "evaluations.jsonl")) {
-            assertThat(file("four", name)).as(name).isEqualTo(file("one", name));
-        }
+        assertSameRuns("four", "one", "config.json");
     }
 
     @ParameterizedTest
@@ -83,20 +75,15 @@ class EvolveCommandTest extends FakeSimulatorTest {
             ok(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations", "29",
                     "--starts", "" + starts));
         }
-
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
-                "evaluations.jsonl")) {
-            assertThat(file("resident", name)).as(name).isEqualTo(file("process", name));
-            assertThat(file("batch", name)).as(name).isEqualTo(file("process", name));
-        }
+        assertSameRuns("resident", "process", "config.json");
+        assertSameRuns("batch", "process", "config.json");
         assertThat(file("process", "evaluations.jsonl").lines()).hasSize(29);
     }
 
     @Test
     void aDryRunPlansAndDoesNothing() {
-        ok(evolve("run", "--dry-run", "--workers", "3"));
-
-        assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 1m16s each",
+        ok(evolve("run", "--dry-run", "--workers", "3")).contains("evaluations about 50", "process, 3 at once",
+                "time limit 1m16s each",
                 "run folder  " + folder.resolve("run"), "time        about ");
         assertThat(folder.resolve("run")).doesNotExist();
     }
@@ -112,42 +99,34 @@ class EvolveCommandTest extends FakeSimulatorTest {
 
     @Test
     void withoutOptionsItIsTheQuickPreset() {
-        ok(natator("evolve", "--dry-run", "--output-dir", path("run")));
-        assertThat(out.toString())
+        ok(natator("evolve", "--dry-run", "--output-dir", path("run")))
                 .startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
                 .contains(", backend cpu, 2.0 s\n", "evaluations about 100\n");
-        out.getBuffer().setLength(0);
 
-        ok(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3"));
-        assertThat(out.toString()).contains(", scheme flex, 3.0 s\n");
-        out.getBuffer().setLength(0);
+        ok(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3"))
+                .contains(", scheme flex, 3.0 s\n");
 
-        ok(natator("evolve", "--dry-run", "--preset", "thesis"));
-        assertThat(out.toString()).startsWith("thesis/creature-1, ").contains("population 150, 100 generations",
+        ok(natator("evolve", "--dry-run", "--preset", "thesis")).startsWith("thesis/creature-1, ").contains(
+                "population 150, 100 generations",
                 ", backend cpu\n");
     }
 
     @Test
     void oneGenerationIsNotSeveral() {
-        ok(evolveTo(1, "run", "--workers", "1"));
-
-        assertThat(out.toString()).contains(", 1 generation, ", " ends early: 1 takes ", " after 1 generation and ");
+        ok(evolveTo(1, "run", "--workers", "1")).contains(", 1 generation, ", " ends early: 1 takes ",
+                " after 1 generation and ");
     }
 
     @Test
     void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
-        ok(evolve("run", "--scene", "fault/mixed"));
-
-        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ",
+        ok(evolve("run", "--scene", "fault/mixed")).contains("time        not known: a trial evaluation failed: ",
                 "best gait of fault/mixed");
     }
 
     /** Many more at once than there are processors would only wait for each other. */
     @Test
     void aDryRunTriesNoMoreThanTheProcessorsDoAtOnce() {
-        ok(evolve("run", "--dry-run", "--workers", "1024"));
-
-        assertThat(out.toString()).contains("process, 1024 at once",
+        ok(evolve("run", "--dry-run", "--workers", "1024")).contains("process, 1024 at once",
                 Runtime.getRuntime().availableProcessors() + " take ");
     }
 
@@ -182,27 +161,20 @@ class EvolveCommandTest extends FakeSimulatorTest {
     /** The runs are those that each seed gives alone. */
     @Test
     void evolvesWithSeveralSeedsInPieces() throws IOException {
-        String[] study = {"evolve", "--creature", "1", "--seeds", "3", "--evaluations", "30", "--population", "6",
-                "--simulator", "batch",
-                "--output-dir", path("study")};
-        List<String> piece = new ArrayList<>(List.of(study));
-        piece.addAll(List.of("--stop-after", "0.3"));
+        String command = "evolve --creature 1 --seeds 3 --evaluations 30 --population 6 --simulator batch";
+        String[] study = words(command, "--output-dir", path("study"));
         Files.writeString(folder.resolve("slow"), "0.5");
-        ok(natator(piece));
-        assertThat(out.toString()).contains(" of 3 runs finished in ", "; the same command continues");
+        ok(natator(words(command + " --stop-after 0.3", "--output-dir", path("study"))))
+                .contains(" of 3 runs finished in ", "; the same command continues");
 
         Files.delete(folder.resolve("slow"));
-        ok(natator(study));
-        assertThat(out.toString()).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
-        ok(natator("evolve", "--creature", "1", "--seed", "2", "--evaluations", "30", "--population", "6",
-                "--output-dir", path("alone")));
+        ok(natator(study)).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
+        ok(natator(words("evolve --creature 1 --seed 2 --evaluations 30 --population 6 --output-dir", path("alone"))));
         assertThat(folder.resolve("study/seed-2/evaluations.jsonl"))
                 .hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
 
-        err.getBuffer().setLength(0);
         study[6] = "40";
-        assertThat(natator(study)).isEqualTo(2);
-        assertThat(err.toString()).contains("seed-1 was begun with other settings: evaluations was 30, is now 40")
+        refused(natator(study)).contains("seed-1 was begun with other settings: evaluations was 30, is now 40")
                 .hasLineCount(1);
     }
 }

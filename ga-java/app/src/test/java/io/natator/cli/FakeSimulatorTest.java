@@ -33,10 +33,8 @@ abstract class FakeSimulatorTest extends CommandTest {
     }
 
     int evolveTo(int generations, String runName, String... more) {
-        List<String> arguments = new ArrayList<>(
-                List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
-                        "5", "--output-dir", folder.resolve(runName).toString()));
-        arguments.addAll(List.of(more));
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", path(runName)));
+        arguments.addAll(List.of(words("--population 8 --seed 5 --generations " + generations, more)));
         return natator(arguments);
     }
 }

@@ -7,7 +7,6 @@ import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
@@ -24,9 +23,7 @@ class NewCommandTest extends CommandTest {
 
     private Path written(String kind, String name, String... options) throws IOException {
         Path file = folder.resolve(name + ".json");
-        List<String> arguments = new ArrayList<>(List.of("new", kind, name, "-o", file.toString()));
-        arguments.addAll(List.of(options));
-        ok(natator(arguments));
+        ok(natator(words("new " + kind + " " + name + " -o " + file, options)));
         assertThat(file).exists();
         assertThat(out.toString().lines()).hasSize(3).first().asString().startsWith(file + ": a " + kind);
         return file;
@@ -35,7 +32,6 @@ class NewCommandTest extends CommandTest {
     /** Runs what {@code new} has said should be tried next, as a shell does; {@code view} is left to itself. */
     private List<String> tried() throws IOException, InterruptedException {
         List<String> said = out.toString().lines().skip(1).map(String::strip).toList();
-        out.getBuffer().setLength(0);
         for (String command : said) {
             if (command.startsWith("natator new ")) {
                 ok(natator(command.substring("natator ".length()).split(" ")));
@@ -60,7 +56,6 @@ class NewCommandTest extends CommandTest {
 
         Path gait = folder.resolve("minnow-gait.json");
         assertThat(said.get(1)).isEqualTo("natator view --scene " + scene + " --gait " + gait);
-        out.getBuffer().setLength(0);
         ok(natator("evaluate", "--scene", scene.toString(), "--gait", gait.toString(), "--duration", "0.02",
                 "--overrides", IN_VACUUM));
         assertThat(Json.parse(out.toString(), JsonNode.class).get("status").asText()).isEqualTo("ok");

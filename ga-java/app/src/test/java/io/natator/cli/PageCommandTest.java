@@ -35,9 +35,8 @@ class PageCommandTest extends CommandTest {
                 run.toString()));
         Path page = folder.resolve("page.html");
 
-        ok(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()));
-
-        assertThat(out.toString()).endsWith(", no water\n");
+        ok(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
+                .endsWith(", no water\n");
         assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
         assertThat(err.toString()).doesNotContain("stored");
     }
@@ -47,7 +46,6 @@ class PageCommandTest extends CommandTest {
         Path run = folder.resolve("run");
         ok(natator("evolve", "--population", "2", "--generations", "0", "--duration", "0.1", "--output-dir",
                 run.toString()));
-        err.getBuffer().setLength(0);
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
         String[] again = {"page", run.toString(), "--no-water", "--force", "--output",
                 path("page.html")};
@@ -68,8 +66,7 @@ class PageCommandTest extends CommandTest {
         List<String> arguments = new ArrayList<>(
                 List.of("page", "pool/creature-1", "--duration", "0.05", "--no-water", "--output", page.toString()));
 
-        assertThat(natator(arguments)).isEqualTo(2);
-        assertThat(err).hasToString("natator page: output file " + page
+        refused(natator(arguments)).isEqualTo("natator page: output file " + page
                 + " is already there; choose another by --output, or replace it by --force\n");
         assertThat(page).hasContent("mine");
 
@@ -80,15 +77,12 @@ class PageCommandTest extends CommandTest {
 
     @Test
     void badInput() {
-        assertThat(natator("page", "thesis/creature-1", "--best", "0")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--best", "2")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
-        assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--output", folder.toString())).isEqualTo(2);
-        assertThat(err.toString())
-                .contains("output file is " + folder + ", which is a folder; expected the name of a file")
-                .contains("--best is 0; expected",
-                        "--best is 2; expected 1 with thesis/creature-1, which is no run folder\n")
-                .contains("--max-size is 0.0; expected").contains("no/such");
+        refused(natator("page", "thesis/creature-1", "--best", "0")).contains("--best is 0; expected");
+        refused(natator("page", "thesis/creature-1", "--best", "2"))
+                .contains("--best is 2; expected 1 with thesis/creature-1, which is no run folder\n");
+        refused(natator("page", "thesis/creature-1", "--max-size", "0")).contains("--max-size is 0.0; expected");
+        refused(natator("page", "no/such", "--duration", "0.1")).contains("no/such");
+        refused(natator("page", "thesis/creature-1", "--output", folder.toString()))
+                .contains("output file is " + folder + ", which is a folder; expected the name of a file");
     }
 }

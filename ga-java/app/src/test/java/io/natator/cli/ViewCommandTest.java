@@ -218,11 +218,8 @@ class ViewCommandTest extends CommandTest {
                 "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
         for (String command : List.of("view --no-browser --port 0 --scene",
                 "page --output " + folder.resolve("page.html"))) {
-            forget();
-            List<String> all = new ArrayList<>(List.of(command.split(" ")));
-            all.addAll(List.of("thesis/creature-1", "--gait", gait.toString()));
-            assertThat(natator(all)).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait." + message + "\n");
+            refused(natator(words(command, "thesis/creature-1", "--gait", gait.toString())))
+                    .isEqualTo("natator " + command.split(" ")[0] + ": natator-sim: gait." + message + "\n");
         }
     }
 

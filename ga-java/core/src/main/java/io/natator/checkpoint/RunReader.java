@@ -140,7 +140,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return Json.read(directory.resolve(RunWriter.CONFIG), EvolutionSettings.class, "settings");
     }
 
-    /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
+    /** The settings that the run was begun with; null if it has not begun or {@code environment.json} lacks them or is damaged. */
     static EvolutionSettings settingsBefore(Path directory) {
         Origin origin = origin(directory);
         return origin == null ? null : origin.settings();
@@ -151,7 +151,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return readable(directory, RunWriter.ENVIRONMENT, Origin.class);
     }
 
-    /** What {@code environment.json} tells of the experiment; null what an earlier version did not write. */
+    /** What {@code environment.json} tells of the experiment; null where it does not. */
     @JsonIgnoreProperties(ignoreUnknown = true)
     record Origin(String sceneSha256, EvolutionSettings settings) {
     }
@@ -263,8 +263,8 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
-     * The best gait of each kind that MAP-Elites found; null of another optimizer, and of a run by an earlier version, whose
-     * kinds were others.
+     * The best gait of each kind that MAP-Elites found; null of another optimizer, and of a run whose gaits have no effort to
+     * tell their kinds by.
      */
     public EliteMap elites() {
         boolean isMapped = settings.search().optimizer().mapsKinds() && state != null

@@ -43,8 +43,8 @@ public final class SceneDigest {
     /**
      * Refuses to go on with a run whose scene was changed.
      *
-     * @param directory of the run; one that has not begun, or that an earlier version began, has any scene
-     * @param settings  by which it is to go on; where they have another scene, or other overrides, nothing is said of that here
+     * @param directory of the run; one that recorded no digest goes on with any scene
+     * @param settings  that it is to go on with; another scene or other overrides are not checked here
      * @param digest    of their scene as it is now
      * @throws InvalidInputException that says which scene
      */
@@ -82,7 +82,7 @@ public final class SceneDigest {
     }
 
     /**
-     * Whether the scene that a run was begun with is another one now; not of a run of an earlier version, which does not know.
+     * Whether a run's scene was changed after the run was begun; false where the run recorded no digest.
      *
      * @param directory of the run
      * @param simulator the native program

@@ -13,7 +13,8 @@ import java.util.List;
 import java.util.Locale;
 
 /**
- * Whether a gait swims, judged by its runs from fresh starts (in old folders, by one run in water) and one without water.
+ * Whether a gait swims, judged by its runs from fresh starts, or by one run in water where there are none, and one without
+ * water.
  * The signs of distances count: what goes backwards does not swim forwards, and drift in vacuum speaks against a gait in
  * either direction.
  *
@@ -148,8 +149,8 @@ public record Verdict(Kind kind, String text, String advice) {
     }
 
     /**
-     * Whether a way can be set beside {@link Limit#MIN_DISTANCE}. A run that goes on knows no length of its body yet; old folders have but the
-     * vacuum's result, and units stand for it.
+     * Whether a way can be set beside {@link Limit#MIN_DISTANCE}. A run that goes on has neither its body's length nor a
+     * result in vacuum; a folder with the latter alone is judged in scene units.
      */
     static boolean isMeasurable(SimulationResult vacuum, Double bodyLength) {
         return bodyLength != null || vacuum != null;
@@ -169,7 +170,7 @@ public record Verdict(Kind kind, String text, String advice) {
         return new Verdict(Kind.UNPROVEN, text, advice);
     }
 
-    /** Runs of other lengths, as old folders have them, are compared by their mean speeds. */
+    /** Compares distances, or mean speeds where one run took longer than the other. */
     private static String times(double drift, Swim water, SimulationResult vacuum) {
         double size = Math.abs(drift);
         boolean sameTime = Math.abs(water.simulated() - vacuum.simulated()) < 1e-6;

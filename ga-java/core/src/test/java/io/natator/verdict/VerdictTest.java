@@ -21,7 +21,7 @@ class VerdictTest {
         return Results.ok(distance).with(to -> to.stopped(stopped).simulated(simulated).scheme(scheme));
     }
 
-    /** Distances in scene units; the last line is an old folder, whose vacuum run went on after the wall. */
+    /** Distances in scene units; in the last line the run in vacuum took longer than the one that touched a wall. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
             "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
