@@ -117,16 +117,11 @@ class EvolutionTest {
 
     @Test
     void theSelectedGoOnUnchangedAndAge() {
-        List<EvolutionState> states = new ArrayList<>();
-        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, new EvolutionListener() {
-            @Override
-            public void generationFinished(EvolutionState state) {
-                states.add(state);
-            }
-        });
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, recorder);
 
-        List<Individual> first = states.get(0).population();
-        List<Individual> second = states.get(1).population();
+        List<Individual> first = recorder.states.get(0).population();
+        List<Individual> second = recorder.states.get(1).population();
         assertThat(first).hasSize(50).extracting(Individual::age).containsOnly(1);
         List<List<Double>> firstGenes = first.stream().map(Individual::genes).toList();
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);

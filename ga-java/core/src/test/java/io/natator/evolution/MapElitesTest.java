@@ -12,7 +12,6 @@ import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
 import io.natator.protocol.Results;
@@ -103,13 +102,9 @@ class MapElitesTest {
     @Test
     void withoutWorkThereAreNoKinds() {
         FakePool.Simulation flex = request -> Results.ok(request.id(), 1.0).withScheme("flex");
-        try (Evaluator pool = new FakePool(flex, 1)) {
-            Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
-                    new RecordedEvaluations(0, List.of()));
-            assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
-                    .hasMessageStartingWith(
-                            "optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
-        }
+        assertThatThrownBy(() -> ToyEvolution.run(SETTINGS, flex)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(
+                        "optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
     }
 
     /** A run by a version whose kinds were others does not go on as if its map were empty. */

@@ -69,10 +69,7 @@ class UnstableGaitsTest {
 
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder),
-                    new RecordedEvaluations(0, List.of())).run(null);
-        }
+        ToyEvolution.run(settings, new Cheats(oneOf), recorder);
         return recorder;
     }
 
