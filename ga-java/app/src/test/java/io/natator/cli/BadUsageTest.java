@@ -116,7 +116,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
             "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help"})
     void badUsageIsOneLineAndStatus2(String arguments, String message) {
-        refused(natator(words("evolve " + arguments, "--output-dir", path("never")))).hasLineCount(1)
+        refused(natator("evolve " + arguments, "--output-dir", path("never"))).hasLineCount(1)
                 .startsWith("natator evolve: ").contains(message);
         assertThat(out.toString()).isEmpty();
         assertThat(folder.resolve("never")).doesNotExist();
@@ -154,7 +154,7 @@ class BadUsageTest extends FakeSimulatorTest {
                 .contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
 
-        refused(natator(words(command, path("run")))).isEqualTo("natator " + command.split(" ")[0] + ": "
+        refused(natator(command, path("run"))).isEqualTo("natator " + command.split(" ")[0] + ": "
                 + folder.resolve("run")
                 + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
                 + "where they were unstable with more solver.substeps in --overrides\n");

@@ -37,10 +37,10 @@ abstract class CommandTest {
         return with(SIMULATOR, arguments);
     }
 
-    /** Runs a command, which comes first, with a simulator. */
+    /** Runs a command, which comes first and may have words of its arguments with it, with a simulator. */
     int with(Path simulator, String... arguments) {
-        List<String> all = new ArrayList<>(List.of(arguments));
-        if (!arguments[0].equals("show")) {
+        List<String> all = new ArrayList<>(List.of(words(arguments)));
+        if (!all.get(0).equals("show")) {
             all.addAll(1, List.of("--simulator-path", simulator.toString()));
         }
         return execute(all.toArray(String[]::new));
@@ -50,9 +50,9 @@ abstract class CommandTest {
         return natator(arguments.toArray(String[]::new));
     }
 
-    /** Words of a command, and more. */
-    static String[] words(String command, String... more) {
-        return Stream.concat(Stream.of(command.split(" ")), Stream.of(more)).toArray(String[]::new);
+    /** The words of the first, and the others as they are. */
+    static String[] words(String... arguments) {
+        return Stream.concat(Stream.of(arguments[0].split(" ")), Stream.of(arguments).skip(1)).toArray(String[]::new);
     }
 
     /** Fails unless two runs in the test's folder have files of the same bytes. */

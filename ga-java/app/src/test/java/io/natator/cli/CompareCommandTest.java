@@ -129,8 +129,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         for (String seed : List.of("1", "2")) {
             for (String optimizer : List.of("cma-es", "random")) {
                 String run = folder.resolve(optimizer + seed).toString();
-                ok(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16", "--seed",
-                        seed, "--output-dir", run));
+                ok(natator("evolve --population 8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                        "--output-dir", run));
                 arguments.add(run);
             }
         }
@@ -147,8 +147,7 @@ class CompareCommandTest extends FakeSimulatorTest {
                 path("runs.jsonl")));
         for (String optimizer : List.of("cma-es", "random")) {
             String run = path(optimizer);
-            ok(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "40", "--output-dir",
-                    run));
+            ok(natator("evolve --population 8", "--optimizer", optimizer, "--evaluations", "40", "--output-dir", run));
             arguments.add(run);
         }
 

@@ -70,7 +70,7 @@ class EvaluateCommandTest extends FakeSimulatorTest {
             "thesis/creature-1|no-such.json|no-such.json does not exist",
             "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})
     void badGaitsAreNamed(String scene, String gait, String message) {
-        refused(natator(words("evaluate --gait " + gait, "--scene", scene))).hasLineCount(1)
+        refused(natator("evaluate --gait " + gait, "--scene", scene)).hasLineCount(1)
                 .startsWith("natator evaluate: ").contains(message);
     }
 

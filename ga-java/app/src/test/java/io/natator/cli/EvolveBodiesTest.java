@@ -29,7 +29,8 @@ class EvolveBodiesTest extends FakeSimulatorTest {
 
     @Override
     int evolve(String name, String... more) {
-        List<String> arguments = new ArrayList<>(List.of(words("evolve --output-dir " + path(name), more)));
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", path(name)));
+        arguments.addAll(List.of(more));
         for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"),
                 List.of("--generations", "2"))) {
             if (!arguments.contains(usual.get(0))) {

@@ -164,12 +164,12 @@ class EvolveCommandTest extends FakeSimulatorTest {
         String command = "evolve --creature 1 --seeds 3 --evaluations 30 --population 6 --simulator batch";
         String[] study = words(command, "--output-dir", path("study"));
         Files.writeString(folder.resolve("slow"), "0.5");
-        ok(natator(words(command + " --stop-after 0.3", "--output-dir", path("study"))))
+        ok(natator(command + " --stop-after 0.3", "--output-dir", path("study")))
                 .contains(" of 3 runs finished in ", "; the same command continues");
 
         Files.delete(folder.resolve("slow"));
         ok(natator(study)).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
-        ok(natator(words("evolve --creature 1 --seed 2 --evaluations 30 --population 6 --output-dir", path("alone"))));
+        ok(natator("evolve --creature 1 --seed 2 --evaluations 30 --population 6 --output-dir", path("alone")));
         assertThat(folder.resolve("study/seed-2/evaluations.jsonl"))
                 .hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
 

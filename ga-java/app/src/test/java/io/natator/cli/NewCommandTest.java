@@ -7,6 +7,7 @@ import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
@@ -23,7 +24,9 @@ class NewCommandTest extends CommandTest {
 
     private Path written(String kind, String name, String... options) throws IOException {
         Path file = folder.resolve(name + ".json");
-        ok(natator(words("new " + kind + " " + name + " -o " + file, options)));
+        List<String> arguments = new ArrayList<>(List.of("new", kind, name, "-o", file.toString()));
+        arguments.addAll(List.of(options));
+        ok(natator(arguments));
         assertThat(file).exists();
         assertThat(out.toString().lines()).hasSize(3).first().asString().startsWith(file + ": a " + kind);
         return file;

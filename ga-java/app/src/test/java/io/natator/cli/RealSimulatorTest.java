@@ -62,7 +62,7 @@ class RealSimulatorTest extends CommandTest {
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
         String swim = "evaluate --scene pool/creature-1 --duration 0.1 --gait 1.5 0.6 0.69 0.5";
         String[] elsewhere = words(swim, "--simulator-command", "exec " + SIMULATOR + " serve");
-        ok(natator(words(swim)));
+        ok(natator(swim));
         String here = out.toString();
 
         ok(natator(elsewhere)).isEqualTo(here);
@@ -112,8 +112,8 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {
         Path run = folder.resolve("run");
-        ok(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration", "0.105",
-                "--output-dir", run.toString()));
+        ok(natator("evolve --scene pool/eel --population 3 --generations 0 --duration 0.105", "--output-dir",
+                run.toString()));
         ok(natator("check", "--starts", "2", run.toString()));
         assertThat(err.toString()).doesNotContain("no snapshot", "--at");
         assertThat(run.resolve("check.json")).content().contains("underWater");
@@ -123,8 +123,8 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
         Path run = folder.resolve("run");
-        ok(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations", "0",
-                "--duration", "0.1", "--output-dir", run.toString()));
+        ok(natator("evolve --scene pool/eel --evolve both --population 3 --generations 0 --duration 0.1",
+                "--output-dir", run.toString()));
 
         ok(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).contains("level ", "\nbase ",
                 "\ntime/2 ", " at time step and spacing 0, from ");
@@ -143,7 +143,7 @@ class RealSimulatorTest extends CommandTest {
             "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites|map of gaits: "})
     void whatIsMoreThanOneGaitIsShown(String options, String key, String line) throws IOException {
         Path run = folder.resolve("run");
-        ok(natator(words("evolve --population 4 --generations 1 " + options, "--output-dir", run.toString())));
+        ok(natator("evolve --population 4 --generations 1 " + options, "--output-dir", run.toString()));
 
         ok(natator("show", run.toString(), "--generation", "0"));
         assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString())).body()).isNull();
@@ -157,8 +157,8 @@ class RealSimulatorTest extends CommandTest {
     @CsvSource({"--objectives, work, objective work: this simulator does not measure it in scheme flex",
             "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
     void whatIsNotMeasuredIsNoObjective(String option, String value, String message) {
-        refused(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
-                "--duration", "0.02", option, value, "--output-dir", path("run")));
+        refused(natator("evolve --preset thesis --population 2 --generations 0 --starts 1 --duration 0.02", option,
+                value, "--output-dir", path("run")));
 
         assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow())
                 .startsWith("natator evolve: " + message);
@@ -189,8 +189,8 @@ class RealSimulatorTest extends CommandTest {
     void aSecondRunTakesItsResultsFromTheCache() throws IOException {
         for (String name : List.of("first", "second", "without")) {
             String more = name.equals("without") ? " --no-cache" : "";
-            ok(natator(words("evolve --scheme conserving --population 4 --generations 1 --duration 0.05" + more,
-                    "--scene", SMALL, "--output-dir", path(name))));
+            ok(natator("evolve --scheme conserving --population 4 --generations 1 --duration 0.05" + more,
+                    "--scene", SMALL, "--output-dir", path(name)));
         }
 
         assertSameRuns("second", "without");

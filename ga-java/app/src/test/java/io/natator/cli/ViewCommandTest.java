@@ -218,7 +218,7 @@ class ViewCommandTest extends CommandTest {
                 "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
         for (String command : List.of("view --no-browser --port 0 --scene",
                 "page --output " + folder.resolve("page.html"))) {
-            refused(natator(words(command, "thesis/creature-1", "--gait", gait.toString())))
+            refused(natator(command, "thesis/creature-1", "--gait", gait.toString()))
                     .isEqualTo("natator " + command.split(" ")[0] + ": natator-sim: gait." + message + "\n");
         }
     }
