@@ -111,8 +111,8 @@ class CompareCommandTest extends FakeSimulatorTest {
 
     @Test
     void steeredGaitsAreToldWithTheirOffsets() throws IOException {
-        ok(evolve("dense", "--encoding", "dense-steered"));
         ok(evolve("sparse", "--encoding", "sparse-steered"));
+        ok(evolve("dense", "--encoding", "dense-steered"));
         double offset = Json.parse(file("dense", "best.json"), JsonNode.class).at("/gait/offset/0").doubleValue();
         String both = String.format(Locale.ROOT, "%.4f %<.4f", offset);
         assertThat(out.toString()).contains("\n  offset      " + both + "\n");
