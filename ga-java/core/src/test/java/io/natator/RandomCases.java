@@ -60,8 +60,7 @@ public @interface RandomCases {
     final class Source extends AnnotationBasedArgumentsProvider<RandomCases> {
         @Override
         protected Stream<? extends Arguments> provideArguments(ParameterDeclarations parameters,
-                ExtensionContext context,
-                RandomCases cases) {
+                ExtensionContext context, RandomCases cases) {
             return LongStream.range(0, cases.value()).mapToObj(seed -> Arguments.of(new Case(seed)));
         }
     }

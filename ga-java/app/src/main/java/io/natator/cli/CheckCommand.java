@@ -86,7 +86,7 @@ final class CheckCommand implements Callable<Integer> {
         }
     }
 
-    /** As a table, with the verdict. */
+    /** Prints the table of controls and the verdict. */
     private static void print(Controls controls, PrintWriter out) {
         out.printf("%-26s%-22s%s%n", "distance in " + Numbers.fixed(controls.duration(), 2) + " s", "mean ± sd",
                 "runs");

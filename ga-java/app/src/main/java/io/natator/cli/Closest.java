@@ -28,7 +28,7 @@ final class Closest {
                 .map(name -> "; did you mean " + name + "?").orElse("");
     }
 
-    /** Likewise of scenes, by the last part of their names; of several that are equally near, three. */
+    /** The same hint for scenes, compared by the last part of their names; at most three that are equally near. */
     static String scenes(String given, Collection<String> known) {
         String small = given.toLowerCase(Locale.ROOT);
         List<String> near = known.stream().filter(name -> isNear(last(small), last(name)) || isNear(small, name))

@@ -49,8 +49,7 @@ final class CompareCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--starts", paramLabel = "N", defaultValue = "8",
-            description = "Fresh starts of each best gait, from 2; "
-                    + "0: nothing is run. Default: ${DEFAULT-VALUE}.")
+            description = "Fresh starts of each best gait, from 2; 0: nothing is run. Default: ${DEFAULT-VALUE}.")
     private int starts;
 
     @Section(Topic.OUTPUT)
@@ -61,8 +60,7 @@ final class CompareCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--rank-starts", paramLabel = "N",
-            description = "For --json: run all gaits of each last generation from so many "
-                    + "fresh starts, from 1, too.")
+            description = "For --json: run all gaits of each last generation from so many fresh starts, from 1, too.")
     private Integer rankStarts;
 
     @Parameters(paramLabel = "RUN", arity = "2..*", description = "Run folders, at least two.")
@@ -105,8 +103,7 @@ final class CompareCommand implements Callable<Integer> {
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
         Backend backend = settings.stream().map(one -> one.budget().backend()).distinct().count() == 1
-                ? settings.get(0).budget().backend()
-                : Backend.CPU;
+                ? settings.get(0).budget().backend() : Backend.CPU;
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)),
                 settings);
         RunComparison comparison = new RunComparison(folders, starts, json != null);
@@ -116,10 +113,8 @@ final class CompareCommand implements Callable<Integer> {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
             comparison.run(evaluator, execution.simulator());
             if (json != null) {
-                AtomicFile.write(json,
-                        String.join("\n",
-                                comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator()))
-                                + "\n");
+                AtomicFile.write(json, String.join("\n",
+                        comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n");
             }
         }
         comparison.lines().forEach(out::println);

@@ -37,7 +37,7 @@ final class EmptyValues {
         return name(argument) + " is empty; expected a value: is a variable of the shell not set?";
     }
 
-    /** As the user knows it. */
+    /** The name of an argument as the help has it. */
     static String name(ArgSpec argument) {
         return argument instanceof OptionSpec option ? option.longestName() : argument.paramLabel();
     }

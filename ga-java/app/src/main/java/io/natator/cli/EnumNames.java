@@ -49,7 +49,6 @@ final class EnumNames {
     /** {@code a}, {@code a or b}, {@code a, b or c}. */
     static String choice(List<String> names) {
         int last = names.size() - 1;
-        return last < 1 ? String.join("", names)
-                : String.join(", ", names.subList(0, last)) + " or " + names.get(last);
+        return last < 1 ? String.join("", names) : String.join(", ", names.subList(0, last)) + " or " + names.get(last);
     }
 }

@@ -81,8 +81,7 @@ final class EvolveCommand implements Callable<Integer> {
     @Option(names = "--runs-at-once", paramLabel = "N",
             description = "With --seeds: runs under way at the same time; their "
                     + "generations share a batch. Default: " + AT_ONCE_SHARED
-                    + " with --simulator batch or spark, else "
-                    + AT_ONCE + ".")
+                    + " with --simulator batch or spark, else " + AT_ONCE + ".")
     private Integer runsAtOnce;
 
     @Section(Topic.EXTENT)

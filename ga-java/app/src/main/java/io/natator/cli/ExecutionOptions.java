@@ -71,8 +71,7 @@ final class ExecutionOptions {
                 : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
                         : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
         return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(chosen),
-                workers != null ? workers : Runtime.getRuntime().availableProcessors(),
-                timeoutSeconds == null ? null
+                workers != null ? workers : Runtime.getRuntime().availableProcessors(), timeoutSeconds == null ? null
                         : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))),
                 null, commands, master);
     }
@@ -88,8 +87,7 @@ final class ExecutionOptions {
         }
         if (!commands.isEmpty()) {
             throw new InvalidInputException(
-                    "--device is " + device + "; expected none beside --simulator-command, whose command lines "
-                            + "say it");
+                    "--device is " + device + "; expected none beside --simulator-command, whose command lines say it");
         }
         return device.matches("\\d{1,4}") ? List.of(Integer.valueOf(device))
                 : ProgramInfo.of(simulator.path()).devices(device);

@@ -29,7 +29,7 @@ final class FileNames {
         return fault(name, System.getProperty("sun.jnu.encoding", UTF_8));
     }
 
-    /** The same where Java takes names of files for text of this encoding. */
+    /** What is wrong with a file's name where Java reads names in this encoding. */
     static String fault(InvalidPathException name, String encoding) {
         return "'" + name.getInput() + "' cannot be the name of a file" + (encoding.equals(UTF_8)
                 ? ": " + name.getReason()

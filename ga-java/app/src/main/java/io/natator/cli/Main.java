@@ -15,8 +15,7 @@ import picocli.CommandLine.Spec;
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
                 CheckCommand.class, ConvergeCommand.class,
                 CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
-        mixinStandardHelpOptions = true,
-        versionProvider = Main.Version.class,
+        mixinStandardHelpOptions = true, versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
 public final class Main implements Callable<Integer> {
 
@@ -47,7 +46,7 @@ public final class Main implements Callable<Integer> {
     }
 
     /**
-     * The same with a command line that may have been changed.
+     * Runs a command with a command line that may have been changed.
      *
      * @param command see {@link #commandLine}
      */

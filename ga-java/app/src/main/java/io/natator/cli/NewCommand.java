@@ -67,8 +67,7 @@ final class NewCommand implements Callable<Integer> {
     public Integer call() throws InterruptedException {
         if (!name.matches("[\\p{L}\\p{N}][\\p{L}\\p{M}\\p{N}_-]{0,63}")) {
             throw new InvalidInputException(
-                    "NAME is " + name + "; expected at most 64 letters, digits, - and _, not beginning "
-                            + "with - or _");
+                    "NAME is " + name + "; expected at most 64 letters, digits, - and _, not beginning with - or _");
         }
         Path file = output == null ? Path.of(name + SUFFIX) : output;
         if (!file.toString().endsWith(SUFFIX)) {

@@ -5,7 +5,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.file.OutputFile;
@@ -132,7 +132,7 @@ final class PageCommand implements Callable<Integer> {
                     "--best is " + best + "; expected 1 with " + source + ", which is no run folder");
         }
         RunReader run = RunReader.in(first.run());
-        List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
+        List<Swimmer> gaits = run.gaits().stream().map(GaitScore::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
             throw new InvalidInputException(
                     "--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));

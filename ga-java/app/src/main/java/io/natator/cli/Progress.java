@@ -116,8 +116,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
     private String counts() {
         return String.format(Locale.ROOT, "best %s, evaluations %d of %s, elapsed %s, left %s",
                 best == null ? "-" : settings.problem().worthText(best), estimate.done(), estimate.total(),
-                estimate.elapsed(),
-                estimate.left());
+                estimate.elapsed(), estimate.left());
     }
 
     @Override

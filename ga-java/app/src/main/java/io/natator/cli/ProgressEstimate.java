@@ -2,7 +2,6 @@ package io.natator.cli;
 
 import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.OptimizerKind;
 import io.natator.config.Search;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
@@ -82,7 +81,7 @@ final class ProgressEstimate {
      */
     private void estimate(double known, int later) {
         long budget = settings.budget().evaluations() == null ? Long.MAX_VALUE : settings.budget().evaluations();
-        boolean varies = settings.search().optimizer() == OptimizerKind.JGAP;
+        boolean varies = settings.search().optimizer().usesOperators();
         double each = varies ? (USUAL_GENERATIONS * perGeneration(CHILDREN_PER_SELECTED) + children)
                 / (USUAL_GENERATIONS + bred) : perGeneration(1);
         double all = known + later * each;
@@ -155,7 +154,7 @@ final class ProgressEstimate {
         Search search = settings.search();
         Budget budget = settings.budget();
         return budget.evaluations() != null ? budget.evaluations() : Math.round(search.starts() * search.population()
-                * (1 + CHILDREN_PER_SELECTED * budget.generations()))
+                * (1 + (search.optimizer().usesOperators() ? CHILDREN_PER_SELECTED : 1) * budget.generations()))
                 + (long) search.repeats() * (budget.generations() + 1);
     }
 }

@@ -31,7 +31,7 @@ final class RejectRepeated {
         });
     }
 
-    /** The same of folders, by whatever path; one that is not there is for others to refuse. */
+    /** Checks a list of folders, whatever paths lead to them; a missing one is refused elsewhere. */
     static void checkFolders(String option, List<Path> folders) {
         List<Path> places = folders.stream().map(RejectRepeated::real).toList();
         check(option, places, one -> folders.get(places.indexOf(one)).toString());

@@ -38,7 +38,7 @@ final class RunDocument {
     private final BestGait best;
 
     /**
-     * Of a run.
+     * The document of a run.
      *
      * @throws InvalidInputException if it has no best gait or no checkpoint yet
      */
@@ -94,10 +94,8 @@ final class RunDocument {
                 : "This run is not finished. Done are generation " + run.state().generation()
                         + (run.settings().budget().generations() == Budget.NO_LIMIT ? ""
                                 : " of " + run.settings().budget().generations())
-                        + " and "
-                        + Numbers.count(run.state().evaluations(), "evaluation")
-                        + "; this is the best gait so far. It goes on by natator resume "
-                        + run.directory() + ".";
+                        + " and " + Numbers.count(run.state().evaluations(), "evaluation")
+                        + "; this is the best gait so far. It goes on by natator resume " + run.directory() + ".";
     }
 
     /** What came of it, in a few sentences. */

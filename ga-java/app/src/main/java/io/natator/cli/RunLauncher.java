@@ -35,8 +35,7 @@ final class RunLauncher {
                             () -> say("interrupted; " + how))) {
                 EvolutionRun.Outcome outcome;
                 try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(),
-                        err,
-                        System.console() != null ? System.err : null)) {
+                        err, System.console() != null ? System.err : null)) {
                     outcome = new EvolutionRun(folder).run(limited, evaluator, limited.inBatches()
                             ? new EvolutionListener[] {progress, shutdown.beforeLateGenerations()}
                             : new EvolutionListener[] {progress});

@@ -54,7 +54,7 @@ final class RunPreview {
         out.flush();
     }
 
-    /** The same before a run that is to begin whatever comes of it: what fails here will say why when it fails there. */
+    /** Measures and prints before a run that begins anyway: what fails here says why when it fails there. */
     void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
         try {
             print(folder, out);

@@ -44,8 +44,7 @@ final class RunReport {
             return;
         }
         out.println("best " + (settings.problem().evolve() == null ? "gait" : "swimmer") + " of "
-                + settings.problem().scene() + " after "
-                + Numbers.count(state.generation(), "generation") + " and "
+                + settings.problem().scene() + " after " + Numbers.count(state.generation(), "generation") + " and "
                 + Numbers.count(state.evaluations(), "evaluation"));
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));

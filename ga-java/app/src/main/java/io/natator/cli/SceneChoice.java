@@ -15,8 +15,7 @@ import picocli.CommandLine.ParameterException;
 final class SceneChoice {
 
     @Option(names = "--creature", paramLabel = "1..4|NAME",
-            description = "Creature of the thesis, or another bundled body: "
-                    + "eel, ray, tadpole, tuna. Default: 1.")
+            description = "Creature of the thesis, or another bundled body: eel, ray, tadpole, tuna. Default: 1.")
     private String creature;
 
     @Option(names = "--scene", paramLabel = "NAME|FILE",
@@ -40,7 +39,7 @@ final class SceneChoice {
         return scene(command, Preset.THESIS);
     }
 
-    /** The same by number, or if none is given, as the preset has it. */
+    /** The scene as {@link SceneOptions#scene} has it; by number, or if none is given, the preset's. */
     String scene(CommandSpec command, Preset preset) {
         if (creature != null && scene != null) {
             throw new ParameterException(command.commandLine(), "--creature and --scene exclude each other");

@@ -126,7 +126,8 @@ final class SearchOptions {
         return settings.withSize(population != null ? population : preset.population(), last)
                 .withEvaluations(evaluations)
                 .withStarts(starts != null ? starts : preset.starts(), judge).withSeed(seed)
-                .withOptimizer(OptimizerKind.JGAP, operators, gaussianDeviation).withFitness(fitness, vacuumCheck)
+                .withOptimizer(settings.search().optimizer(), operators, gaussianDeviation)
+                .withFitness(fitness, vacuumCheck)
                 .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
                 .withEvolve(body(settings.problem().scene(), overrides, simulator));
     }

@@ -55,7 +55,7 @@ final class SectionedHelp {
         return layout.toString();
     }
 
-    /** Of the field, else of the class that declares it. */
+    /** The heading of an option: its field's, else that of the class that declares it. */
     static Section.Topic topic(OptionSpec option) {
         if (!(option.userObject() instanceof Field field)) {
             return Section.Topic.OTHER;

@@ -12,7 +12,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
@@ -98,7 +97,7 @@ final class ShowCommand implements Callable<Integer> {
     static String settings(EvolutionSettings settings) {
         StringBuilder text = new StringBuilder(settings.problem().scene());
         text.append(", ").append(EnumNames.of(settings.search().optimizer()))
-                .append(settings.search().optimizer() == OptimizerKind.JGAP
+                .append(settings.search().optimizer().usesOperators()
                         ? " (" + EnumNames.of(settings.search().operators()) + " operators)" : "");
         text.append(", population ").append(settings.search().population());
         if (settings.budget().generations() != Budget.NO_LIMIT) {
@@ -108,22 +107,19 @@ final class ShowCommand implements Callable<Integer> {
             text.append(", ").append(Numbers.count(settings.budget().evaluations(), "evaluation"));
         }
         text.append(settings.problem().evolve() == null ? ""
-                : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait"
-                        : ", gaits and bodies");
+                : settings.problem().evolve().what() == Evolved.BODY ? ", bodies with one gait" : ", gaits and bodies");
         text.append(", seed ").append(settings.search().seed());
         text.append(", ").append(EnumNames.of(settings.problem().encoding())).append(" genes");
-        if (settings.search().optimizer() == OptimizerKind.JGAP && settings.search().gaussianDeviation() != 0.05) {
+        if (settings.search().optimizer().usesOperators() && settings.search().gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.search().gaussianDeviation());
         }
         text.append(settings.search().starts() == 1 ? ""
-                : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts()
-                        + " starts");
+                : ", " + EnumNames.of(settings.search().judge()) + " of " + settings.search().starts() + " starts");
         text.append(settings.problem().objectives() == null ? ""
                 : ", objectives " + WeightedObjective.text(settings.problem().objectives()));
         text.append(settings.problem().fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.budget().backend().argument());
-        text.append(settings.problem().scheme() == null ? ""
-                : ", scheme " + settings.problem().scheme().name().toLowerCase(Locale.ROOT));
+        text.append(settings.problem().scheme() == null ? "" : ", scheme " + EnumNames.of(settings.problem().scheme()));
         text.append(settings.problem().duration() == null ? "" : ", " + settings.problem().duration() + " s");
         text.append(settings.problem().overrides() == null ? "" : ", overrides " + settings.problem().overrides());
         return text.toString();
@@ -132,19 +128,18 @@ final class ShowCommand implements Callable<Integer> {
     private String progress(RunReader run) {
         String how = "; continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder);
         if (run.state() == null) {
-            return begun(run.recorded()) + how;
+            return withoutCheckpoint(run.recorded()) + how;
         }
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 run.settings().problem().worthText(last.best()), run.settings().problem().worthText(last.mean()),
-                run.settings().problem().worthText(last.median()),
-                run.state().isLastOf(run.settings()) ? "finished"
+                run.settings().problem().worthText(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
-    /** Of a run without a checkpoint: that it has none yet, or has lost it. */
-    private static String begun(RecordedEvaluations recorded) {
+    /** How far a run without a checkpoint is: it has none yet, or has lost it. */
+    private static String withoutCheckpoint(RecordedEvaluations recorded) {
         long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
         return recorded.end() > first
                 ? "no checkpoint.json, " + Numbers.count(recorded.end(), "evaluation") + " of several generations"

@@ -82,7 +82,7 @@ final class ShutdownHandler implements AutoCloseable {
         };
     }
 
-    /** To be called when everything is written. */
+    /** Ends the watch; to be called when everything is written. */
     @Override
     public void close() {
         end.close();

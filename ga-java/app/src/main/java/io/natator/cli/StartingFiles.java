@@ -92,13 +92,12 @@ final class StartingFiles {
         String gait = file.resolveSibling(name + "-gait") + ".json";
         String view = Main.asCalled() + " view --scene " + ShellWord.of(file);
         ObjectNode creature = JsonNodeFactory.instance.objectNode().set("creature", scene.get("creature"));
-        return new StartingFile(scene,
-                SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
-                        ? List.of("natator-sim info " + ShellWord.of(file), view)
-                        : List.of(
-                                Main.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file)
-                                        + output(name, gait),
-                                view + " --gait " + ShellWord.of(gait)));
+        return new StartingFile(scene, SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
+                ? List.of("natator-sim info " + ShellWord.of(file), view)
+                : List.of(
+                        Main.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file)
+                                + output(name, gait),
+                        view + " --gait " + ShellWord.of(gait)));
     }
 
     /**

@@ -6,7 +6,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -23,7 +23,7 @@ import java.util.Arrays;
 import java.util.Objects;
 
 /**
- * Who swims where: a run's best swimmer in its scene, or a scene with or without a gait.
+ * A swimmer and its scene: a run's best swimmer in its scene, or a scene with or without a gait.
  *
  * @param run        its folder, or null
  * @param scene      name or path
@@ -37,7 +37,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
         Double duration, BestGait best) {
 
     /**
-     * Whom the user named.
+     * The swimmer that the user named.
      *
      * @param source     a run folder, else a scene
      * @param gait       a file, or null for a run's best
@@ -67,8 +67,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
         return new SwimSource(run.directory(),
                 SceneOptions.scene("scene of " + run.directory(), settings.problem().scene()),
                 MergePatch.both(settings.problem().overrides(), swimmer.body()), swimmer.gait(),
-                settings.problem().scheme(),
-                settings.problem().duration(), best);
+                settings.problem().scheme(), settings.problem().duration(), best);
     }
 
     private static Swimmer best(RunReader run) {
@@ -89,7 +88,7 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
             throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
                     + " has finished, 0 to " + last);
         }
-        JudgedGait found = run.bestUntil(generation);
+        GaitScore found = run.bestUntil(generation);
         if (found == null) {
             throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
                     + ", only the best of all; leave out --generation");

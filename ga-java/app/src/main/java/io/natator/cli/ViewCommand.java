@@ -104,7 +104,7 @@ final class ViewCommand implements Callable<Integer> {
             if (server.isOpenToOthers()) {
                 PrintWriter err = spec.commandLine().getErr();
                 err.println("warning: --host " + host + ": whoever can reach this address can watch, and start up to "
-                        + ViewServer.MOST_SIMULATIONS + " simulations on this machine; nobody is asked who they are");
+                        + ViewServer.MAX_SIMULATIONS + " simulations on this machine; nobody is asked who they are");
                 err.flush();
             }
             out.println(server.address());

@@ -36,7 +36,7 @@ enum EqualBudget {
         this.unit = unit;
     }
 
-    /** In words. */
+    /** The budget's name for people. */
     String label() {
         return label;
     }

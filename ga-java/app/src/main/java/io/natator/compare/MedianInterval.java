@@ -20,25 +20,25 @@ public record MedianInterval(double median, double low, double high) {
     private static final long SEED = 20190101;
     private static final double TAIL = 0.025;
 
-    /** Of a sample with at least one value. */
+    /** Median and interval of a sample with at least one value. */
     public static MedianInterval of(double[] values) {
-        return of(median(values), values.length > 1, random -> median(drawn(values, random)));
+        return of(median(values), values.length > 1, random -> median(resample(values, random)));
     }
 
-    /** Of the difference of two samples with at least one value each. */
+    /** Difference of the medians of two samples with at least one value each, and its interval. */
     public static MedianInterval ofDifference(double[] first, double[] second) {
         return of(median(first) - median(second), first.length > 1 && second.length > 1,
-                random -> median(drawn(first, random)) - median(drawn(second, random)));
+                random -> median(resample(first, random)) - median(resample(second, random)));
     }
 
-    private static MedianInterval of(double median, boolean hasSpread, Function<Random, Double> resample) {
+    private static MedianInterval of(double median, boolean hasSpread, Function<Random, Double> sample) {
         if (!hasSpread) {
             return new MedianInterval(median, Double.NaN, Double.NaN);
         }
         Random random = new Random(SEED);
         double[] medians = new double[RESAMPLES];
         for (int i = 0; i < RESAMPLES; i++) {
-            medians[i] = resample.apply(random);
+            medians[i] = sample.apply(random);
         }
         double[] ends = Quantile.withDefaults().evaluate(medians, TAIL, 1 - TAIL);
         return new MedianInterval(median, ends[0], ends[1]);
@@ -48,7 +48,7 @@ public record MedianInterval(double median, double low, double high) {
         return Median.withDefaults().evaluate(values);
     }
 
-    private static double[] drawn(double[] values, Random random) {
+    private static double[] resample(double[] values, Random random) {
         return random.ints(values.length, 0, values.length).mapToDouble(i -> values[i]).toArray();
     }
 

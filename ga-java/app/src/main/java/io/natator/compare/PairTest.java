@@ -22,7 +22,7 @@ public record PairTest(String first, String second, MedianInterval difference, R
 
     /** From this corrected p on, no difference is seen. */
     public static final double LEVEL = 0.05;
-    private static final double SMALLEST_SHOWN = 0.001;
+    private static final double MIN_SHOWN = 0.001;
 
     /**
      * All pairs.
@@ -74,7 +74,7 @@ public record PairTest(String first, String second, MedianInterval difference, R
     }
 
     /**
-     * In words, no more than test and interval support, of samples of any quantity.
+     * The result in words: no more than test and interval support.
      *
      * @param greater comparative for the greater sample, such as {@code better than}
      */
@@ -89,6 +89,6 @@ public record PairTest(String first, String second, MedianInterval difference, R
 
     /** With its sign of relation: {@code = 0.03}, {@code < 0.001}. */
     public static String chance(double p) {
-        return p < SMALLEST_SHOWN ? "< " + SMALLEST_SHOWN : "= " + Numbers.fixed(p, p < 0.1 ? 3 : 2);
+        return p < MIN_SHOWN ? "< " + MIN_SHOWN : "= " + Numbers.fixed(p, p < 0.1 ? 3 : 2);
     }
 }

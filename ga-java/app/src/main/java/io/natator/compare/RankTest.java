@@ -14,7 +14,7 @@ import org.apache.commons.statistics.inference.MannWhitneyUTest;
  */
 public record RankTest(double p, double a, double leastP) {
 
-    /** Of two samples with at least one value each. */
+    /** Tests two samples with at least one value each. */
     public static RankTest of(double[] first, double[] second) {
         MannWhitneyUTest.Result result = MannWhitneyUTest.withDefaults().test(first, second);
         double pairs = (double) first.length * second.length;

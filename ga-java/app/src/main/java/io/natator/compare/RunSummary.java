@@ -39,7 +39,7 @@ record RunSummary(String run, EvolutionSettings settings, JsonNode environment, 
     record Improvement(int evaluation, double fitness, double simulated, List<Double> genes) {
     }
 
-    /** Of the run in a folder, finished or not. */
+    /** Summarises the run in a folder, finished or not. */
     static RunSummary of(Path directory) {
         RunReader run = RunReader.in(directory);
         List<Improvement> improvements = new ArrayList<>();

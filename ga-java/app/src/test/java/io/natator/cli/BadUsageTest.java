@@ -6,7 +6,6 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
@@ -42,9 +41,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
             "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
     void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
-        assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains(message);
+        refused(natator(arguments.replace("NEVER", path("never")).split(" "))).hasLineCount(1).contains(message);
         assertThat(folder.resolve("never")).doesNotExist();
     }
 
@@ -57,21 +54,16 @@ class BadUsageTest extends FakeSimulatorTest {
                 link, "is a link that leads nowhere", Path.of("/proc/run"), "/proc takes no new files or folders",
                 Path.of("/proc/a/run"), "/proc takes no new files or folders");
         for (var one : reasons.entrySet()) {
-            err.getBuffer().setLength(0);
-            assertThat(evolve(one.getKey().toString())).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo(
+            refused(evolve(one.getKey().toString())).isEqualTo(
                     "natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
         }
     }
 
     @Test
     void refusesAFolderThatIsNotEmpty() {
-        assertThat(evolve("run")).isZero();
-        err.getBuffer().setLength(0);
+        ok(evolve("run"));
 
-        assertThat(evolve("run")).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains("is not empty");
+        refused(evolve("run")).hasLineCount(1).contains("is not empty");
     }
 
     @ParameterizedTest
@@ -124,12 +116,8 @@ class BadUsageTest extends FakeSimulatorTest {
             "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
             "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help"})
     void badUsageIsOneLineAndStatus2(String arguments, String message) {
-        List<String> all = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve("never").toString()));
-        all.addAll(List.of(arguments.split(" ")));
-
-        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evolve: ").contains(message);
+        refused(natator("evolve " + arguments, "--output-dir", path("never"))).hasLineCount(1)
+                .startsWith("natator evolve: ").contains(message);
         assertThat(out.toString()).isEmpty();
         assertThat(folder.resolve("never")).doesNotExist();
     }
@@ -142,23 +130,19 @@ class BadUsageTest extends FakeSimulatorTest {
             "--scene fault/rejected|simulator: gait.frequency is 70; expected a number up to 60"})
     void whatTheSceneDoesNotHaveLeavesNoFolder(String options, String message) {
         for (String more : List.of("", " --dry-run")) {
-            forget();
 
-            assertThat(evolve("run", (options + more).split(" "))).isEqualTo(2);
-
-            assertThat(err.toString()).startsWith("natator evolve: " + message).hasLineCount(1);
+            refused(evolve("run", (options + more).split(" "))).startsWith("natator evolve: " + message)
+                    .hasLineCount(1);
             assertThat(folder.resolve("run")).doesNotExist();
         }
     }
 
     @Test
     void aDocumentOfARunNeedsACheckpoint() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.delete(folder.resolve("run/checkpoint.json"));
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo(
+        refused(natator("show", "--json", path("run"))).isEqualTo(
                 "natator show: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
@@ -166,31 +150,24 @@ class BadUsageTest extends FakeSimulatorTest {
     @ParameterizedTest
     @ValueSource(strings = {"show --json", "check"})
     void withoutABestGaitIsOneLine(String command) throws IOException {
-        assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
-        assertThat(out.toString()).contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
+        ok(evolve("run", "--scene", "fault/unstable"))
+                .contains("\n  unstable    refused 42 of 42 evaluations: 42 broke law tank\n");
         Files.delete(folder.resolve("run/evaluations.jsonl"));
-        forget();
 
-        List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
-        arguments.add(folder.resolve("run").toString());
-        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-
-        assertThat(err.toString()).isEqualTo("natator " + arguments.get(0) + ": " + folder.resolve("run")
+        refused(natator(command, path("run"))).isEqualTo("natator " + command.split(" ")[0] + ": "
+                + folder.resolve("run")
                 + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
                 + "where they were unstable with more solver.substeps in --overrides\n");
     }
 
     @Test
     void whatHasNoBestGaitYetIsToBeFinished() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         for (String name : List.of("checkpoint.json", "best.json")) {
             Files.delete(folder.resolve("run").resolve(name));
         }
-        forget();
 
-        assertThat(natator("show", "--json", folder.resolve("run").toString())).isEqualTo(2);
-
-        assertThat(err.toString()).isEqualTo(
+        refused(natator("show", "--json", path("run"))).isEqualTo(
                 "natator show: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
     }
 
@@ -207,10 +184,8 @@ class BadUsageTest extends FakeSimulatorTest {
     void anEmptyValueIsOneLine(String arguments, String message) {
         String[] given = Stream.of(arguments.split(" ")).map(one -> one.replace("EMPTY", "")).toArray(String[]::new);
 
-        assertThat(natator(given)).isEqualTo(2);
-        assertThat(err.toString().strip())
-                .isEqualTo(message + "; expected a value: is a variable of the shell not set? See "
-                        + message.substring(0, message.indexOf(':')) + " --help");
+        refused(natator(given)).isEqualTo(message + "; expected a value: is a variable of the shell not set? See "
+                + message.substring(0, message.indexOf(':')) + " --help\n");
         assertThat(out.toString()).isEmpty();
     }
 
@@ -226,8 +201,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "compare one|found 1 RUN; expected at least 2; see natator compare --help",
             "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
-        assertThat(execute(arguments.split(" "))).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
+        refused(execute(arguments.split(" "))).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
     }
 
     @Command(name = "end")
@@ -273,7 +247,6 @@ class BadUsageTest extends FakeSimulatorTest {
         for (String program : List.of("#!/no/such/interpreter\n", "\u007fELF", "#!/bin/sh\nexit 7\n")) {
             Files.writeString(simulator, program);
             assertThat(simulator.toFile().setExecutable(true)).isTrue();
-            forget();
 
             assertThat(execute(arguments)).as(err.toString()).isEqualTo(1);
             assertThat(err.toString()).startsWith("natator " + arguments[0] + ": simulator: ").hasLineCount(1);
@@ -282,8 +255,7 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @Test
     void aMissingSimulatorIsNamed() {
-        assertThat(execute("evolve", "--simulator-path", "no/such/program")).isEqualTo(2);
-        assertThat(err.toString().strip())
-                .isEqualTo("natator evolve: --simulator-path is no/such/program; expected an executable file");
+        refused(execute("evolve", "--simulator-path", "no/such/program"))
+                .isEqualTo("natator evolve: --simulator-path is no/such/program; expected an executable file\n");
     }
 }

@@ -20,11 +20,10 @@ class CompareCommandTest extends FakeSimulatorTest {
 
     @Test
     void showsARunAtAnyTime() throws IOException {
-        assertThat(evolve("run", "--scene", "fault/mixed", "--vacuum-check")).as(err.toString()).isZero();
-        out.getBuffer().setLength(0);
+        ok(evolve("run", "--scene", "fault/mixed", "--vacuum-check"));
 
-        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
-        assertThat(out.toString()).startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
+        ok(natator("show", path("run")))
+                .startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
                 .contains("generation 3: best ", "; finished", "best gait of fault/mixed after 3 generations",
                         "early stop  0.0 %", "unchanged ", "cache       0 evaluations", "in vacuum",
                         "evaluations failed, the last, ", "no valid result")
@@ -32,19 +31,16 @@ class CompareCommandTest extends FakeSimulatorTest {
 
         Files.delete(folder.resolve("run/checkpoint.json"));
         Files.delete(folder.resolve("run/best.json"));
-        out.getBuffer().setLength(0);
-        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
-        assertThat(out.toString())
+        ok(natator("show", path("run")))
                 .containsPattern("no checkpoint.json, [1-9][0-9] evaluations of several generations; continue by: ");
     }
 
     @Test
     void comparesRunsAtTheSameNumberOfEvaluations() throws IOException {
-        assertThat(evolve("short", "--optimizer", "cma-es", "--evaluations", "24")).isZero();
-        assertThat(evolve("long", "--optimizer", "random", "--evaluations", "32")).isZero();
-        out.getBuffer().setLength(0);
+        ok(evolve("short", "--optimizer", "cma-es", "--evaluations", "24"));
+        ok(evolve("long", "--optimizer", "random", "--evaluations", "32"));
 
-        assertThat(natator("compare", folder.resolve("short").toString(), folder.resolve("long").toString())).isZero();
+        ok(natator("compare", path("short"), path("long")));
         List<String> lines = out.toString().lines().toList();
         assertThat(lines.get(0)).contains("cma-es");
         assertThat(lines.get(2)).isEqualTo("evaluations      best 1      best 2");
@@ -65,25 +61,18 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(lines.get(21)).startsWith("at equal simulated time (");
         assertThat(lines).hasSize(25);
         assertThat(err.toString()).contains(" swims from fresh starts; --starts 0 leaves that out");
-        out.getBuffer().setLength(0);
 
-        assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(),
-                folder.resolve("long").toString()))
-                .isZero();
+        ok(natator("compare", "--starts", "0", path("short"), path("long")));
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
     }
 
     /** A cost is an objective that is never above 0. */
     @Test
     void whatTheBestIsWorthMayBeNegative() throws IOException {
-        assertThat(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16"))
-                .as(err.toString()).isZero();
-        assertThat(evolve("two", "--optimizer", "cma-es", "--objectives", "work", "--evaluations", "16")).isZero();
-        out.getBuffer().setLength(0);
+        ok(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16"));
+        ok(evolve("two", "--optimizer", "cma-es", "--objectives", "work", "--evaluations", "16"));
 
-        assertThat(
-                natator("compare", "--starts", "0", folder.resolve("one").toString(), folder.resolve("two").toString()))
-                .isZero();
+        ok(natator("compare", "--starts", "0", path("one"), path("two")));
         String last = file("one", "generations.csv").lines().reduce((a, b) -> b).orElseThrow();
         assertThat(out.toString().lines().filter(line -> line.startsWith("         16")).findFirst()).get().asString()
                 .startsWith(String.format(Locale.ROOT, "         16%12.4f", Double.parseDouble(last.split(",")[1])))
@@ -95,56 +84,41 @@ class CompareCommandTest extends FakeSimulatorTest {
     void comparesByWhatRunsWereEvolvedFor() throws IOException {
         List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "2"));
         for (String optimizer : List.of("random", "cma-es")) {
-            assertThat(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.5", "--evaluations", "16"))
-                    .as(err.toString()).isZero();
-            arguments.add(folder.resolve(optimizer).toString());
+            ok(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.5", "--evaluations", "16"));
+            arguments.add(path(optimizer));
         }
-        out.getBuffer().setLength(0);
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString())
+        ok(natator(arguments))
                 .contains("from 2 fresh starts: median worth by work=0.5 [95 % bootstrap interval]\n   run 1  -")
                 .doesNotContain("median distance");
 
-        assertThat(evolve("far", "--evaluations", "16")).as(err.toString()).isZero();
-        arguments.add(folder.resolve("far").toString());
-        out.getBuffer().setLength(0);
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("from 2 fresh starts: median distance [").doesNotContain("median worth");
+        ok(evolve("far", "--evaluations", "16"));
+        arguments.add(path("far"));
+        ok(natator(arguments)).contains("from 2 fresh starts: median distance [").doesNotContain("median worth");
     }
 
     @Test
     void aSmallWorthIsNotNothing() throws IOException {
         for (String optimizer : List.of("random", "cma-es")) {
-            assertThat(
-                    evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.00001", "--evaluations", "16"))
-                    .as(err.toString()).isZero();
+            ok(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.00001", "--evaluations", "16"));
         }
         assertThat(out.toString())
                 .containsPattern("selected +-0\\.0{4,}[1-9]\\d\\d by one run, -0\\.0{4,}[1-9]\\d\\d again");
-        out.getBuffer().setLength(0);
-        assertThat(natator("show", folder.resolve("random").toString())).isZero();
-        assertThat(out.toString()).containsPattern(
+        ok(natator("show", path("random"))).containsPattern(
                 "best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
-        out.getBuffer().setLength(0);
-        assertThat(natator("compare", "--starts", "2", folder.resolve("random").toString(),
-                folder.resolve("cma-es").toString()))
-                .isZero();
-        assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d")
-                .containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
+        ok(natator("compare", "--starts", "2", path("random"), path("cma-es")))
+                .containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d").containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
     }
 
     @Test
     void steeredGaitsAreToldWithTheirOffsets() throws IOException {
-        assertThat(evolve("dense", "--encoding", "dense-steered")).isZero();
-        assertThat(evolve("sparse", "--encoding", "sparse-steered")).isZero();
+        ok(evolve("sparse", "--encoding", "sparse-steered"));
+        ok(evolve("dense", "--encoding", "dense-steered"));
         double offset = Json.parse(file("dense", "best.json"), JsonNode.class).at("/gait/offset/0").doubleValue();
         String both = String.format(Locale.ROOT, "%.4f %<.4f", offset);
         assertThat(out.toString()).contains("\n  offset      " + both + "\n");
-        out.getBuffer().setLength(0);
 
-        assertThat(natator("compare", "--starts", "0", folder.resolve("dense").toString(),
-                folder.resolve("sparse").toString())).isZero();
-        assertThat(out.toString()).contains(", dense-steered genes, ", ", sparse-steered genes, ",
+        ok(natator("compare", "--starts", "0", path("dense"), path("sparse"))).contains(", dense-steered genes, ",
+                ", sparse-steered genes, ",
                 ", offset " + both + "\n");
     }
 
@@ -155,16 +129,13 @@ class CompareCommandTest extends FakeSimulatorTest {
         for (String seed : List.of("1", "2")) {
             for (String optimizer : List.of("cma-es", "random")) {
                 String run = folder.resolve(optimizer + seed).toString();
-                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16",
-                        "--seed", seed,
-                        "--output-dir", run)).as(err.toString()).isZero();
+                ok(natator("evolve --population 8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                        "--output-dir", run));
                 arguments.add(run);
             }
         }
-        out.getBuffer().setLength(0);
 
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains(
+        ok(natator(arguments)).contains(
                 "at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
                 "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
     }
@@ -173,15 +144,14 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void writesWhatRunsAreComparedByAsJson() throws IOException {
         List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "4", "--rank-starts", "3", "--json",
-                folder.resolve("runs.jsonl").toString()));
+                path("runs.jsonl")));
         for (String optimizer : List.of("cma-es", "random")) {
-            String run = folder.resolve(optimizer).toString();
-            assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "40",
-                    "--output-dir", run)).isZero();
+            String run = path(optimizer);
+            ok(natator("evolve --population 8", "--optimizer", optimizer, "--evaluations", "40", "--output-dir", run));
             arguments.add(run);
         }
 
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        ok(natator(arguments));
         List<String> lines = Files.readString(folder.resolve("runs.jsonl")).lines().toList();
         assertThat(lines).hasSize(2);
         for (String line : lines) {
@@ -208,21 +178,18 @@ class CompareCommandTest extends FakeSimulatorTest {
     @ParameterizedTest
     @CsvSource({"show", "compare"})
     void whatIsNoRunIsNamed(String command) {
-        String nothing = folder.resolve("nothing").toString();
+        String nothing = path("nothing");
 
-        assertThat(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
-                .isEqualTo(2);
-        assertThat(err.toString().strip())
-                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json");
+        refused(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
+                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json\n");
     }
 
     @Test
     void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.createDirectories(folder.resolve("run/check.json.new/in the way"));
-        forget();
 
-        assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).isEqualTo(1);
+        assertThat(natator("check", "--starts", "2", path("run"))).isEqualTo(1);
 
         assertThat(out.toString()).contains("mirrored", "verdict");
         assertThat(err.toString()).startsWith("natator check: cannot write ").hasLineCount(1);
@@ -230,11 +197,10 @@ class CompareCommandTest extends FakeSimulatorTest {
 
     @Test
     void aCheckThatCannotLookAtTheWaterKeepsTheRest() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.createFile(folder.resolve("no-recording"));
-        forget();
 
-        assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("check", "--starts", "2", path("run")));
 
         assertThat(err.toString()).startsWith("natator check: warning: ").contains("out of luck")
                 .endsWith("; how much of the body is under water is left out\n").hasLineCount(1);
@@ -244,15 +210,12 @@ class CompareCommandTest extends FakeSimulatorTest {
 
     @Test
     void checkNeedsTwoStartsAndARun() throws IOException {
-        assertThat(evolve("run")).isZero();
-        out.getBuffer().setLength(0);
+        ok(evolve("run"));
         for (String starts : List.of("1", "0", "2000")) {
-            err.getBuffer().setLength(0);
-            assertThat(natator("check", "--starts", starts, folder.resolve("run").toString())).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator check: --starts is " + starts
+            refused(natator("check", "--starts", starts, path("run"))).isEqualTo("natator check: --starts is " + starts
                     + "; expected a whole number from 2 to 1000\n");
         }
-        assertThat(natator("check", folder.toString())).isEqualTo(2);
+        refused(natator("check", folder.toString()));
         assertThat(folder.resolve("run/check.json")).doesNotExist();
     }
 }

@@ -104,8 +104,7 @@ class DocumentedFormatsTest {
         Path run = ROOT.resolve("results/quick-evolution/default-seed-1");
         try (Stream<Path> files = Files.list(run)) {
             assertThat(files.map(file -> file.getFileName().toString()).filter(name -> name.contains(".")))
-                    .hasSizeGreaterThan(6)
-                    .allSatisfy(name -> assertThat(text).contains("| `" + name + "` |"));
+                    .hasSizeGreaterThan(6).allSatisfy(name -> assertThat(text).contains("| `" + name + "` |"));
         }
     }
 }

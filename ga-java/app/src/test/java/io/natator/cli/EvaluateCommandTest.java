@@ -7,8 +7,6 @@ import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
-import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -18,31 +16,29 @@ class EvaluateCommandTest extends FakeSimulatorTest {
 
     @Test
     void aStoredGaitThatComesOutOtherwiseIsNamed() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Path best = folder.resolve("run/best.json");
         String[] again = {"evaluate", "--scene", "pool/creature-1", "--duration", "2", "--gait", best.toString()};
-        err.getBuffer().setLength(0);
-        assertThat(natator(again)).isZero();
+        ok(natator(again));
         assertThat(err.toString()).isEmpty();
 
         JsonNode stored = Json.parse(file("run", "best.json"), JsonNode.class);
         String distance = stored.get("distance").asText();
         Files.writeString(best, Files.readString(best).replace(distance, "0.1234")
                 .replace(stored.get("result").get("hash").asText(), "00000000deadbeef"));
-        assertThat(natator(again)).isZero();
+        ok(natator(again));
         assertThat(err.toString())
                 .isEqualTo(String.format("%s: stored 0.1234, today's program %.4f (the same program: no "
                         + "reason is known)%n", folder.resolve("run"), stored.get("distance").asDouble()));
 
-        err.getBuffer().setLength(0);
         again[4] = "3";
-        assertThat(natator(again)).isZero();
+        ok(natator(again));
         assertThat(err.toString()).as("another simulation").isEmpty();
     }
 
     @Test
     void evaluatesGenes() throws IOException {
-        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", "1.5", "0.1", "0.2", "0.3")).isZero();
+        ok(natator("evaluate", "--scene", "thesis/creature-1", "--gait", "1.5", "0.1", "0.2", "0.3"));
 
         assertThat(Json.parse(out.toString(), JsonNode.class).get("distance").asDouble()).isEqualTo(-1.3925);
     }
@@ -51,14 +47,12 @@ class EvaluateCommandTest extends FakeSimulatorTest {
     void evaluatesAGaitFileAndTheBestOfARun() throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"),
                 "{\"$schema\":\"gait.schema.json\",\"frequency\":1.5,\"amplitude\":[0.1,0.2],\"phase\":[0,0.3]}");
-        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isZero();
+        ok(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString()));
         assertThat(Json.parse(out.toString(), JsonNode.class).get("distance").asDouble()).isEqualTo(-1.3925);
 
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
-        out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", "pool/creature-1", "--gait",
-                folder.resolve("run/best.json").toString())).isZero();
+        ok(natator("evaluate", "--scene", "pool/creature-1", "--gait", path("run/best.json")));
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
         assertThat(again.get("swimming").get("reynolds").asDouble()).isEqualTo(131.4);
@@ -76,12 +70,8 @@ class EvaluateCommandTest extends FakeSimulatorTest {
             "thesis/creature-1|no-such.json|no-such.json does not exist",
             "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})
     void badGaitsAreNamed(String scene, String gait, String message) {
-        List<String> all = new ArrayList<>(List.of("evaluate", "--scene", scene, "--gait"));
-        all.addAll(List.of(gait.split(" ")));
-
-        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evaluate: ").contains(message);
+        refused(natator("evaluate --gait " + gait, "--scene", scene)).hasLineCount(1)
+                .startsWith("natator evaluate: ").contains(message);
     }
 
     @ParameterizedTest
@@ -103,10 +93,8 @@ class EvaluateCommandTest extends FakeSimulatorTest {
     void gaitFilesAreNoMoreThanGaits(String json, String message) throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"), json.replace('\'', '"'));
 
-        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isEqualTo(2);
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evaluate: --gait " + gait + ": " + message)
-                .doesNotContain("line -1");
+        refused(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).hasLineCount(1)
+                .startsWith("natator evaluate: --gait " + gait + ": " + message).doesNotContain("line -1");
     }
 
     @Test

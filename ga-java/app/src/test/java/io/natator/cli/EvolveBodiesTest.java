@@ -23,15 +23,13 @@ import org.junit.jupiter.params.provider.CsvSource;
 /** Runs whose bodies are evolved, with a simulator that swims by a formula: best at a length of 1.25. */
 class EvolveBodiesTest extends FakeSimulatorTest {
 
-    private static final List<String> RESULTS = List.of("config.json", "generations.csv", "best.json",
-            "checkpoint.json", "evaluations.jsonl");
     /** Of the fake's eight actuators. */
     private static final Gait GAIT = new Gait(1.5, List.of(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             List.of(0.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3));
 
     @Override
     int evolve(String name, String... more) {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", folder.resolve(name).toString()));
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", path(name)));
         arguments.addAll(List.of(more));
         for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"),
                 List.of("--generations", "2"))) {
@@ -39,22 +37,16 @@ class EvolveBodiesTest extends FakeSimulatorTest {
                 arguments.addAll(usual);
             }
         }
-        return natator(arguments.toArray(String[]::new));
+        return natator(arguments);
     }
 
     private String gaitFile() throws IOException {
         return Files.writeString(folder.resolve("gait.json"), Json.line(GAIT)).toString();
     }
 
-    private void assertSame(String one, String other) {
-        for (String file : RESULTS) {
-            assertThat(folder.resolve(one).resolve(file)).hasSameBinaryContentAs(folder.resolve(other).resolve(file));
-        }
-    }
-
     @Test
     void aBestHasItsBodyBesideItsGait() {
-        assertThat(evolve("run", "--evolve", "both", "--encoding", "sparse")).as(err.toString()).isZero();
+        ok(evolve("run", "--evolve", "both", "--encoding", "sparse"));
 
         RunReader run = RunReader.in(folder.resolve("run"));
         BestGait best = run.best();
@@ -68,8 +60,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     /** Kinds of gaits are told apart by beats for a body length, which is each body's own. */
     @Test
     void everyBodyHasItsOwnLength() {
-        assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1"))
-                .as(err.toString()).isZero();
+        ok(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1"));
 
         RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
@@ -81,8 +72,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
 
     @Test
     void bodiesAloneGetBetterWithTheSameGait() throws IOException {
-        assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString())
-                .isZero();
+        ok(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6"));
 
         RunReader run = RunReader.in(folder.resolve("run"));
         assertThat(run.evaluations()).allSatisfy(one -> assertThat(one.gait()).isEqualTo(GAIT));
@@ -93,8 +83,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
 
     @Test
     void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
-        assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString())
-                .isZero();
+        ok(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0"));
 
         List<EvaluationRecord> refused = RunReader.recorded(folder.resolve("run")).rows().stream()
                 .filter(one -> one.result().status() == Status.REFUSED).toList();
@@ -105,7 +94,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         });
         assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8)
                 .hasSameSizeAs(refused);
-        natator("show", folder.resolve("run").toString());
+        natator("show", path("run"));
         assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ",
                 "does not fit into the tank",
                 "early stop  0.0 % of the time: 0 of " + (20 - refused.size())
@@ -115,52 +104,45 @@ class EvolveBodiesTest extends FakeSimulatorTest {
     @Test
     void theModeAndAKillChangeNoByte() throws IOException {
         for (String mode : List.of("process", "resident", "batch")) {
-            assertThat(evolve(mode, "--evolve", "both", "--simulator", mode, "--population", "6")).as(err.toString())
-                    .isZero();
+            ok(evolve(mode, "--evolve", "both", "--simulator", mode, "--population", "6"));
         }
-        assertSame("resident", "process");
-        assertSame("batch", "process");
+        assertSameRuns("resident", "process", "config.json");
+        assertSameRuns("batch", "process", "config.json");
 
         Path killed = Files.createDirectory(folder.resolve("killed"));
         Files.copy(folder.resolve("batch/config.json"), killed.resolve("config.json"));
         List<String> lines = Files.readAllLines(folder.resolve("batch/evaluations.jsonl"));
         String half = lines.get(13).substring(0, 40);
         Files.writeString(killed.resolve("evaluations.jsonl"), String.join("\n", lines.subList(0, 13)) + "\n" + half);
-        assertThat(natator("resume", killed.toString())).isZero();
-        assertSame("killed", "process");
+        ok(natator("resume", killed.toString()));
+        assertSameRuns("killed", "process", "config.json");
     }
 
     @Test
     void aFileOfTheBestSwimsItsBody() throws IOException {
-        assertThat(evolve("run", "--evolve", "both")).isZero();
+        ok(evolve("run", "--evolve", "both"));
         BestGait best = RunReader.best(folder.resolve("run"));
-        out.getBuffer().setLength(0);
 
-        assertThat(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait",
-                folder.resolve("run/best.json").toString())).as(err.toString()).isZero();
+        ok(natator("evaluate", "--scene", "pool/eel", "--duration", "2", "--gait", path("run/best.json")));
 
         JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class,
                 "result");
         assertThat(result.path("distance").doubleValue()).isEqualTo(best.distance());
         assertThat(GaitFile.read(folder.resolve("run/best.json"))).isEqualTo(new Swimmer(best.gait(), best.body()));
-        assertThat(SwimSource.of(folder.resolve("run").toString(), null).overrides()).isEqualTo(best.body());
-        out.getBuffer().setLength(0);
-        assertThat(natator("show", folder.resolve("run").toString(), "--generation", "0")).as(err.toString()).isZero();
+        assertThat(SwimSource.of(path("run"), null).overrides()).isEqualTo(best.body());
+        ok(natator("show", path("run"), "--generation", "0"));
         Swimmer first = GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString()));
         assertThat(first).isEqualTo(RunReader.in(folder.resolve("run")).bestUntil(0).swimmer());
         assertThat(first.body().path("creature").has("profile")).isTrue();
-        assertThat(natator("show", folder.resolve("run").toString(), "--generation", "99")).isEqualTo(2);
-        assertThat(err.toString()).contains("--generation is 99; expected one that ").contains(" has finished, 0 to ");
+        refused(natator("show", path("run"), "--generation", "99")).contains("--generation is 99; expected one that ")
+                .contains(" has finished, 0 to ");
     }
 
     @Test
     void showComparesTheBodyWithTheScenes() {
-        assertThat(evolve("run", "--evolve", "both")).isZero();
-        out.getBuffer().setLength(0);
+        ok(evolve("run", "--evolve", "both"));
 
-        assertThat(natator("show", folder.resolve("run").toString())).isZero();
-
-        assertThat(out.toString()).containsPattern("length +1\\.\\d+ units, the scene's 1\\.5\n")
+        ok(natator("show", path("run"))).containsPattern("length +1\\.\\d+ units, the scene's 1\\.5\n")
                 .containsPattern(
                         "height +0\\.\\d+ .* units at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
                 .contains("joints", "stiffness", "muscles", "particles");
@@ -178,11 +160,9 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         Files.writeString(folder.resolve("odd.json"), "{\"gait\":" + Json.line(GAIT) + ",\"body\":3}");
         Files.writeString(folder.resolve("short.json"), Json.line(new Gait(1, List.of(1.0), List.of(0.0))));
 
-        assertThat(evolve("run", gait == null ? new String[] {"--evolve", what, "--scene", scene}
-                : new String[] {"--evolve", what, "--gait", folder.resolve(gait).toString()})).isEqualTo(2);
-
-        assertThat(err.toString()).startsWith("natator evolve: " + message.replace("FOLDER", folder.toString()))
-                .hasLineCount(1);
+        refused(evolve("run", gait == null ? new String[] {"--evolve", what, "--scene", scene}
+                : new String[] {"--evolve", what, "--gait", path(gait)}))
+                .startsWith("natator evolve: " + message.replace("FOLDER", folder.toString())).hasLineCount(1);
         assertThat(folder.resolve("run")).doesNotExist();
     }
 }

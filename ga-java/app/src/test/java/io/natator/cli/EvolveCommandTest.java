@@ -6,7 +6,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
-import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -17,9 +16,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
 
     @Test
     void evolvesAndReports() throws IOException {
-        assertThat(evolve("run")).as(err.toString()).isZero();
-
-        assertThat(out.toString())
+        ok(evolve("run"))
                 .startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
                 .contains("  evaluations about 50\n", "  time        about ",
                         "best gait of pool/creature-1 after 3 generations",
@@ -50,53 +47,43 @@ class EvolveCommandTest extends FakeSimulatorTest {
     @Test
     void aFolderWithASpaceIsQuotedInCommands() throws IOException {
         String run = "'" + folder.resolve("minnow one") + "'";
-        assertThat(evolve("minnow one", "--optimizer", "map-elites")).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("natator view --run " + run + "\n", "natator page " + run + "\n",
+        ok(evolve("minnow one", "--optimizer", "map-elites")).contains("natator view --run " + run + "\n",
+                "natator page " + run + "\n",
                 "run folder  " + folder.resolve("minnow one"));
-        assertThat(natator("show", folder.resolve("minnow one").toString())).isZero();
-        assertThat(out.toString()).contains("natator view --run " + run + " swims them");
+        ok(natator("show", path("minnow one"))).contains("natator view --run " + run + " swims them");
 
         Files.writeString(folder.resolve("slow"), "0.2");
-        assertThat(evolve("one cut", "--workers", "1", "--stop-after", "4")).as(err.toString()).isZero();
+        ok(evolve("one cut", "--workers", "1", "--stop-after", "4"));
         assertThat(err.toString())
                 .endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
-        assertThat(natator("show", folder.resolve("one cut").toString())).isZero();
-        assertThat(out.toString()).contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
+        ok(natator("show", path("one cut")))
+                .contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
     }
 
     @ParameterizedTest
     @CsvSource({"corrected", "stock"})
     void theWorkersDoNotChangeAByte(String operators) throws IOException {
-        assertThat(evolve("one", "--workers", "1", "--operators", operators)).isZero();
-        assertThat(evolve("four", "--workers", "4", "--operators", operators)).isZero();
-
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
-                "evaluations.jsonl")) {
-            assertThat(file("four", name)).as(name).isEqualTo(file("one", name));
-        }
+        ok(evolve("one", "--workers", "1", "--operators", operators));
+        ok(evolve("four", "--workers", "4", "--operators", operators));
+        assertSameRuns("four", "one", "config.json");
     }
 
     @ParameterizedTest
     @CsvSource({"jgap, 1", "cma-es, 1", "random, 1", "jgap, 3", "cma-es, 3"})
     void theModeDoesNotChangeAByte(String optimizer, int starts) throws IOException {
         for (String mode : List.of("process", "resident", "batch")) {
-            assertThat(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations",
-                    "29", "--starts", "" + starts)).as(err.toString()).isZero();
+            ok(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations", "29",
+                    "--starts", "" + starts));
         }
-
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
-                "evaluations.jsonl")) {
-            assertThat(file("resident", name)).as(name).isEqualTo(file("process", name));
-            assertThat(file("batch", name)).as(name).isEqualTo(file("process", name));
-        }
+        assertSameRuns("resident", "process", "config.json");
+        assertSameRuns("batch", "process", "config.json");
         assertThat(file("process", "evaluations.jsonl").lines()).hasSize(29);
     }
 
     @Test
     void aDryRunPlansAndDoesNothing() {
-        assertThat(evolve("run", "--dry-run", "--workers", "3")).as(err.toString()).isZero();
-
-        assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 1m16s each",
+        ok(evolve("run", "--dry-run", "--workers", "3")).contains("evaluations about 50", "process, 3 at once",
+                "time limit 1m16s each",
                 "run folder  " + folder.resolve("run"), "time        about ");
         assertThat(folder.resolve("run")).doesNotExist();
     }
@@ -104,7 +91,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
     /** The first generation swims from as many starts as the others, and has its race. */
     @Test
     void aPlanCountsTheStartsOfTheFirstGeneration() throws IOException {
-        assertThat(evolve("run", "--optimizer", "random", "--starts", "3")).as(err.toString()).isZero();
+        ok(evolve("run", "--optimizer", "random", "--starts", "3"));
 
         long lines = file("run", "evaluations.jsonl").lines().count();
         assertThat(out.toString()).contains("\n  evaluations " + lines + "\n", " and " + lines + " evaluations\n");
@@ -112,49 +99,41 @@ class EvolveCommandTest extends FakeSimulatorTest {
 
     @Test
     void withoutOptionsItIsTheQuickPreset() {
-        assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
-        assertThat(out.toString())
+        ok(natator("evolve", "--dry-run", "--output-dir", path("run")))
                 .startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
                 .contains(", backend cpu, 2.0 s\n", "evaluations about 100\n");
-        out.getBuffer().setLength(0);
 
-        assertThat(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3")).isZero();
-        assertThat(out.toString()).contains(", scheme flex, 3.0 s\n");
-        out.getBuffer().setLength(0);
+        ok(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3"))
+                .contains(", scheme flex, 3.0 s\n");
 
-        assertThat(natator("evolve", "--dry-run", "--preset", "thesis")).isZero();
-        assertThat(out.toString()).startsWith("thesis/creature-1, ").contains("population 150, 100 generations",
+        ok(natator("evolve", "--dry-run", "--preset", "thesis")).startsWith("thesis/creature-1, ").contains(
+                "population 150, 100 generations",
                 ", backend cpu\n");
     }
 
     @Test
     void oneGenerationIsNotSeveral() {
-        assertThat(evolveTo(1, "run", "--workers", "1")).as(err.toString()).isZero();
-
-        assertThat(out.toString()).contains(", 1 generation, ", " ends early: 1 takes ", " after 1 generation and ");
+        ok(evolveTo(1, "run", "--workers", "1")).contains(", 1 generation, ", " ends early: 1 takes ",
+                " after 1 generation and ");
     }
 
     @Test
     void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
-        assertThat(evolve("run", "--scene", "fault/mixed")).as(err.toString()).isZero();
-
-        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ",
+        ok(evolve("run", "--scene", "fault/mixed")).contains("time        not known: a trial evaluation failed: ",
                 "best gait of fault/mixed");
     }
 
     /** Many more at once than there are processors would only wait for each other. */
     @Test
     void aDryRunTriesNoMoreThanTheProcessorsDoAtOnce() {
-        assertThat(evolve("run", "--dry-run", "--workers", "1024")).as(err.toString()).isZero();
-
-        assertThat(out.toString()).contains("process, 1024 at once",
+        ok(evolve("run", "--dry-run", "--workers", "1024")).contains("process, 1024 at once",
                 Runtime.getRuntime().availableProcessors() + " take ");
     }
 
     @Test
     void creature2IsSparseUnlessToldOtherwise() throws IOException {
-        assertThat(evolve("sparse", "--creature", "2")).isZero();
-        assertThat(evolve("dense", "--creature", "2", "--encoding", "dense")).isZero();
+        ok(evolve("sparse", "--creature", "2"));
+        ok(evolve("dense", "--creature", "2", "--encoding", "dense"));
 
         assertThat(Json.parse(file("sparse", "best.json"), JsonNode.class).get("genes")).hasSize(4);
         assertThat(Json.parse(file("dense", "best.json"), JsonNode.class).get("genes")).hasSize(16);
@@ -163,7 +142,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
 
     @Test
     void faultsCostOnlyTheirOwnEvaluation() throws IOException {
-        assertThat(evolve("faults", "--scene", "fault/mixed")).as(err.toString()).isZero();
+        ok(evolve("faults", "--scene", "fault/mixed"));
 
         assertThat(file("faults", "evaluations.jsonl").lines().filter(line -> line.contains("\"failed\"")))
                 .isNotEmpty().allSatisfy(line -> assertThat(line).contains("\"error\":\"no valid result"));
@@ -174,36 +153,28 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void aRunInWhichAllFailsEndsWithOneLine() {
         assertThat(evolve("broken", "--scene", "fault/exit")).isEqualTo(1);
 
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).startsWith("natator evolve: generation 0: 8 of 8 simulations failed, the first: ")
+        assertThat(err.toString()).hasLineCount(1)
+                .startsWith("natator evolve: generation 0: 8 of 8 simulations failed, the first: ")
                 .contains("out of luck");
     }
 
     /** The runs are those that each seed gives alone. */
     @Test
     void evolvesWithSeveralSeedsInPieces() throws IOException {
-        String[] study = {"evolve", "--creature", "1", "--seeds", "3", "--evaluations", "30", "--population", "6",
-                "--simulator", "batch",
-                "--output-dir", folder.resolve("study").toString()};
-        List<String> piece = new ArrayList<>(List.of(study));
-        piece.addAll(List.of("--stop-after", "0.3"));
+        String command = "evolve --creature 1 --seeds 3 --evaluations 30 --population 6 --simulator batch";
+        String[] study = words(command, "--output-dir", path("study"));
         Files.writeString(folder.resolve("slow"), "0.5");
-        assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).contains(" of 3 runs finished in ", "; the same command continues");
+        ok(natator(command + " --stop-after 0.3", "--output-dir", path("study")))
+                .contains(" of 3 runs finished in ", "; the same command continues");
 
         Files.delete(folder.resolve("slow"));
-        assertThat(natator(study)).as(err.toString()).isZero();
-        assertThat(out.toString()).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
-        assertThat(natator("evolve", "--creature", "1", "--seed", "2", "--evaluations", "30", "--population", "6",
-                "--output-dir",
-                folder.resolve("alone").toString())).as(err.toString()).isZero();
+        ok(natator(study)).endsWith("3 of 3 runs finished in " + folder.resolve("study") + "\n");
+        ok(natator("evolve --creature 1 --seed 2 --evaluations 30 --population 6 --output-dir", path("alone")));
         assertThat(folder.resolve("study/seed-2/evaluations.jsonl"))
                 .hasSameBinaryContentAs(folder.resolve("alone/evaluations.jsonl"));
 
-        err.getBuffer().setLength(0);
         study[6] = "40";
-        assertThat(natator(study)).isEqualTo(2);
-        assertThat(err.toString()).contains("seed-1 was begun with other settings: evaluations was 30, is now 40")
+        refused(natator(study)).contains("seed-1 was begun with other settings: evaluations was 30, is now 40")
                 .hasLineCount(1);
     }
 }

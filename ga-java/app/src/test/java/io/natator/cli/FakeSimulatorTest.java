@@ -19,8 +19,8 @@ abstract class FakeSimulatorTest extends CommandTest {
     /** Runs a command with the fake. */
     @Override
     int natator(String... arguments) {
-        List<String> all = new ArrayList<>(List.of(arguments));
-        if (!List.of("show", "evaluate", "converge").contains(arguments[0])) {
+        List<String> all = new ArrayList<>(List.of(words(arguments)));
+        if (!List.of("show", "evaluate", "converge").contains(all.get(0))) {
             // The fake's faults are not what the cache is to keep.
             all.add(1, "--no-cache");
         }
@@ -33,10 +33,9 @@ abstract class FakeSimulatorTest extends CommandTest {
     }
 
     int evolveTo(int generations, String runName, String... more) {
-        List<String> arguments = new ArrayList<>(
-                List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
-                        "5", "--output-dir", folder.resolve(runName).toString()));
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", path(runName)));
+        arguments.addAll(List.of("--population", "8", "--seed", "5", "--generations", "" + generations));
         arguments.addAll(List.of(more));
-        return natator(arguments.toArray(String[]::new));
+        return natator(arguments);
     }
 }

@@ -42,9 +42,8 @@ class InterruptedCommandTest extends FakeSimulatorTest {
     @ValueSource(strings = "page pool/eel --output NEW.html")
     void whatTheyWereDoingIsNoFailure(String command) throws IOException, InterruptedException {
         String name = command.split(" ")[0];
-        List<String> words = JavaCommand.of(Patient.class,
-                command.replace("NEW", folder.resolve("new").toString()).split(" "));
-        words.addAll(List.of("--simulator-path", folder.resolve("fake-simulator.sh").toString()));
+        List<String> words = JavaCommand.of(Patient.class, command.replace("NEW", path("new")).split(" "));
+        words.addAll(List.of("--simulator-path", path("fake-simulator.sh")));
         Path log = folder.resolve("log");
         Process process = new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(log.toFile()).start();
         while (process.isAlive() && !Files.exists(folder.resolve("seen-stream"))) {

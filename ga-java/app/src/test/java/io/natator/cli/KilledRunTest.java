@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.JavaCommand;
+import io.natator.checkpoint.RunFiles;
 import io.natator.process.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
@@ -28,8 +29,6 @@ import org.junit.jupiter.params.provider.ValueSource;
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class KilledRunTest {
 
-    private static final List<String> RESULTS = List.of("generations.csv", "best.json", "checkpoint.json",
-            "evaluations.jsonl");
     private static final List<String> HOW = List.of("--simulator", "resident", "--workers", "2", "--no-cache",
             "--timeout", "3600");
     private static final List<String> SETTINGS = List.of("--population", "30", "--evaluations", "400");
@@ -65,14 +64,10 @@ class KilledRunTest {
         Path run = folder.resolve("whole");
         Path slow = folder.resolve("slow");
         Files.delete(slow);
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path",
-                folder.resolve("fake-simulator.sh").toString(), "--output-dir", run.toString()));
-        arguments.addAll(HOW);
-        arguments.addAll(SETTINGS);
-        arguments.addAll(List.of(more));
+        List<String> command = evolve(run, more);
         PrintWriter nowhere = new PrintWriter(Writer.nullWriter());
-        assertThat(Main.commandLine().setOut(nowhere).setErr(nowhere).execute(arguments.toArray(String[]::new)))
-                .isZero();
+        assertThat(Main.commandLine().setOut(nowhere).setErr(nowhere)
+                .execute(command.subList(command.indexOf("evolve"), command.size()).toArray(String[]::new))).isZero();
         Files.writeString(slow, "0.01");
         return run;
     }
@@ -83,12 +78,6 @@ class KilledRunTest {
         command.addAll(SETTINGS);
         command.addAll(List.of(more));
         return command;
-    }
-
-    private static void assertSame(Path run, Path whole) {
-        for (String name : RESULTS) {
-            assertThat(run.resolve(name)).hasSameBinaryContentAs(whole.resolve(name));
-        }
     }
 
     @ParameterizedTest
@@ -111,7 +100,7 @@ class KilledRunTest {
 
         assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
 
-        assertSame(run, whole);
+        RunFiles.assertSame(run, whole);
     }
 
     /**
@@ -165,7 +154,7 @@ class KilledRunTest {
                 .contains("File too large");
         assertThat(Files.size(run.resolve("evaluations.jsonl"))).isGreaterThan(10_000);
         assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
-        assertSame(run, whole);
+        RunFiles.assertSame(run, whole);
     }
 
     @ParameterizedTest
@@ -181,6 +170,6 @@ class KilledRunTest {
         assertThat(process.waitFor()).isEqualTo(1);
 
         assertThat(Files.readAllLines(log)).last().isEqualTo("natator: standard output cannot be written");
-        assertSame(run, whole);
+        RunFiles.assertSame(run, whole);
     }
 }

@@ -26,7 +26,7 @@ class NewCommandTest extends CommandTest {
         Path file = folder.resolve(name + ".json");
         List<String> arguments = new ArrayList<>(List.of("new", kind, name, "-o", file.toString()));
         arguments.addAll(List.of(options));
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        ok(natator(arguments));
         assertThat(file).exists();
         assertThat(out.toString().lines()).hasSize(3).first().asString().startsWith(file + ": a " + kind);
         return file;
@@ -35,10 +35,9 @@ class NewCommandTest extends CommandTest {
     /** Runs what {@code new} has said should be tried next, as a shell does; {@code view} is left to itself. */
     private List<String> tried() throws IOException, InterruptedException {
         List<String> said = out.toString().lines().skip(1).map(String::strip).toList();
-        out.getBuffer().setLength(0);
         for (String command : said) {
             if (command.startsWith("natator new ")) {
-                assertThat(natator(command.substring("natator ".length()).split(" "))).as(err.toString()).isZero();
+                ok(natator(command.substring("natator ".length()).split(" ")));
             } else if (command.startsWith("natator-sim ")) {
                 String cheap = command.replace(" --duration 2", " --duration 0.02 --overrides '" + IN_VACUUM + "'");
                 Process shell = new ProcessBuilder("sh", "-c", "'" + SIMULATOR.getParent() + "'/" + cheap)
@@ -60,9 +59,8 @@ class NewCommandTest extends CommandTest {
 
         Path gait = folder.resolve("minnow-gait.json");
         assertThat(said.get(1)).isEqualTo("natator view --scene " + scene + " --gait " + gait);
-        out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", scene.toString(), "--gait", gait.toString(), "--duration", "0.02",
-                "--overrides", IN_VACUUM)).as(err.toString()).isZero();
+        ok(natator("evaluate", "--scene", scene.toString(), "--gait", gait.toString(), "--duration", "0.02",
+                "--overrides", IN_VACUUM));
         assertThat(Json.parse(out.toString(), JsonNode.class).get("status").asText()).isEqualTo("ok");
     }
 
@@ -82,7 +80,7 @@ class NewCommandTest extends CommandTest {
     @Test
     void aFolderMayHaveQuotesInItsName() throws IOException, InterruptedException {
         Path creature = Files.createDirectories(folder.resolve("the \"fish\"")).resolve("own.json");
-        assertThat(natator("new", "creature", "own", "-o", creature.toString())).as(err.toString()).isZero();
+        ok(natator("new", "creature", "own", "-o", creature.toString()));
 
         assertThat(tried().get(0)).contains("the \\\"fish\\\"/own.json");
     }

@@ -21,8 +21,8 @@ class PageCommandTest extends CommandTest {
                 "{\"frequency\":1.861,\"amplitude\":[0.973,0.69],\"phase\":[0,0.648]}");
         Path page = folder.resolve("page.html");
 
-        assertThat(natator("page", "thesis/creature-1", "--gait", gait.toString(), "--duration", "4", "--output",
-                page.toString())).as(err.toString()).isZero();
+        ok(natator("page", "thesis/creature-1", "--gait", gait.toString(), "--duration", "4", "--output",
+                page.toString()));
 
         assertThat(Files.size(page)).isBetween(1_000_000L, 10_000_000L);
         assertThat(out.toString()).startsWith(page + ": ").contains(" MB, 60 frames a second, water to 3e-05");
@@ -31,14 +31,11 @@ class PageCommandTest extends CommandTest {
     @Test
     void theBestOfARun() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--output-dir",
-                run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve --population 6 --generations 1 --duration 0.1", "--output-dir", run.toString()));
         Path page = folder.resolve("page.html");
 
-        assertThat(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
-                .as(err.toString()).isZero();
-
-        assertThat(out.toString()).endsWith(", no water\n");
+        ok(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
+                .endsWith(", no water\n");
         assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
         assertThat(err.toString()).doesNotContain("stored");
     }
@@ -46,18 +43,16 @@ class PageCommandTest extends CommandTest {
     @Test
     void aStoredGaitThatSwimsOtherwiseNowIsNamed() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--population", "2", "--generations", "0", "--duration", "0.1", "--output-dir",
-                run.toString())).as(err.toString()).isZero();
-        err.getBuffer().setLength(0);
+        ok(natator("evolve --population 2 --generations 0 --duration 0.1", "--output-dir", run.toString()));
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
         String[] again = {"page", run.toString(), "--no-water", "--force", "--output",
-                folder.resolve("page.html").toString()};
-        assertThat(natator(again)).as(err.toString()).isZero();
+                path("page.html")};
+        ok(natator(again));
         assertThat(err.toString()).as("today's program made it").isEmpty();
 
         String best = Files.readString(run.resolve("best.json"));
         Files.writeString(run.resolve("best.json"), best.replace("\"distance\" : " + swum, "\"distance\" : 0.5521"));
-        assertThat(natator(again)).as(err.toString()).isZero();
+        ok(natator(again));
         assertThat(err.toString().lines()).hasSize(1).allSatisfy(line -> assertThat(line).startsWith(
                 run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4)
                         + " (the same program: no reason is known)"));
@@ -69,27 +64,23 @@ class PageCommandTest extends CommandTest {
         List<String> arguments = new ArrayList<>(
                 List.of("page", "pool/creature-1", "--duration", "0.05", "--no-water", "--output", page.toString()));
 
-        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err).hasToString("natator page: output file " + page
+        refused(natator(arguments)).isEqualTo("natator page: output file " + page
                 + " is already there; choose another by --output, or replace it by --force\n");
         assertThat(page).hasContent("mine");
 
         arguments.add("--force");
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        ok(natator(arguments));
         assertThat(page).content().contains("class=\"swim\"");
     }
 
     @Test
     void badInput() {
-        assertThat(natator("page", "thesis/creature-1", "--best", "0")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--best", "2")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
-        assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
-        assertThat(natator("page", "thesis/creature-1", "--output", folder.toString())).isEqualTo(2);
-        assertThat(err.toString())
-                .contains("output file is " + folder + ", which is a folder; expected the name of a file")
-                .contains("--best is 0; expected",
-                        "--best is 2; expected 1 with thesis/creature-1, which is no run folder\n")
-                .contains("--max-size is 0.0; expected").contains("no/such");
+        refused(natator("page", "thesis/creature-1", "--best", "0")).contains("--best is 0; expected");
+        refused(natator("page", "thesis/creature-1", "--best", "2"))
+                .contains("--best is 2; expected 1 with thesis/creature-1, which is no run folder\n");
+        refused(natator("page", "thesis/creature-1", "--max-size", "0")).contains("--max-size is 0.0; expected");
+        refused(natator("page", "no/such", "--duration", "0.1")).contains("no/such");
+        refused(natator("page", "thesis/creature-1", "--output", folder.toString()))
+                .contains("output file is " + folder + ", which is a folder; expected the name of a file");
     }
 }

@@ -37,8 +37,7 @@ class ProgressEstimateTest {
     private static EvolutionState after(int... evaluations) {
         List<GenerationSummary> history = IntStream.range(0, evaluations.length)
                 .mapToObj(i -> new GenerationSummary(i, 1, 1, 1, 1, 10, evaluations[i], 0, 0)).toList();
-        return new EvolutionState(evaluations.length - 1, Arrays.stream(evaluations).sum(), List.of(), null,
-                history);
+        return new EvolutionState(evaluations.length - 1, Arrays.stream(evaluations).sum(), List.of(), null, history);
     }
 
     @Test

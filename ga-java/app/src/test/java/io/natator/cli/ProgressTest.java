@@ -9,7 +9,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
-import io.natator.protocol.SimulationResult;
+import io.natator.protocol.Results;
 import java.io.ByteArrayOutputStream;
 import java.io.PrintStream;
 import java.io.PrintWriter;
@@ -25,21 +25,17 @@ class ProgressTest {
     private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
             .withSize(10, 2);
     private static final EvolutionState BEFORE = new EvolutionState(1, 29, List.of(),
-            new Individual(List.of(), 1, result(7, 0.25)), List.of(new GenerationSummary(0, 0, 0, 0, 0, 10, 10, 0, 0),
+            new Individual(List.of(), 1, Results.ok(7, 0.25)),
+            List.of(new GenerationSummary(0, 0, 0, 0, 0, 10, 10, 0, 0),
                     new GenerationSummary(1, 0, 0, 0, 0, 29, 19, 0, 0)));
 
     private final AtomicLong clock = new AtomicLong();
     private final StringWriter out = new StringWriter();
 
-    private static SimulationResult result(long id, double distance) {
-        return new SimulationResult(id, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float",
-                "0123456789abcdef", null, null);
-    }
-
     private void evaluate(Progress progress, double distance, long seconds) {
         clock.addAndGet(TimeUnit.SECONDS.toNanos(seconds));
         progress.evaluated(
-                new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)), result(0, distance)));
+                new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)), Results.ok(distance)));
     }
 
     private Progress progress(EvolutionState from, long recorded, PrintStream terminal) {

@@ -29,10 +29,8 @@ class RealSimulatorTest extends CommandTest {
     void aTinyEvolution() throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(
-                natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
-                        "--duration", "0.1", "--output-dir", run.toString()))
-                .as(err.toString()).isZero();
+        ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
+                "--duration", "0.1", "--output-dir", run.toString()));
 
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(4);
@@ -43,9 +41,8 @@ class RealSimulatorTest extends CommandTest {
         assertThat(Files.readString(run.resolve("evaluations.jsonl")).lines().filter(line -> line.contains("\"ok\"")))
                 .as("evaluations that went well").hasSizeGreaterThan(6);
 
-        out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", SMALL, "--scheme", "conserving", "--duration", "0.1", "--gait",
-                run.resolve("best.json").toString())).isZero();
+        ok(natator("evaluate", "--scene", SMALL, "--scheme", "conserving", "--duration", "0.1", "--gait",
+                run.resolve("best.json").toString()));
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
@@ -56,30 +53,23 @@ class RealSimulatorTest extends CommandTest {
     void aDurationBelowOneTimeStepIsRefused(String option) {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option))
-                .isEqualTo(2);
-
-        assertThat(err.toString()).contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
+        refused(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option))
+                .contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
         assertThat(run).doesNotExist();
     }
 
     @Test
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
-        String[] swim = {"evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", "1.5", "0.6", "0.69",
-                "0.5"};
-        List<String> elsewhere = new ArrayList<>(List.of(swim));
-        elsewhere.addAll(List.of("--simulator-command", "exec " + SIMULATOR + " serve"));
-        assertThat(natator(swim)).as(err.toString()).isZero();
+        String swim = "evaluate --scene pool/creature-1 --duration 0.1 --gait 1.5 0.6 0.69 0.5";
+        String[] elsewhere = words(swim, "--simulator-command", "exec " + SIMULATOR + " serve");
+        ok(natator(swim));
         String here = out.toString();
-        out.getBuffer().setLength(0);
 
-        assertThat(natator(elsewhere.toArray(String[]::new))).as(err.toString()).isZero();
-        assertThat(out.toString()).isEqualTo(here);
+        ok(natator(elsewhere)).isEqualTo(here);
 
         assumeThat(ProgramInfo.of(SIMULATOR).instructionSet()).isNotEqualTo("portable");
-        elsewhere.set(elsewhere.size() - 1, "NATATOR_ISA=portable exec " + SIMULATOR + " serve");
-        assertThat(natator(elsewhere.toArray(String[]::new))).isEqualTo(2);
-        assertThat(err.toString()).contains("swims otherwise than this program", "NATATOR_ISA").containsOnlyOnce("\n");
+        elsewhere[elsewhere.length - 1] = "NATATOR_ISA=portable exec " + SIMULATOR + " serve";
+        refused(natator(elsewhere)).contains("swims otherwise than this program", "NATATOR_ISA").containsOnlyOnce("\n");
     }
 
     /** In the pool, whose scheme has no clamp; half a second is too short to swim, so only what was run is looked at. */
@@ -87,13 +77,11 @@ class RealSimulatorTest extends CommandTest {
     @CsvSource({"pool/creature-1, false", "thesis/creature-1, true"})
     void aWinnerIsCheckedByItsControls(String scene, boolean hasClamp) throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
-        out.getBuffer().setLength(0);
+        ok(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
+                "--output-dir", run.toString()));
 
-        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
-
-        assertThat(out.toString()).contains("in water ", "with resting muscles ", "in vacuum ", "half the time step ",
+        ok(natator("check", "--starts", "2", run.toString())).contains("in water ", "with resting muscles ",
+                "in vacuum ", "half the time step ",
                 "mirrored ", "other backend             not tried", "under water ", "2 completed", "\nverdict: ");
         assertThat(out.toString().contains("no acceleration clamp")).isEqualTo(hasClamp);
         Controls controls = Json.read(run.resolve("check.json"), Controls.class, "check");
@@ -104,9 +92,7 @@ class RealSimulatorTest extends CommandTest {
         assertThat(controls.resting().work() == null ? 0 : controls.resting().work()).isZero();
         assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
 
-        out.getBuffer().setLength(0);
-        assertThat(execute("show", run.toString())).isZero();
-        assertThat(out.toString()).contains("  checked     ");
+        ok(execute("show", run.toString())).contains("  checked     ");
     }
 
     /** As a single run is: no file is begun that would fill the disk. */
@@ -114,12 +100,10 @@ class RealSimulatorTest extends CommandTest {
     void moreTimeStepsThanARunMayHaveAreRefused() {
         Path output = folder.resolve("out.html");
         for (String duration : List.of("1e6", "200000")) {
-            err.getBuffer().setLength(0);
             List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(),
                     "--max-size", "1000000",
                     "thesis/creature-1-vacuum");
-            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isEqualTo(2);
-            assertThat(err.toString()).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
+            refused(natator(arguments)).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
             assertThat(output).doesNotExist();
         }
     }
@@ -128,11 +112,9 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--population", "3", "--generations", "0", "--duration",
-                "0.105",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
-        err.getBuffer().setLength(0);
-        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve --scene pool/eel --population 3 --generations 0 --duration 0.105", "--output-dir",
+                run.toString()));
+        ok(natator("check", "--starts", "2", run.toString()));
         assertThat(err.toString()).doesNotContain("no snapshot", "--at");
         assertThat(run.resolve("check.json")).content().contains("underWater");
     }
@@ -141,22 +123,17 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
         Path run = folder.resolve("run");
-        assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations",
-                "0", "--duration", "0.1",
-                "--output-dir", run.toString())).as(err.toString()).isZero();
-        forget();
+        ok(natator("evolve --scene pool/eel --evolve both --population 3 --generations 0 --duration 0.1",
+                "--output-dir", run.toString()));
 
-        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString())
-                .isZero();
-        assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", " at time step and spacing 0, from ");
+        ok(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).contains("level ", "\nbase ",
+                "\ntime/2 ", " at time step and spacing 0, from ");
         assertThat(err.toString().lines()).as("runs").hasSize(4)
                 .allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4).contains("\"profile\"");
 
         String found = out.toString();
-        forget();
-        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).isZero();
-        assertThat(out.toString()).isEqualTo(found);
+        ok(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).isEqualTo(found);
         assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4);
     }
 
@@ -166,19 +143,12 @@ class RealSimulatorTest extends CommandTest {
             "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites|map of gaits: "})
     void whatIsMoreThanOneGaitIsShown(String options, String key, String line) throws IOException {
         Path run = folder.resolve("run");
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
-                "--output-dir", run.toString()));
-        arguments.addAll(List.of(options.split(" ")));
-        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
-        out.getBuffer().setLength(0);
+        ok(natator("evolve --population 4 --generations 1 " + options, "--output-dir", run.toString()));
 
-        assertThat(natator("show", run.toString(), "--generation", "0")).isZero();
+        ok(natator("show", run.toString(), "--generation", "0"));
         assertThat(GaitFile.read(Files.writeString(folder.resolve("first.json"), out.toString())).body()).isNull();
-        forget();
-        assertThat(execute("show", run.toString())).isZero();
-        assertThat(out.toString()).contains(line);
-        out.getBuffer().setLength(0);
-        assertThat(execute("show", "--json", run.toString())).isZero();
+        ok(execute("show", run.toString())).contains(line);
+        ok(execute("show", "--json", run.toString()));
         assertThat(Json.parse(out.toString(), JsonNode.class).get(key)).isNotEmpty();
     }
 
@@ -187,8 +157,8 @@ class RealSimulatorTest extends CommandTest {
     @CsvSource({"--objectives, work, objective work: this simulator does not measure it in scheme flex",
             "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
     void whatIsNotMeasuredIsNoObjective(String option, String value, String message) {
-        assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
-                "--duration", "0.02", option, value, "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+        refused(natator("evolve --preset thesis --population 2 --generations 0 --starts 1 --duration 0.02", option,
+                value, "--output-dir", path("run")));
 
         assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow())
                 .startsWith("natator evolve: " + message);
@@ -203,11 +173,9 @@ class RealSimulatorTest extends CommandTest {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
-            assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6",
-                    "--generations", "1",
+            ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "1",
                     "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode,
-                    "--output-dir",
-                    run.toString())).as(err.toString()).isZero();
+                    "--output-dir", run.toString()));
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
 
@@ -220,19 +188,12 @@ class RealSimulatorTest extends CommandTest {
     @Test
     void aSecondRunTakesItsResultsFromTheCache() throws IOException {
         for (String name : List.of("first", "second", "without")) {
-            List<String> arguments = new ArrayList<>(List.of("evolve", "--scene", SMALL, "--scheme", "conserving",
-                    "--population", "4", "--generations", "1", "--duration", "0.05", "--output-dir",
-                    folder.resolve(name).toString()));
-            if (name.equals("without")) {
-                arguments.add("--no-cache");
-            }
-            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+            String more = name.equals("without") ? " --no-cache" : "";
+            ok(natator("evolve --scheme conserving --population 4 --generations 1 --duration 0.05" + more,
+                    "--scene", SMALL, "--output-dir", path(name)));
         }
 
-        for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
-            assertThat(folder.resolve("second").resolve(file))
-                    .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
-        }
+        assertSameRuns("second", "without");
         EvaluationStatistics statistics = RunReader.statistics(folder.resolve("second"));
         assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isPositive();
         assertThat(RunReader.statistics(folder.resolve("without")).fromCache()).isZero();
@@ -243,8 +204,8 @@ class RealSimulatorTest extends CommandTest {
     void everyCreatureHasItsActuators(int creature, int actuators) throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0",
-                "--duration", "0.02", "--output-dir", run.toString())).as(err.toString()).isZero();
+        ok(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0", "--duration",
+                "0.02", "--output-dir", run.toString()));
         assertThat(Json.parse(Files.readString(run.resolve("config.json")), JsonNode.class).get("actuators").asInt())
                 .isEqualTo(actuators);
     }
@@ -254,12 +215,11 @@ class RealSimulatorTest extends CommandTest {
     @ValueSource(strings = {"evolve --creature 1", "evolve --creature 2"})
     void aCreatureThatCannotMoveIsNotEvolved(String command) {
         Path output = folder.resolve("output");
-        List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
-        arguments.addAll(List.of("--overrides", "{\"creature\":{\"joints\":[5]}}", "--output-dir", output.toString()));
+        String[] arguments = words(command, "--overrides", "{\"creature\":{\"joints\":[5]}}", "--output-dir",
+                output.toString());
+        refused(natator(arguments));
 
-        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
-
-        assertThat(err.toString().lines()).singleElement().asString().startsWith("natator " + arguments.get(0))
+        assertThat(err.toString().lines()).singleElement().asString().startsWith("natator " + arguments[0])
                 .contains("cannot move by itself: it has no actuators").contains("at least two joints");
         assertThat(output).doesNotExist();
     }
@@ -269,10 +229,7 @@ class RealSimulatorTest extends CommandTest {
             "thesis/creature-9|{}|thesis/creature-9",
             "thesis/creature-1|{\"no such setting\":1}|no such setting"})
     void whatTheSimulatorRefusesIsOneLineAndStatus2(String scene, String overrides, String named) {
-        assertThat(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
-                .isEqualTo(2);
-
-        assertThat(err.toString().lines()).hasSize(1);
-        assertThat(err.toString()).contains(named);
+        refused(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
+                .hasLineCount(1).contains(named);
     }
 }

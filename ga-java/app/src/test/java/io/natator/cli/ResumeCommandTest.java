@@ -33,21 +33,18 @@ class ResumeCommandTest extends FakeSimulatorTest {
     @Test
     void stopsInTimeAndContinues() throws IOException {
         Files.writeString(folder.resolve("slow"), "0.4");
-        assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
+        ok(evolve("run", "--workers", "1", "--stop-after", "5"));
         for (int i = 0; i < 100 && !Files.exists(folder.resolve("run/evaluations.jsonl")); i++) {
-            assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "1", "--stop-after", "5"))
-                    .isZero();
+            ok(natator("resume", path("run"), "--workers", "1", "--stop-after", "5"));
         }
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
         Files.delete(folder.resolve("slow"));
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--simulator", "resident")).isZero();
-        assertThat(evolve("whole")).isZero();
+        ok(natator("resume", path("run"), "--simulator", "resident"));
+        ok(evolve("whole"));
 
-        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
-            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
-        }
+        assertSameRuns("run", "whole");
     }
 
     /** A simulator that cannot be started any more is no fault of the gaits that it was to swim. */
@@ -61,52 +58,45 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(file("run", "evaluations.jsonl")).doesNotContain("\"failed\"");
 
         assertThat(simulator.toFile().setExecutable(true)).isTrue();
-        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
-        assertThat(evolve("whole", "--scene", "fault/locked")).isZero();
-        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
-            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
-        }
+        ok(natator("resume", path("run")));
+        ok(evolve("whole", "--scene", "fault/locked"));
+        assertSameRuns("run", "whole");
     }
 
     /** The fake has no GPU, but auto is another backend than cpu all the same. */
     @Test
     void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
         Files.writeString(folder.resolve("slow"), "0.5");
-        assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        ok(evolve("run", "--stop-after", "0.3"));
         Files.delete(folder.resolve("slow"));
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
+        ok(natator("resume", path("run"), "--backend", "auto"));
 
         assertThat(err.toString()).startsWith("backend was cpu, is now auto: last digits");
         assertThat(Json.parse(file("run", "config.json"), JsonNode.class).get("backend").asText()).isEqualTo("auto");
         assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("backend").asText())
                 .isEqualTo("auto");
-        err.getBuffer().setLength(0);
-        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        ok(natator("resume", path("run")));
         assertThat(err.toString()).doesNotContain("backend was");
     }
 
     @Test
     void whatFollowsFromTheCheckpointMayBeDamaged() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String best = file("run", "best.json");
-        out.getBuffer().setLength(0);
         Files.writeString(folder.resolve("run/best.json"), best.lines().limit(8).collect(Collectors.joining("\n")));
         Files.writeString(folder.resolve("run/savings.json"), "{");
         Files.writeString(folder.resolve("run/check.json"), "{");
 
         assertThat(warnings(() -> {
-            assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
-            assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
+            ok(natator("show", path("run"))).contains("best gait of pool/creature-1 after 3 generations",
                     "  flow        Reynolds number 131, Strouhal number 0.313\n");
-            assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+            ok(natator("resume", path("run")));
         })).as("each once").containsExactly(
                 "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 8, column 5); taken from checkpoint.json instead",
                 "savings " + folder.resolve("run/savings.json")
-                        + ": ends too early; expected the rest of the JSON text "
-                        + "(line 1, column 2); shown without it",
+                        + ": ends too early; expected the rest of the JSON text (line 1, column 2); shown without it",
                 "check " + folder.resolve("run/check.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 1, column 2); shown without it");
         assertThat(file("run", "best.json")).isEqualTo(best);
@@ -128,29 +118,27 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void genesThatStandForNothingAreNamed() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         Files.delete(folder.resolve("run/best.json"));
         Path checkpoint = folder.resolve("run/checkpoint.json");
         ObjectNode state = Json.read(checkpoint, ObjectNode.class, "checkpoint");
         ((ArrayNode) state.get("best").get("genes")).set(0, 99);
         Files.writeString(checkpoint, Json.document(state));
         for (String command : List.of("show", "resume")) {
-            err.getBuffer().setLength(0);
-            assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
+            refused(natator(command, path("run"))).isEqualTo("natator " + command + ": " + folder.resolve("run")
                     + " is damaged: genes of checkpoint.json: gene 1 (frequency) is 99.0; expected a number from 0.5 to 2.0\n");
         }
     }
 
     @Test
     void aDamagedCountOfSavingsDoesNotStopARun() throws IOException {
-        assertThat(evolve("whole")).isZero();
-        assertThat(evolve("run")).isZero();
+        ok(evolve("whole"));
+        ok(evolve("run"));
         String before = file("run", "checkpoint.json");
         Files.writeString(folder.resolve("run/savings.json"), "[1");
         Files.delete(folder.resolve("run/checkpoint.json"));
 
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
 
         assertThat(file("run", "checkpoint.json")).isEqualTo(before);
         assertThat(file("run", "savings.json")).isEqualTo(file("whole", "savings.json"));
@@ -158,13 +146,12 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void resumingTellsHowFarTheWholeRunIs() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         List<String> all = file("run", "evaluations.jsonl").lines().toList();
         Files.delete(folder.resolve("run/checkpoint.json"));
         Files.write(folder.resolve("run/evaluations.jsonl"), all.subList(0, all.size() - 3));
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow())
                 .startsWith("generation 3 of 3, mean ")
                 .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
@@ -172,46 +159,39 @@ class ResumeCommandTest extends FakeSimulatorTest {
 
     @Test
     void aFinishedRunCanHaveMoreGenerations() throws IOException {
-        assertThat(evolve("run", "--starts", "2")).isZero();
-        String folderName = folder.resolve("run").toString();
-        assertThat(natator("resume", folderName, "--generations", "5")).as(err.toString()).isZero();
-        assertThat(evolveTo(5, "whole", "--starts", "2")).isZero();
-        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
-                "evaluations.jsonl", "savings.json")) {
-            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
-        }
-        err.getBuffer().setLength(0);
+        ok(evolve("run", "--starts", "2"));
+        String folderName = path("run");
+        ok(natator("resume", folderName, "--generations", "5"));
+        ok(evolveTo(5, "whole", "--starts", "2"));
+        assertSameRuns("run", "whole", "config.json", "savings.json");
 
-        assertThat(natator("resume", folderName, "--generations", "4")).isEqualTo(2);
-        assertThat(err.toString())
+        refused(natator("resume", folderName, "--generations", "4"))
                 .isEqualTo("natator resume: --generations is 4; expected at least the 5 that are done\n");
-        assertThat(natator("resume", folderName, "--generations", "-1")).isEqualTo(2);
-        assertThat(natator("resume", folderName, "--generations", "60", "--stop-after", "-1")).isEqualTo(2);
+        refused(natator("resume", folderName, "--generations", "-1"));
+        refused(natator("resume", folderName, "--generations", "60", "--stop-after", "-1"));
         assertThat(natator("resume", folderName, "--generations", "60", "--simulator-path", "/nowhere")).isNotZero();
         assertThat(file("run", "config.json")).as("nothing was begun").isEqualTo(file("whole", "config.json"));
-        assertThat(natator("resume", folderName, "--generations", "5")).isZero();
+        ok(natator("resume", folderName, "--generations", "5"));
         assertThat(file("run", "checkpoint.json")).isEqualTo(file("whole", "checkpoint.json"));
     }
 
     @Test
     void whatEndsByItsEvaluationsHasNoMoreGenerations() throws IOException {
-        assertThat(evolve("run", "--evaluations", "20")).isZero();
+        ok(evolve("run", "--evaluations", "20"));
         String config = file("run", "config.json");
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "9")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run")
-                + " ends after its 20 evaluations, however many --generations "
-                + "it may have\n");
+        refused(natator("resume", path("run"), "--generations", "9"))
+                .isEqualTo("natator resume: " + folder.resolve("run")
+                        + " ends after its 20 evaluations, however many --generations it may have\n");
         assertThat(file("run", "config.json")).isEqualTo(config);
     }
 
     @Test
     void resumingAFinishedRunChangesNothing() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
+        ok(natator("resume", path("run"), "--workers", "3"));
         assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
                 .isEqualTo(before);
     }
@@ -219,20 +199,20 @@ class ResumeCommandTest extends FakeSimulatorTest {
     /** Neither an idle resume changes anything, nor one that is refused, nor one whose simulator would refuse. */
     @Test
     void aCompactRunStaysAsItIs() throws IOException {
-        assertThat(evolve("run")).isZero();
-        String run = folder.resolve("run").toString();
-        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        ok(evolve("run"));
+        String run = path("run");
+        ok(natator("resume", run, "--compact"));
         assertThat(folder.resolve("run/evaluations.jsonl")).doesNotExist();
         Map<String, String> before = files();
 
-        assertThat(natator("resume", run, "--compact")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--compact"));
         assertThat(files()).isEqualTo(before);
 
-        assertThat(natator("resume", run)).as(err.toString()).isZero();
+        ok(natator("resume", run));
         assertThat(files()).isEqualTo(before);
-        assertThat(natator("resume", run, "--generations", "2")).isEqualTo(2);
+        refused(natator("resume", run, "--generations", "2"));
         assertThat(files()).isEqualTo(before);
-        assertThat(natator("resume", run, "--backend", "cuda")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--backend", "cuda"));
         assertThat(files()).isEqualTo(before);
     }
 
@@ -244,14 +224,14 @@ class ResumeCommandTest extends FakeSimulatorTest {
         if (isStopped) {
             Files.writeString(folder.resolve("slow"), "0.5");
         }
-        assertThat(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
-                isStopped ? "2" : "100")).isZero();
+        ok(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
+                isStopped ? "2" : "100"));
         Files.deleteIfExists(folder.resolve("slow"));
         assertThat(folder.resolve("run/checkpoint.json").toFile().exists()).isNotEqualTo(isStopped);
         if (how.equals("compact")) {
             CompactRun.compact(folder.resolve("run"));
         }
-        String run = folder.resolve("run").toString();
+        String run = path("run");
         String config = file("run", "config.json");
         edit("run/config.json", settings -> {
             settings.put("duration", 3).put("seed", 6).put("population", 9).put("encoding", "sparse")
@@ -260,67 +240,57 @@ class ResumeCommandTest extends FakeSimulatorTest {
         });
         Map<String, String> before = files();
         for (String[] command : new String[][] {{"resume", run, "--generations", "9"}, {"resume", run}}) {
-            err.getBuffer().setLength(0);
-            assertThat(natator(command)).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator " + command[0] + ": " + folder.resolve("run/config.json")
+            refused(natator(command)).isEqualTo("natator " + command[0] + ": " + folder.resolve("run/config.json")
                     + " was edited after the run was begun: scene was \"pool/creature-1\", is now \"pool/creature-3\"; encoding was \"dense\", is "
                     + "now \"sparse\"; population was 8, is now 9; seed was 5, is now 6; duration was 2.0, is now 3.0; overrides.solver.gravity "
                     + "was [0,-1,0], is now not set; overrides.solver.substeps was not set, is now 2; expected the settings that it was begun "
                     + "with, or a new run\n");
         }
         assertThat(files()).isEqualTo(before);
-        err.getBuffer().setLength(0);
-        assertThat(natator("show", run)).isZero();
+        ok(natator("show", run));
         assertThat(err.toString()).startsWith("natator show: ")
                 .contains("config.json was edited after the run was begun: scene was").hasLineCount(1);
 
         Files.writeString(folder.resolve("run/config.json"), config);
-        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--generations", "4"));
     }
 
     /** A file's scene may be edited: its name says nothing of that. */
     @Test
     void aSceneThatWasChangedIsRefused() throws IOException {
-        assertThat(evolve("run")).as(err.toString()).isZero();
-        String run = folder.resolve("run").toString();
+        ok(evolve("run"));
+        String run = path("run");
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
         Map<String, String> before = files();
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", run, "--generations", "4")).isEqualTo(2);
-
-        assertThat(err.toString()).isEqualTo("natator resume: scene pool/creature-1 was changed after " + run
-                + " was begun; expected the scene that it was begun with, or a new run\n");
+        refused(natator("resume", run, "--generations", "4"))
+                .isEqualTo("natator resume: scene pool/creature-1 was changed after " + run
+                        + " was begun; expected the scene that it was begun with, or a new run\n");
         assertThat(files()).isEqualTo(before);
         Files.delete(folder.resolve("scene"));
-        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+        ok(natator("resume", run, "--generations", "4"));
     }
 
     /** What a winner does in another scene, or by other settings, is not what it was chosen for, and would stand in the run's folder. */
     @ParameterizedTest
     @ValueSource(strings = {"check", "converge", "compare"})
     void noWinnerIsExaminedInAnotherScene(String command) throws IOException {
-        assertThat(evolve("run")).as(err.toString()).isZero();
-        assertThat(evolve("other")).as(err.toString()).isZero();
-        String run = folder.resolve("run").toString();
-        String[] examined = command.equals("compare") ? new String[] {command, folder.resolve("other").toString(), run}
+        ok(evolve("run"));
+        ok(evolve("other"));
+        String run = path("run");
+        String[] examined = command.equals("compare") ? new String[] {command, path("other"), run}
                 : new String[] {command, run};
         Path scene = Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
         Path config = folder.resolve("run/config.json");
         String settings = Files.readString(config);
         Map<String, String> before = files();
-        err.getBuffer().setLength(0);
 
-        assertThat(natator(examined)).isEqualTo(2);
-
-        assertThat(err.toString()).startsWith("natator " + command + ": scene pool/creature-1 was changed after ")
+        refused(natator(examined)).startsWith("natator " + command + ": scene pool/creature-1 was changed after ")
                 .hasLineCount(1);
         assertThat(files()).isEqualTo(before);
         Files.delete(scene);
         Files.writeString(config, settings.replaceFirst("\"seed\" : \\d+", "\"seed\" : 77"));
-        err.getBuffer().setLength(0);
-        assertThat(natator(examined)).isEqualTo(2);
-        assertThat(err.toString())
+        refused(natator(examined))
                 .startsWith("natator " + command + ": " + config + " was edited after the run was begun: seed was ")
                 .hasLineCount(1);
     }
@@ -329,38 +299,36 @@ class ResumeCommandTest extends FakeSimulatorTest {
     void aDescriptionOfTheSceneMayBeChanged() throws IOException {
         Path scene = Files.writeString(folder.resolve("scene"),
                 "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");
-        assertThat(evolve("run")).as(err.toString()).isZero();
+        ok(evolve("run"));
 
         Files.writeString(scene, "{\"creature\":{\"description\":\"a conger\",\"spacing\":1}}");
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
-                .isZero();
+        ok(natator("resume", path("run"), "--generations", "4"));
         Files.writeString(scene, "{\"creature\":{\"spacing\":2}}");
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+        refused(natator("resume", path("run"), "--generations", "5"));
     }
 
     @Test
     void aRunThatDoesNotTellItsSceneGoesOn() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         edit("run/environment.json", environment -> environment.remove("sceneSha256"));
         Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString())
-                .isZero();
+        ok(natator("resume", path("run"), "--generations", "4"));
 
         Files.delete(folder.resolve("scene"));
-        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+        refused(natator("resume", path("run"), "--generations", "5"));
     }
 
     @Test
     void howFarARunGoesMayBeEditedAndWhatAnEarlierVersionBeganGoesOn() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         edit("run/config.json", settings -> settings.put("generations", 4).put("evaluations", 1000));
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(file("run", "generations.csv").lines()).hasSize(6);
 
         edit("run/environment.json", environment -> environment.remove("settings"));
         edit("run/config.json", settings -> settings.put("generations", 5).remove("evaluations"));
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        ok(natator("resume", path("run")));
         assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("settings"))
                 .isEqualTo(Json.parse(file("run", "config.json"), JsonNode.class));
     }
@@ -386,11 +354,10 @@ class ResumeCommandTest extends FakeSimulatorTest {
     /** What was computed on the processor is not said to be of another backend because somebody looked at it again. */
     @Test
     void aFinishedRunKeepsItsBackend() throws IOException {
-        assertThat(evolve("run")).isZero();
+        ok(evolve("run"));
         String before = file("run", "config.json") + file("run", "environment.json");
-        err.getBuffer().setLength(0);
 
-        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto", "--workers", "1")).isZero();
+        ok(natator("resume", path("run"), "--backend", "auto", "--workers", "1"));
 
         assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
         assertThat(file("run", "config.json") + file("run", "environment.json")).isEqualTo(before);

@@ -27,8 +27,7 @@ class ShowCommandTest extends FakeSimulatorTest {
         String[] options = optimizer.equals("nsga2")
                 ? new String[] {"--optimizer", optimizer, "--objectives", "distance,work"}
                 : new String[] {"--optimizer", optimizer};
-        assertThat(evolve("run", options)).as(err.toString()).isZero();
-        forget();
+        ok(evolve("run", options));
     }
 
     @ParameterizedTest
@@ -46,10 +45,9 @@ class ShowCommandTest extends FakeSimulatorTest {
                     + Math.max(left, 0)
                     + " whole lines; expected at least the " + lines.size() + " of checkpoint.json\n";
 
-            assertThat(natator("show", folder.resolve("run").toString())).isZero();
+            ok(natator("show", path("run")));
             assertThat(err.toString()).isEqualTo("natator show: " + damage);
             assertThat(out.toString()).contains("generation 3: best ", "finished", "best gait of pool/creature-1");
-            forget();
         }
     }
 
@@ -63,13 +61,16 @@ class ShowCommandTest extends FakeSimulatorTest {
         EvaluationRecord next = new EvaluationRecord(last.generation() + 1, last.genes(), last.gait(),
                 last.result().withId(last.result().id() + 1));
         CompactRun.compact(folder.resolve("run"));
-        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+        showsWithoutWarning();
         Files.writeString(file("checkpoint.json"), checkpoint);
         Files.writeString(file("evaluations.jsonl"), evaluations + Json.line(next) + "\n{\"gene");
-        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+        showsWithoutWarning();
         Files.delete(file("checkpoint.json"));
-        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+        showsWithoutWarning();
+    }
 
+    private void showsWithoutWarning() {
+        ok(natator("show", path("run")));
         assertThat(err.toString()).isEmpty();
     }
 
@@ -81,13 +82,11 @@ class ShowCommandTest extends FakeSimulatorTest {
         Files.delete(file("best.json"));
         for (int left : new int[] {5, 0}) {
             Files.write(file("evaluations.jsonl"), lines.subList(0, left));
-            assertThat(natator("show", folder.resolve("run").toString())).isZero();
+            showsWithoutWarning();
             assertThat(out.toString().lines()).contains(
                     "no generation finished, " + left + " evaluations of the first; continue by: natator resume "
                             + folder.resolve("run"));
-            forget();
         }
-        assertThat(err.toString()).isEmpty();
     }
 
     @Test
@@ -98,11 +97,9 @@ class ShowCommandTest extends FakeSimulatorTest {
         Files.write(file("evaluations.jsonl"), lines);
         String damage = folder.resolve("run") + " is damaged: evaluations.jsonl, line 4: id is 2; expected 3\n";
 
-        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+        ok(natator("show", path("run")));
         assertThat(err.toString()).isEqualTo("natator show: warning: " + damage);
-        forget();
-        assertThat(natator("resume", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: " + damage);
+        refused(natator("resume", path("run"))).isEqualTo("natator resume: " + damage);
     }
 
     @ParameterizedTest
@@ -116,9 +113,8 @@ class ShowCommandTest extends FakeSimulatorTest {
         evolved("map-elites");
         Files.writeString(file("evaluations.jsonl"), line.replace('\'', '"') + "\n");
 
-        assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: " + file("evaluations.jsonl") + ", line 1: " + message)
-                .hasLineCount(1);
+        refused(natator("show", path("run")))
+                .startsWith("natator show: " + file("evaluations.jsonl") + ", line 1: " + message).hasLineCount(1);
     }
 
     @ParameterizedTest
@@ -144,7 +140,7 @@ class ShowCommandTest extends FakeSimulatorTest {
                 .remove(key.substring(key.lastIndexOf('/') + 1));
         Files.writeString(file(name), Json.document(content));
 
-        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isEqualTo(status);
+        assertThat(natator("show", path("run"))).as(err.toString()).isEqualTo(status);
         if (status == 2) {
             assertThat(err.toString()).contains(file(name) + ": " + message).hasLineCount(1);
         }
@@ -158,9 +154,8 @@ class ShowCommandTest extends FakeSimulatorTest {
         Files.writeString(file("config.json"),
                 Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : " + actuators));
 
-        assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json") + ": " + message)
-                .hasLineCount(1);
+        refused(natator("show", path("run")))
+                .startsWith("natator show: settings " + file("config.json") + ": " + message).hasLineCount(1);
     }
 
     @Test
@@ -170,8 +165,7 @@ class ShowCommandTest extends FakeSimulatorTest {
         ((ArrayNode) checkpoint.get("history")).remove(0);
         Files.writeString(file("checkpoint.json"), Json.document(checkpoint));
 
-        assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: checkpoint " + file("checkpoint.json")
+        refused(natator("show", path("run"))).startsWith("natator show: checkpoint " + file("checkpoint.json")
                 + ": history has 3 generations; expected those from 0 to generation, 3").hasLineCount(1);
     }
 }

@@ -218,11 +218,8 @@ class ViewCommandTest extends CommandTest {
                 "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
         for (String command : List.of("view --no-browser --port 0 --scene",
                 "page --output " + folder.resolve("page.html"))) {
-            forget();
-            List<String> all = new ArrayList<>(List.of(command.split(" ")));
-            all.addAll(List.of("thesis/creature-1", "--gait", gait.toString()));
-            assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait." + message + "\n");
+            refused(natator(command, "thesis/creature-1", "--gait", gait.toString()))
+                    .isEqualTo("natator " + command.split(" ")[0] + ": natator-sim: gait." + message + "\n");
         }
     }
 
@@ -247,7 +244,7 @@ class ViewCommandTest extends CommandTest {
             if (!arguments.startsWith("--port")) {
                 all.addAll(List.of("--port", "0"));
             }
-            assertThat(natator(all.toArray(String[]::new))).as(err.toString()).isEqualTo(status);
+            assertThat(natator(all)).as(err.toString()).isEqualTo(status);
         }
         assertThat(err.toString()).startsWith(message);
         assertThat(err.toString().lines()).hasSize(1);

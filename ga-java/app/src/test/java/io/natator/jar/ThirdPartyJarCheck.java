@@ -21,7 +21,7 @@ class ThirdPartyJarCheck {
 
     private static final String META = "META-INF/";
     private static final List<String> OWN = List.of("io/natator/", "logback.xml");
-    private static final int SHORTEST_LICENCE = 1000;
+    private static final int MIN_LICENCE_LENGTH = 1000;
 
     private ZipFile jar;
 
@@ -79,7 +79,7 @@ class ThirdPartyJarCheck {
         for (Library library : libraries()) {
             for (String name : library.texts()) {
                 String licence = text(Path.of(META, "licenses", name).normalize().toString());
-                assertThat(licence).as(library.name()).hasSizeGreaterThan(SHORTEST_LICENCE)
+                assertThat(licence).as(library.name()).hasSizeGreaterThan(MIN_LICENCE_LENGTH)
                         .containsIgnoringCase("copyright");
             }
             assertThat(library.places()).as(library.name()).allSatisfy(place -> assertThat(jar.stream())

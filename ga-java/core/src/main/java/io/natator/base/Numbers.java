@@ -45,7 +45,7 @@ public final class Numbers {
         return fixed(value, decimalsOf(error, decimals)) + " " + error(error, decimals);
     }
 
-    /** The same without the value. */
+    /** The error bar alone, as {@link #withError} has it. */
     public static String error(double error, int decimals) {
         return "± " + fixed(error, decimalsOf(error, decimals));
     }

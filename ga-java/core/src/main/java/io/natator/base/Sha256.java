@@ -18,17 +18,17 @@ public final class Sha256 {
     private Sha256() {
     }
 
-    /** Of a text in UTF-8. */
+    /** Digest of a text in UTF-8. */
     public static String of(String text) {
         return of(text.getBytes(StandardCharsets.UTF_8));
     }
 
-    /** Of bytes. */
+    /** Digest of bytes. */
     public static String of(byte[] content) {
         return HexFormat.of().formatHex(sha256().digest(content));
     }
 
-    /** Of a file's content. */
+    /** Digest of a file's content. */
     public static String of(Path file) {
         MessageDigest digest = sha256();
         try (InputStream in = new DigestInputStream(Files.newInputStream(file), digest)) {

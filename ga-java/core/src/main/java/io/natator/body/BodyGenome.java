@@ -16,21 +16,21 @@ import java.util.function.ToDoubleFunction;
  */
 public final class BodyGenome {
 
-    private static final double SHORTEST = 0.75;
-    private static final double LONGEST = 1.3;
-    private static final double THINNEST = 0.6;
-    private static final double THICKEST = 1.6;
-    private static final double LEAST_STIFFNESS = 0.1;
+    private static final double MIN_LENGTH = 0.75;
+    private static final double MAX_LENGTH = 1.3;
+    private static final double MIN_THICKNESS = 0.6;
+    private static final double MAX_THICKNESS = 1.6;
+    private static final double MIN_STIFFNESS = 0.1;
     /** Share of the way to the next joint that a joint may move. */
     private static final double JOINT_MOVE = 0.45;
-    /** Of the body's length. */
-    private static final double LEAST_MOVE = 0.001;
+    /** Least range of a joint on either side, as a share of the body's length. */
+    private static final double MIN_MOVE = 0.001;
     /** Share of the particles that may be too many or too few. */
     private static final double HELD = 0.01;
     /** Section sizes are scaled by up to so much more in front than behind, or less, until the particles are held. */
-    private static final double MOST_TILT = 0.2;
+    private static final double MAX_TILT = 0.2;
     private static final double TILT_STEP = 0.02;
-    private static final double MOST_SCALE = 4;
+    private static final double MAX_SCALE = 4;
     private static final int HALVINGS = 40;
     /** Against rounding at the least thickness. */
     private static final double ABOVE = 1 + 1e-9;
@@ -51,13 +51,13 @@ public final class BodyGenome {
         width = controlled(scene.width(), 3, 8, 5, end);
         stiffness = controlled(scene.stiffness(), 2, 5, 3, 1);
         muscles = controlled(scene.muscles(), 2, 5, 3, 1);
-        double shortest = Math.max(SHORTEST * scene.length(), (scene.joints().size() + 4) * scene.spacing());
-        add("length", Math.min(shortest, scene.length()), LONGEST * scene.length(), scene.length());
+        double shortest = Math.max(MIN_LENGTH * scene.length(), (scene.joints().size() + 4) * scene.spacing());
+        add("length", Math.min(shortest, scene.length()), MAX_LENGTH * scene.length(), scene.length());
         addSections("height", height);
         addSections("width", width);
         if (scene.fin() != null) {
             double tip = last(scene.fin()).value();
-            add("fin height", Math.max(thinnest(), THINNEST * tip), THICKEST * tip, tip);
+            add("fin height", Math.max(thinnest(), MIN_THICKNESS * tip), MAX_THICKNESS * tip, tip);
         }
         addJoints(scene.jointEnd());
         addStiffness("stiffness", stiffness);
@@ -86,8 +86,8 @@ public final class BodyGenome {
     private void addSections(String name, Curve curve) {
         for (Point point : curve.points()) {
             if (isShown(point)) {
-                add(named(name, point), Math.max(thinnest(), THINNEST * point.value()), THICKEST * point.value(),
-                        point.value());
+                add(named(name, point), Math.max(thinnest(), MIN_THICKNESS * point.value()),
+                        MAX_THICKNESS * point.value(), point.value());
             }
         }
     }
@@ -98,7 +98,7 @@ public final class BodyGenome {
     }
 
     private void addStiffness(String name, Curve curve) {
-        curve.points().forEach(point -> add(named(name, point), LEAST_STIFFNESS, 1, point.value()));
+        curve.points().forEach(point -> add(named(name, point), MIN_STIFFNESS, 1, point.value()));
     }
 
     private static String named(String name, Point point) {
@@ -110,13 +110,13 @@ public final class BodyGenome {
         for (int i = 0; i < joints.size(); i++) {
             double before = i == 0 ? 0 : joints.get(i - 1);
             double behind = i + 1 == joints.size() ? end : joints.get(i + 1);
-            double move = Math.max(LEAST_MOVE, JOINT_MOVE * Math.min(joints.get(i) - before, behind - joints.get(i)));
+            double move = Math.max(MIN_MOVE, JOINT_MOVE * Math.min(joints.get(i) - before, behind - joints.get(i)));
             add("joint " + (i + 1), joints.get(i) - move, joints.get(i) + move, joints.get(i));
         }
     }
 
     private double thinnest() {
-        return CrossSection.LEAST * scene.spacing() * ABOVE;
+        return CrossSection.MIN_EXTENT * scene.spacing() * ABOVE;
     }
 
     private static Point last(Curve curve) {
@@ -175,7 +175,7 @@ public final class BodyGenome {
     private ProfileBody withParticles(ProfileBody body) {
         int wanted = scene.particles();
         ProfileBody best = scaled(body, 1, 0);
-        for (int step = 0; step * TILT_STEP <= MOST_TILT && off(best, wanted) > HELD * wanted; step++) {
+        for (int step = 0; step * TILT_STEP <= MAX_TILT && off(best, wanted) > HELD * wanted; step++) {
             for (int side = -1; side <= 1; side += 2) {
                 best = nearest(best, body, side * step * TILT_STEP, wanted);
             }
@@ -186,7 +186,7 @@ public final class BodyGenome {
     /** The best so far, or what comes nearer with sections that grow by the tilt towards the tail. */
     private ProfileBody nearest(ProfileBody best, ProfileBody body, double tilt, int wanted) {
         ProfileBody nearest = best;
-        for (double scale : halved(1 / MOST_SCALE, MOST_SCALE,
+        for (double scale : bisect(1 / MAX_SCALE, MAX_SCALE,
                 middle -> scaled(body, middle, tilt).particles() < wanted)) {
             ProfileBody candidate = scaled(body, scale, tilt);
             nearest = off(candidate, wanted) < off(nearest, wanted) ? candidate : nearest;
@@ -213,11 +213,11 @@ public final class BodyGenome {
             return stronger(body, scale);
         }
         return stronger(body,
-                halved(scale, 1 / LEAST_STIFFNESS, middle -> stronger(body, middle).strength() < wanted)[1]);
+                bisect(scale, 1 / MIN_STIFFNESS, middle -> stronger(body, middle).strength() < wanted)[1]);
     }
 
     /** The ends of an interval that is halved until they hardly differ: what lies below the place where {@code isBelow} ends, and above it. */
-    private static double[] halved(double low, double high, DoublePredicate isBelow) {
+    private static double[] bisect(double low, double high, DoublePredicate isBelow) {
         double[] ends = {low, high};
         for (int i = 0; i < HALVINGS; i++) {
             double middle = (ends[0] + ends[1]) / 2;

@@ -15,7 +15,7 @@ public final class BodyText {
     private BodyText() {
     }
 
-    /** By what each is about: lengths in scene units, places in percent of the body's length. */
+    /** Rows of name and text; lengths in scene units, places in percent of the body's length. */
     public static Map<String, String> of(ProfileBody body, ProfileBody scene) {
         Map<String, String> text = new LinkedHashMap<>();
         text.put("length", number(body.length()) + " units" + beside(number(scene.length())));
@@ -35,8 +35,7 @@ public final class BodyText {
         return ", the scene's " + ofScene;
     }
 
-    private static String curves(ProfileBody body, ProfileBody scene, Function<ProfileBody, Curve> which,
-            String unit) {
+    private static String curves(ProfileBody body, ProfileBody scene, Function<ProfileBody, Curve> which, String unit) {
         List<Double> places = which.apply(body).points().stream().map(Curve.Point::at).toList();
         Function<ProfileBody, String> values = one -> places.stream().map(place -> number(which.apply(one).at(place)))
                 .collect(Collectors.joining(" "));

@@ -4,14 +4,14 @@ package io.natator.body;
 final class CrossSection {
 
     /** Fewest spacings that count as two particles across. */
-    static final double LEAST = 1.5;
+    static final double MIN_EXTENT = 1.5;
     /** Spacings by which a particle may lie outside. */
     private static final double ROUNDING = 1e-9;
 
     private CrossSection() {
     }
 
-    /** Particles inside an ellipse of at least {@value #LEAST} each way. */
+    /** Particles inside an ellipse of at least {@value #MIN_EXTENT} each way. */
     static int ellipse(double height, double width) {
         double area = Math.PI / 4 * height * width;
         boolean oddRows = isOdd(height);
@@ -36,7 +36,7 @@ final class CrossSection {
         return Math.round(extent) % 2 != 0;
     }
 
-    /** Of the ellipse with an odd or even number of rows, and of particles in each; 0 if that is fewer than two each way. */
+    /** Particles of an ellipse with an odd or even number of rows and columns; 0 if it has fewer than two each way. */
     private static int particles(double height, double width, boolean oddRows, boolean oddColumns) {
         int rows = within(height / 2, oddRows);
         int filled = 0;

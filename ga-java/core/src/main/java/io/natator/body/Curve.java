@@ -56,7 +56,7 @@ public record Curve(List<Point> points) {
         return new Curve(points);
     }
 
-    /** As points, or of a single one as a number. */
+    /** The JSON form: points, or a number for a single one. */
     JsonNode json() {
         if (points.size() == 1) {
             return JsonNodeFactory.instance.numberNode(points.get(0).value);
@@ -66,7 +66,7 @@ public record Curve(List<Point> points) {
         return json;
     }
 
-    /** The same places with other values. */
+    /** A curve with the same places and other values. */
     Curve map(UnaryOperator<Point> change) {
         return new Curve(points.stream().map(change).toList());
     }

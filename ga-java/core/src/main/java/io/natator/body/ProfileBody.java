@@ -77,7 +77,7 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
                 : new Curve(List.of(new Curve.Point(0, usual)));
     }
 
-    /** As a scene has it. */
+    /** The JSON form, as in a scene's {@code creature}. */
     @JsonValue
     public ObjectNode json() {
         ObjectNode creature = JsonNodeFactory.instance.objectNode();
@@ -117,17 +117,17 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
         return patch == null || !patch.has("creature") ? this : of(MergePatch.both(json(), patch.get("creature")));
     }
 
-    /** The same body with other heights and widths. */
+    /** This body with other heights and widths. */
     ProfileBody withSections(Curve newHeight, Curve newWidth) {
         return new ProfileBody(spacing, length, newHeight, newWidth, fin, thickness, joints, stiffness, muscles);
     }
 
-    /** The same body with its joints elsewhere. */
+    /** This body with its joints elsewhere. */
     ProfileBody withJoints(List<Double> newJoints) {
         return new ProfileBody(spacing, length, height, width, fin, thickness, newJoints, stiffness, muscles);
     }
 
-    /** The same body with muscles that pull otherwise. */
+    /** This body with other muscles. */
     ProfileBody withMuscles(Curve newMuscles) {
         return new ProfileBody(spacing, length, height, width, fin, thickness, joints, stiffness, newMuscles);
     }

@@ -39,7 +39,7 @@ public final class CachedEvaluator implements Evaluator {
         this(evaluator, cache, new EvaluationKeys(execution));
     }
 
-    /** The same evaluator and cache with a count of its own; the evaluator is closed with either. */
+    /** A view of this evaluator and cache with a count of its own; closing either closes the evaluator. */
     public CachedEvaluator counting() {
         return new CachedEvaluator(evaluator, cache, keys);
     }
@@ -66,8 +66,7 @@ public final class CachedEvaluator implements Evaluator {
             }
         }
         evaluator.evaluateAll(missing, result -> {
-            if (result.status() == SimulationResult.Status.OK
-                    || result.status() == SimulationResult.Status.UNSTABLE) {
+            if (result.status() == SimulationResult.Status.OK || result.status() == SimulationResult.Status.UNSTABLE) {
                 cache.store(missed.get(result.id()), result.withId(0L));
             }
             whenDone.accept(result);

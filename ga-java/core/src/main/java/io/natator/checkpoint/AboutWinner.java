@@ -8,10 +8,10 @@ import java.nio.file.Path;
 /** What was measured of a run's winner afterwards. It can be measured again, so a damaged file is but warned of. */
 interface AboutWinner {
 
-    /** Of the winner. */
+    /** The winner's gait. */
     Gait gait();
 
-    /** Of the winner, or null. */
+    /** The winner's body, or null for the scene's own. */
     JsonNode body();
 
     /** What a file of a run folder tells of its winner; null if there is none, or it is about another swimmer. */

@@ -22,30 +22,24 @@ import java.util.Objects;
  * @param speed    distance over simulated time in {@code result}, in scene units per second
  * @param result   the whole result of a run from the scene's own start; while a run of several starts goes on, of one of
  *                 these
- * @param bodyLength of its creature, head to tail at rest, in scene units; null while the run goes on, and in old folders
+ * @param bodyLength of its creature, head to tail at rest, in scene units; null while the run goes on
  * @param vacuum   result of the same gait without water for as long as it swam, where a gait that still advances is no swimming (thesis 2.7);
  *                 null while the run goes on, and for scenes that have no such variant
- * @param selected what it was worth when it was chosen; null in old folders
- * @param runs     by so many runs; null likewise
- * @param fresh    what it does from starts that had no part in choosing it; null while the run goes on, and in old folders
+ * @param selected its worth when it was chosen
+ * @param runs     how many runs that rests on
+ * @param fresh    what it does from starts that had no part in choosing it; null while the run goes on
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode body, double distance, double speed,
-        SimulationResult result, Double bodyLength, SimulationResult vacuum, Double selected, Integer runs,
+        SimulationResult result, Double bodyLength, SimulationResult vacuum, double selected, int runs,
         FreshRuns fresh) {
 
-    /** Has to have who swam where, and how far. */
+    /** Requires scene, genes, gait and result. */
     public BestGait {
         Objects.requireNonNull(scene, "scene");
         Objects.requireNonNull(genes, "genes");
         Objects.requireNonNull(gait, "gait");
         Objects.requireNonNull(result, "result");
-    }
-
-    /** As old folders have it. */
-    public BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,
-            SimulationResult result, Double bodyLength, SimulationResult vacuum) {
-        this(scene, genes, gait, null, distance, speed, result, bodyLength, vacuum, null, null, null);
     }
 
     /** The best gait as far as evolution tells. */
@@ -59,20 +53,19 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
      *
      * @param own from the scene's own start
      */
-    public BestGait examined(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
+    public BestGait withExamination(SimulationResult own, Double length, SimulationResult withoutWater,
+            FreshRuns again) {
         return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater,
-                selected, runs,
-                again);
+                selected, runs, again);
     }
 
     /** Whether this is an individual of a run with all that is found out at the end. */
     public boolean isExamined(Individual best) {
         return fresh != null && vacuum != null && vacuum.status() == SimulationResult.Status.OK
-                && genes.equals(best.genes())
-                && Double.valueOf(best.score()).equals(selected) && Integer.valueOf(best.runs()).equals(runs);
+                && genes.equals(best.genes()) && best.score() == selected && best.runs() == runs;
     }
 
-    /** What swam. */
+    /** The swimmer: gait and body. */
     public Swimmer swimmer() {
         return new Swimmer(gait, body);
     }
@@ -80,6 +73,6 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
     /** Whether {@code result} is a run from the scene's own start, so that whoever runs the gait again gets the same. */
     @JsonIgnore
     public boolean isFromOwnStart() {
-        return runs == null || runs == 1 || vacuum != null;
+        return runs == 1 || vacuum != null;
     }
 }

@@ -65,7 +65,7 @@ public final class CompactRun {
     record Last(EvolutionState state, long dropped) {
     }
 
-    /** The same of a folder, with the evaluations that are recorded. */
+    /** What the run in a folder goes on from, given the evaluations that are recorded. */
     static Last last(Path directory, List<EvaluationRecord> recorded) {
         EvolutionState state = RunReader.state(directory);
         boolean isWhole = state != null && !state.population().isEmpty();

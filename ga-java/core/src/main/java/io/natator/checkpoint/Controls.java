@@ -6,6 +6,7 @@ import io.natator.body.Swimmer;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.file.AtomicFile;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.nio.file.Path;
 import java.util.Objects;
 
@@ -29,12 +30,13 @@ import java.util.Objects;
  * @param underWater   share of the body's particles below the water's level, halfway and at the end; null without water
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
 public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water,
         SwimSample resting,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
-        String backend, Double underWater) implements AboutWinner {
+        String backend, Double underWater) implements AboutWinner, ControlsBuilder.With {
 
-    /** Has to have the gait, and the swims that there are of every winner. */
+    /** Requires the gait and the swims that every winner has. */
     public Controls {
         Objects.requireNonNull(gait, "gait");
         Objects.requireNonNull(water, "water");
@@ -54,13 +56,6 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
         double swimming = water.distance().sd();
         double drifting = resting.distance().sd();
         return Math.sqrt(swimming * swimming / water.runs() + drifting * drifting / resting.runs());
-    }
-
-    /** With the share of the body that is under water. */
-    public Controls withUnderWater(Double share) {
-        return new Controls(gait, body, scheme, duration, bodyLength, water, resting, vacuum, clampOff, halfStep,
-                mirrored,
-                otherBackend, backend, share);
     }
 
     /** Keeps them in a run folder. */

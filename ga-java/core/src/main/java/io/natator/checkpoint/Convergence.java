@@ -50,7 +50,7 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
     public record Estimate(double speed, Double error) {
     }
 
-    /** Has to have the gait and its levels. */
+    /** Requires the gait and its levels. */
     public Convergence {
         Objects.requireNonNull(gait, "gait");
         levels = List.copyOf(levels);

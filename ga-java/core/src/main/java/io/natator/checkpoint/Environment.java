@@ -53,14 +53,11 @@ public record Environment(String natator, String simulator, String simulatorSha2
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
                 program.simulatorSha256(), program.version(), program.commit(), program.instructionSet(),
-                execution.mode(),
-                execution.backend(), execution.devices(), program.gpu(), execution.workers(),
-                execution.timeout().toMillis() / 1000.0,
-                Runtime.version().toString(),
+                execution.mode(), execution.backend(), execution.devices(), program.gpu(), execution.workers(),
+                execution.timeout().toMillis() / 1000.0, Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(),
-                sceneSha256,
-                settings);
+                sceneSha256, settings);
     }
 
     private static String fromWorkingDirectory(Path path) {

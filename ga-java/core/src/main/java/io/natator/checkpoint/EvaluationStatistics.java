@@ -1,7 +1,6 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
-import com.fasterxml.jackson.annotation.JsonInclude;
 
 /**
  * What a run did not have to simulate; {@code savings.json}.
@@ -12,20 +11,18 @@ import com.fasterxml.jackson.annotation.JsonInclude;
  * @param stoppedEarly     of the evaluations, those that ended before their time
  * @param simulatedSeconds time simulated in all evaluations, those from the cache included
  * @param wholeSeconds     the same, had none ended early
- * @param refused          of the evaluations, those of bodies that were not simulated; null where an earlier version counted
- *                         them as simulated in the whole seconds
+ * @param refused          of the evaluations, those of bodies that were not simulated
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
-@JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvaluationStatistics(long evaluations, long unchanged, long fromCache, long stoppedEarly,
-        double simulatedSeconds, double wholeSeconds, Long refused) {
+        double simulatedSeconds, double wholeSeconds, long refused) {
 
     /** Evaluations that were not refused, so that there was something to simulate. */
     public long simulations() {
-        return refused == null ? evaluations : evaluations - refused;
+        return evaluations - refused;
     }
 
-    /** Of an evaluation that nothing ends early, in seconds; 0 without simulations. */
+    /** Simulated time of an evaluation that nothing ends early, in seconds; 0 without simulations. */
     public double duration() {
         return simulations() == 0 ? 0 : wholeSeconds / simulations();
     }

@@ -22,7 +22,7 @@ import java.util.Objects;
 public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Aggregate judge, double selected,
         int selectedRuns, double again, Double selectionLoss) {
 
-    /** Has to have the runs as the run simulates, and how they are judged. */
+    /** Requires the runs and the judge. */
     public FreshRuns {
         Objects.requireNonNull(base, "base");
         Objects.requireNonNull(judge, "judge");

@@ -3,7 +3,7 @@ package io.natator.checkpoint;
 import java.util.List;
 
 /**
- * Whom a run would have taken for its winner from an evaluation on, had it ended there, until another leads or more runs
+ * The gait that a run would have taken for its winner from an evaluation on, until another leads or more runs
  * change what it is worth. By all gaits that were ever run: the run itself forgets those that are neither among the best nor
  * in the population, so that now and then its winner is another one of nearly the same worth.
  *

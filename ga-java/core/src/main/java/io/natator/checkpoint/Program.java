@@ -13,7 +13,7 @@ import java.util.Objects;
 
 /**
  * The native program that computed a result, and what on: all that can change the last digits, and with them, in a chaotic
- * system, whole swims. What {@code environment.json} of old folders does not say is null.
+ * system, whole swims.
  *
  * @param version         of its source
  * @param commit          that it was built from, or {@code unknown}
@@ -25,8 +25,6 @@ import java.util.Objects;
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record Program(String version, String commit, String instructionSet, Backend backend, String gpu,
         String simulatorSha256) {
-
-    private static final String UNKNOWN = "not recorded";
 
     /** The program at a path. */
     public static Program at(Path simulator, Backend backend, int device) throws InterruptedException {
@@ -45,13 +43,13 @@ public record Program(String version, String commit, String instructionSet, Back
         return Files.exists(file) ? Json.read(file, Program.class, "environment") : null;
     }
 
-    /** In what this one differs from another, in words; empty if in nothing that is known. */
+    /** How this program differs from another, in words; empty if no difference is known. */
     public String differenceTo(Program other) {
         List<String> found = new ArrayList<>();
         add(found, "version", version, other.version);
         add(found, "commit", commit, other.commit);
         add(found, "instruction set", instructionSet, other.instructionSet);
-        add(found, "backend", argument(backend), argument(other.backend));
+        add(found, "backend", backend.argument(), other.backend.argument());
         if (gpu != null || other.gpu != null) {
             add(found, "GPU", gpu, other.gpu);
         }
@@ -61,14 +59,9 @@ public record Program(String version, String commit, String instructionSet, Back
         return String.join("; ", found);
     }
 
-    /** Old folders that were computed on the processor do not say so. */
-    private static String argument(Backend backend) {
-        return (backend == null ? Backend.CPU : backend).argument();
-    }
-
     private static void add(List<String> found, String name, String mine, String other) {
         if (!Objects.equals(mine, other)) {
-            found.add(name + " " + (mine == null ? UNKNOWN : mine) + ", now " + (other == null ? UNKNOWN : other));
+            found.add(name + " " + mine + ", now " + other);
         }
     }
 }

@@ -45,8 +45,7 @@ final class RunDamage {
             long id = recorded.rows().get(i).result().id();
             if (id != recorded.first() + i) {
                 return directory + " is damaged: " + RunWriter.EVALUATIONS + ", line " + (i + 1) + ": id is " + id
-                        + "; expected "
-                        + (recorded.first() + i);
+                        + "; expected " + (recorded.first() + i);
             }
         }
         return null;

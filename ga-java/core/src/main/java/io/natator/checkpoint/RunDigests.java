@@ -20,7 +20,7 @@ import java.util.TreeMap;
 import java.util.stream.Stream;
 
 /**
- * By what a run notices that its files were edited, cut or removed since it wrote them. {@code digests.txt} has a line for each of
+ * Digests by which a run notices that its files were edited, cut or removed. {@code digests.txt} has a line for each of
  * {@code evaluations.jsonl}, the digest of that and all before; {@code digests.json} has those of files that are written as a
  * whole, two of one that is about to be replaced, as a kill leaves the old or the new one. Each is written before what it is of. What
  * has no digest, as in a run of an earlier version, is taken as it is, and has one from then on.
@@ -47,7 +47,7 @@ final class RunDigests implements AutoCloseable {
         private static final long serialVersionUID = 1L;
     }
 
-    /** Of a folder that is locked. */
+    /** The digests of a folder, which must be locked. */
     RunDigests(Path directory) {
         this.directory = directory;
         this.whole = read(directory);
@@ -95,7 +95,7 @@ final class RunDigests implements AutoCloseable {
         }
     }
 
-    /** Of whole lines: the last one may be cut short where its writer was killed. */
+    /** Digest of a file; of a file of lines without the last one, should its writer have been killed within it. */
     private static String digest(Path file) {
         try {
             byte[] content = Files.readAllBytes(file);
@@ -172,7 +172,7 @@ final class RunDigests implements AutoCloseable {
         }
     }
 
-    /** Of a run whose files are about to be replaced or removed for good, and then of what it has left. */
+    /** Removes the digests, changes the run's files, and notes the digests of those that are left. */
     static void renew(Path directory, Runnable change) {
         boolean isKnown = Files.exists(directory.resolve(WHOLE));
         try {

@@ -7,7 +7,6 @@ import io.natator.base.Numbers;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
-import io.natator.config.OptimizerKind;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
@@ -44,7 +43,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         RecordedEvaluations recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
     private static final Logger LOG = LoggerFactory.getLogger(RunReader.class);
-    /** What has been said of damaged files: a page, for one, reads them again and again. */
+    /** Warnings already given: a page reads damaged files again and again. */
     private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
 
     /** Copies the list. */
@@ -83,8 +82,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
         return Stream.of(RunDamage.editedSettings(directory, settings),
                 compact ? null : RunDamage.lostEvaluations(directory, state, recorded.end()),
-                RunDamage.misplacedEvaluation(directory, recorded))
-                .filter(Objects::nonNull).findFirst().orElse(null);
+                RunDamage.misplacedEvaluation(directory, recorded)).filter(Objects::nonNull).findFirst().orElse(null);
     }
 
     /**
@@ -142,20 +140,20 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return Json.read(directory.resolve(RunWriter.CONFIG), EvolutionSettings.class, "settings");
     }
 
-    /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
+    /** The settings that the run was begun with; null if it has not begun or {@code environment.json} lacks them or is damaged. */
     static EvolutionSettings settingsBefore(Path directory) {
-        Begun begun = begun(directory);
-        return begun == null ? null : begun.settings();
+        Origin origin = origin(directory);
+        return origin == null ? null : origin.settings();
     }
 
-    /** By what the run has computed as yet; null if it has not begun, or that is damaged. */
-    static Begun begun(Path directory) {
-        return readable(directory, RunWriter.ENVIRONMENT, Begun.class);
+    /** Scene and settings that the run was begun with; null if it has not begun, or {@code environment.json} is damaged. */
+    static Origin origin(Path directory) {
+        return readable(directory, RunWriter.ENVIRONMENT, Origin.class);
     }
 
-    /** What {@code environment.json} tells of the experiment; null what an earlier version did not write. */
+    /** What {@code environment.json} tells of the experiment; null where it does not. */
     @JsonIgnoreProperties(ignoreUnknown = true)
-    record Begun(String sceneSha256, EvolutionSettings settings) {
+    record Origin(String sceneSha256, EvolutionSettings settings) {
     }
 
     private static <T> T optional(Path directory, String name, Class<T> type) {
@@ -212,7 +210,7 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return best(directory, settings(directory), state(directory));
     }
 
-    /** As written, else as it follows from the checkpoint, then without what it does in vacuum. */
+    /** The best gait as written; else as the checkpoint gives it, without its run in vacuum. */
     private static BestGait best(Path directory, EvolutionSettings settings, EvolutionState state) {
         try {
             BestGait written = optional(directory, RunWriter.BEST, BestGait.class);
@@ -249,37 +247,36 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** The best gait of all generations up to this one, the earliest of equals; null if none is recorded. */
-    public JudgedGait bestUntil(int generation) {
-        JudgedGaits gaits = new JudgedGaits(settings);
+    public GaitScore bestUntil(int generation) {
+        GaitRanking gaits = new GaitRanking(settings);
         evaluations().stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
         return gaits.best();
     }
 
     /**
-     * Of a run with several objectives, the individuals that no other is better than in all of them, the best by the first
+     * The front of a run with several objectives: the individuals that no other is better than in all of them, the best by the first
      * objective first; else none.
      */
     public List<Individual> front() {
-        boolean several = settings.search().optimizer() == OptimizerKind.NSGA2 && state != null;
-        return several ? ParetoRanking.front(state.population(),
-                settings.problem().genome().genes()) : List.of();
+        boolean several = settings.search().optimizer().takesSeveralObjectives() && state != null;
+        return several ? ParetoRanking.front(state.population(), settings.problem().genome().genes()) : List.of();
     }
 
     /**
-     * The best gait of each kind that MAP-Elites found; null of another optimizer, and of a run by an earlier version, whose
-     * kinds were others.
+     * The best gait of each kind that MAP-Elites found; null of another optimizer, and of a run whose gaits have no effort to
+     * tell their kinds by.
      */
     public EliteMap elites() {
-        boolean isMapped = settings.search().optimizer() == OptimizerKind.MAP_ELITES && state != null
+        boolean isMapped = settings.search().optimizer().mapsKinds() && state != null
                 && state.population().stream().anyMatch(one -> one.effort() != null);
         return isMapped ? new EliteMap(state.population()) : null;
     }
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */
-    public SortedMap<Integer, JudgedGait> bestsByGeneration() {
+    public SortedMap<Integer, GaitScore> bestsByGeneration() {
         List<EvaluationRecord> all = evaluations();
-        JudgedGaits gaits = new JudgedGaits(settings);
-        SortedMap<Integer, JudgedGait> bests = new TreeMap<>();
+        GaitRanking gaits = new GaitRanking(settings);
+        SortedMap<Integer, GaitScore> bests = new TreeMap<>();
         for (int i = 0; i < all.size(); i++) {
             int generation = all.get(i).generation();
             gaits.add(all.get(i));
@@ -292,8 +289,8 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** All gaits, the best first. */
-    public List<JudgedGait> gaits() {
-        return JudgedGaits.ranked(settings, evaluations());
+    public List<GaitScore> gaits() {
+        return GaitRanking.ranked(settings, evaluations());
     }
 
     /** What the best is worth after each evaluation; NaN before there is one. */
@@ -304,19 +301,19 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return best;
     }
 
-    /** The course of the run: whom it would have taken for its winner, the earliest first. */
+    /** The leading gait after each evaluation at which it changed. */
     public List<Leader> leaders() {
         List<EvaluationRecord> all = evaluations();
-        JudgedGaits gaits = new JudgedGaits(settings);
+        GaitRanking gaits = new GaitRanking(settings);
         List<Leader> leaders = new ArrayList<>();
-        JudgedGait before = null;
+        GaitScore before = null;
         double simulated = 0;
         for (int i = 0; i < all.size(); i++) {
             gaits.add(all.get(i));
             if (statistics != null) {
                 simulated += all.get(i).result().simulatedOf(statistics.duration());
             }
-            JudgedGait best = gaits.best();
+            GaitScore best = gaits.best();
             if (best != null && !best.equals(before)) {
                 leaders.add(new Leader(i, statistics == null ? null : simulated, best.genes(), best.score()));
                 before = best;

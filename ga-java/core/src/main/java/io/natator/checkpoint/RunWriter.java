@@ -45,11 +45,9 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
     static final String EVALUATIONS = "evaluations.jsonl";
     private static final String GENERATIONS = "generations.csv";
     private static final String TIMINGS = "timings.csv";
-    /** Of earlier versions, with a picture. */
-    private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
-    private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
+    private static final List<String> FILES = List.of(CHECKPOINT, BEST, SAVINGS, VACUUM, CONTROLS, CONVERGENCE,
+            CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CompactRun.WHOLE,
             RunDigests.LINES, RunDigests.WHOLE, CONFIG, ".");
 
     private final Path directory;
@@ -135,7 +133,7 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
 
     /** Refuses a folder, a pipe, or the like, in place of a file that a run writes. */
     static void checkRegular(Path directory) {
-        FILES.stream().filter(name -> !name.equals(PLOTS) && !name.equals("."))
+        FILES.stream().filter(name -> !name.equals("."))
                 .forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
     }
 
@@ -206,7 +204,7 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
         }
     }
 
-    /** Where it is. */
+    /** The run folder. */
     public Path directory() {
         return directory;
     }
@@ -228,8 +226,10 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
     public void changeGenerations(int generations) {
-        if (dropped > 0 && settings.search().optimizer() == OptimizerKind.CMA_ES) {
-            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
+        OptimizerKind optimizer = settings.search().optimizer();
+        if (dropped > 0 && optimizer.needsAllEvaluations()) {
+            refuse(directory + " has not all of its evaluations any more, which " + Json.name(optimizer)
+                    + " would go on from");
         }
         settings = settings.withGenerations(generations);
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));

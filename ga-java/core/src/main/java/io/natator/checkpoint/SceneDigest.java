@@ -11,7 +11,7 @@ import io.natator.process.SceneInfo;
 import java.nio.file.Path;
 import java.util.Objects;
 
-/** By what a scene is known again: a file that was changed since a run was begun makes another experiment of it. */
+/** Digests by which a scene that was changed since a run was begun is noticed: it makes another experiment. */
 public final class SceneDigest {
 
     private static final String WITHOUT_EFFECT = "description";
@@ -20,7 +20,7 @@ public final class SceneDigest {
     }
 
     /**
-     * Of the scene of a run with all that it builds on and the run's overrides, but for descriptions.
+     * Digest of the scene of a run with all that it builds on and the run's overrides, but for descriptions.
      *
      * @param simulator the native program
      * @return SHA-256 in hexadecimal digits
@@ -43,56 +43,56 @@ public final class SceneDigest {
     /**
      * Refuses to go on with a run whose scene was changed.
      *
-     * @param directory of the run; one that has not begun, or that an earlier version began, has any scene
-     * @param settings  by which it is to go on; where they have another scene, or other overrides, nothing is said of that here
+     * @param directory of the run; one that recorded no digest goes on with any scene
+     * @param settings  that it is to go on with; another scene or other overrides are not checked here
      * @param digest    of their scene as it is now
      * @throws InvalidInputException that says which scene
      */
     public static void check(Path directory, EvolutionSettings settings, String digest) {
-        RunReader.Begun begun = RunReader.begun(directory);
-        if (isWith(begun, settings)) {
-            check(directory, begun, digest);
+        RunReader.Origin origin = RunReader.origin(directory);
+        if (isWith(origin, settings)) {
+            check(directory, origin, digest);
         }
     }
 
     /**
-     * The same, by a digest that is worked out only of a run that can tell.
+     * Refuses to go on with a run whose scene was changed; the digest is worked out only where it can tell.
      *
      * @param simulator the native program
      */
     static void check(Path directory, EvolutionSettings settings, Path simulator) throws InterruptedException {
-        RunReader.Begun begun = RunReader.begun(directory);
-        if (isWith(begun, settings)) {
-            check(directory, begun, of(settings, simulator));
+        RunReader.Origin origin = RunReader.origin(directory);
+        if (isWith(origin, settings)) {
+            check(directory, origin, of(settings, simulator));
         }
     }
 
-    private static void check(Path directory, RunReader.Begun begun, String digest) {
-        if (!begun.sceneSha256().equals(digest)) {
+    private static void check(Path directory, RunReader.Origin origin, String digest) {
+        if (!origin.sceneSha256().equals(digest)) {
             throw new InvalidInputException(
-                    "scene " + begun.settings().problem().scene() + " was changed after " + directory
+                    "scene " + origin.settings().problem().scene() + " was changed after " + directory
                             + " was begun; expected the scene that it was begun with, or a new run");
         }
     }
 
     /** Whether it is known what these settings' scene was when the run was begun. */
-    private static boolean isWith(RunReader.Begun begun, EvolutionSettings settings) {
-        return isKnown(begun) && begun.settings().problem().scene().equals(settings.problem().scene())
-                && Objects.equals(begun.settings().problem().overrides(), settings.problem().overrides());
+    private static boolean isWith(RunReader.Origin origin, EvolutionSettings settings) {
+        return isKnown(origin) && origin.settings().problem().scene().equals(settings.problem().scene())
+                && Objects.equals(origin.settings().problem().overrides(), settings.problem().overrides());
     }
 
     /**
-     * Whether the scene that a run was begun with is another one now; not of a run of an earlier version, which does not know.
+     * Whether a run's scene was changed after the run was begun; false where the run recorded no digest.
      *
      * @param directory of the run
      * @param simulator the native program
      */
     public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
-        RunReader.Begun begun = RunReader.begun(directory);
-        return isKnown(begun) && !begun.sceneSha256().equals(of(begun.settings(), simulator));
+        RunReader.Origin origin = RunReader.origin(directory);
+        return isKnown(origin) && !origin.sceneSha256().equals(of(origin.settings(), simulator));
     }
 
-    private static boolean isKnown(RunReader.Begun begun) {
-        return begun != null && begun.sceneSha256() != null && begun.settings() != null;
+    private static boolean isKnown(RunReader.Origin origin) {
+        return origin != null && origin.sceneSha256() != null && origin.settings() != null;
     }
 }

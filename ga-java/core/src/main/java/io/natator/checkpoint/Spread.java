@@ -10,7 +10,7 @@ import java.util.List;
  */
 public record Spread(double mean, double sd) {
 
-    /** Of these values, at least one. */
+    /** Mean and deviation of at least one value. */
     public static Spread of(List<Double> values) {
         double mean = values.stream().mapToDouble(Double::doubleValue).average().orElseThrow();
         double squares = values.stream().mapToDouble(value -> (value - mean) * (value - mean)).sum();
@@ -22,7 +22,7 @@ public record Spread(double mean, double sd) {
         return sd / Math.sqrt(count);
     }
 
-    /** Of values so many times as large. */
+    /** The spread of values that are so many times as large. */
     public Spread times(double factor) {
         return new Spread(mean * factor, sd * Math.abs(factor));
     }

@@ -34,8 +34,7 @@ import java.util.function.Function;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
         Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities,
-        Double work,
-        Double costOfTransport, Spread goals) {
+        Double work, Double costOfTransport, Spread goals) {
 
     /**
      * Has to have a distance and a speed, and with body lengths those per beat.
@@ -54,7 +53,7 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
     }
 
     /**
-     * Of these results, at least one.
+     * Sums up at least one result.
      *
      * @param duration   in seconds, of a run that nothing ends early
      * @param bodyLength in scene units, or null
@@ -85,7 +84,7 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         return known.isEmpty() ? null : Spread.of(known).mean();
     }
 
-    /** How many of its runs broke a law of mechanics. */
+    /** Number of runs that broke a law of mechanics. */
     public int unstable() {
         return stopped.getOrDefault("unstable", 0);
     }

@@ -5,8 +5,8 @@ import com.fasterxml.jackson.annotation.JsonValue;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
 import io.soabase.recordbuilder.core.RecordBuilder;
+import java.util.Arrays;
 import java.util.List;
-import java.util.Locale;
 import java.util.stream.Collectors;
 
 /**
@@ -48,9 +48,8 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget)
     private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Aggregate judge,
             List<WeightedObjective> objectives) {
         long weighted = objectives.stream().filter(one -> one.weight() != null).count();
-        String names = objectives.stream().map(one -> one.objective().name().toLowerCase(Locale.ROOT))
-                .collect(Collectors.joining(" and "));
-        String name = optimizer.name().toLowerCase(Locale.ROOT).replace('_', '-');
+        String names = objectives.stream().map(one -> Json.name(one.objective())).collect(Collectors.joining(" and "));
+        String name = "optimizer " + Json.name(optimizer);
         if (fitness != FitnessKind.DISTANCE && !objectives.isEmpty()) {
             throw new InvalidInputException(
                     "--fitness and --objectives exclude each other; expected the objective net");
@@ -60,16 +59,19 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget)
                     "objectives are " + names + ", of which " + weighted + " have weights; expected all "
                             + "or none of them");
         }
-        if (optimizer == OptimizerKind.NSGA2 && (objectives.size() < 2 || weighted > 0)) {
-            throw new InvalidInputException("optimizer nsga2 is for several objectives without weights, not "
+        boolean several = optimizer.takesSeveralObjectives();
+        if (several && (objectives.size() < 2 || weighted > 0)) {
+            throw new InvalidInputException(name + " is for several objectives without weights, not "
                     + (objectives.isEmpty() ? "none" : names) + "; expected --objectives distance,work for example");
         }
-        if (optimizer == OptimizerKind.NSGA2 && judge != Aggregate.MEAN) {
-            throw new InvalidInputException("optimizer nsga2 judges by means; expected --judge mean");
+        if (several && judge != Aggregate.MEAN) {
+            throw new InvalidInputException(name + " judges by means; expected --judge mean");
         }
-        if (optimizer != OptimizerKind.NSGA2 && objectives.size() > 1 && weighted == 0) {
-            throw new InvalidInputException("optimizer " + name + " has one objective, not " + names
-                    + "; expected a weight for each, as in distance=1,work=0.1, or --optimizer nsga2");
+        if (!several && objectives.size() > 1 && weighted == 0) {
+            String others = Arrays.stream(OptimizerKind.values()).filter(OptimizerKind::takesSeveralObjectives)
+                    .map(Json::name).collect(Collectors.joining(" or "));
+            throw new InvalidInputException(name + " has one objective, not " + names
+                    + "; expected a weight for each, as in distance=1,work=0.1, or --optimizer " + others);
         }
     }
 

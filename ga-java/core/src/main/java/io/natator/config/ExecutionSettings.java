@@ -48,8 +48,7 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         }
         if (mode == SimulatorMode.SPARK && backend == Backend.AUTO) {
             throw new InvalidInputException(
-                    "backend is auto; expected cpu or cuda in simulator mode spark, the same on "
-                            + "all machines");
+                    "backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
         }
         if (devices.isEmpty() || devices.stream().anyMatch(device -> device < 0)
                 || devices.stream().distinct().count() < devices.size()) {
@@ -66,7 +65,10 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         }
     }
 
-    /** On all processors of this machine, by processes that stay alive; no cache, and the time limit from the scene's cost. */
+    /**
+     * All processors of this machine, by resident processes; no cache; time limit from the scene's cost. The command
+     * line's default is a process for each evaluation, as in the thesis.
+     */
     public static ExecutionSettings of(Path simulator) {
         return new ExecutionSettings(simulator, SimulatorMode.RESIDENT, Backend.CPU, List.of(0),
                 Runtime.getRuntime().availableProcessors(), null, null, List.of(), null);
@@ -83,8 +85,8 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
     }
 
     /**
-     * How many evaluations at the same time tell how long many take: a batch, else no more than the processors can do at
-     * once, since others only wait.
+     * Sample size for the estimate of the run time: a batch, else no more than the processors do at once, since others
+     * only wait.
      *
      * @param population evaluations of a batch
      */
@@ -108,9 +110,4 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         return with(to -> to.mode(newMode).master(newMode == SimulatorMode.SPARK ? master : null));
     }
 
-    /** These settings in mode spark with a master, or null for the one that the program was submitted to. */
-    @Override
-    public ExecutionSettings withMaster(String newMaster) {
-        return with(to -> to.mode(SimulatorMode.SPARK).master(newMaster));
-    }
 }

@@ -58,8 +58,7 @@ public final class FileErrors {
                         : e instanceof FileAlreadyExistsException
                                 ? Files.exists(file) ? "is a file, not a folder" : "is a link that leads nowhere"
                                 : e instanceof FileSystemException system && system.getReason() != null
-                                        ? system.getReason()
-                                        : String.valueOf(e.getMessage());
+                                        ? system.getReason() : String.valueOf(e.getMessage());
         String about = e instanceof FileSystemException system ? system.getFile() : null;
         return about == null || about.equals(file.toString()) || why.contains(about) ? why : about + ": " + why;
     }
@@ -76,7 +75,6 @@ public final class FileErrors {
             return there + " is a file, not a folder";
         }
         return e instanceof NoSuchFileException && place != null && place.equals(there)
-                ? place + " takes no new files or folders"
-                : reason(file, e);
+                ? place + " takes no new files or folders" : reason(file, e);
     }
 }

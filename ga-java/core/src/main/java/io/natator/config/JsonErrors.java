@@ -8,7 +8,6 @@ import com.fasterxml.jackson.databind.exc.ValueInstantiationException;
 import io.natator.base.InvalidInputException;
 import java.util.Arrays;
 import java.util.Collection;
-import java.util.Locale;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
@@ -16,7 +15,7 @@ import java.util.stream.Collectors;
 /** What is wrong with a JSON text, without the names that classes and settings have in this program. */
 final class JsonErrors {
 
-    private static final int LONGEST = 60;
+    private static final int MAX_SHOWN = 60;
     private static final Pattern REFUSED_VALUE = Pattern.compile("^Cannot coerce \\w+ value \\(\"?(.*?)\"?\\) to ");
 
     private JsonErrors() {
@@ -67,14 +66,13 @@ final class JsonErrors {
     /** The beginning of a value, as messages have it. */
     static String shown(Object value) {
         String text = String.valueOf(value);
-        return text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text;
+        return text.length() > MAX_SHOWN ? text.substring(0, MAX_SHOWN) + "…" : text;
     }
 
     private static String described(Class<?> type) {
         if (type.isEnum()) {
             return "one of " + Arrays.stream(type.getEnumConstants())
-                    .map(one -> ((Enum<?>) one).name().toLowerCase(Locale.ROOT).replace('_', '-'))
-                    .collect(Collectors.joining(", "));
+                    .map(one -> Json.name((Enum<?>) one)).collect(Collectors.joining(", "));
         }
         if (type == int.class || type == long.class || type == Integer.class || type == Long.class) {
             return "a whole number";

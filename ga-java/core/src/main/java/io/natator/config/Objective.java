@@ -7,7 +7,7 @@ public enum Objective {
     /** The distance swum along x (thesis 2.6), in scene units. */
     @JsonProperty("distance")
     DISTANCE,
-    /** The same less what the gait drifts forwards in vacuum. */
+    /** The distance swum along x less what the gait drifts forwards in vacuum, in scene units. */
     @JsonProperty("net")
     NET,
     /** The way along the body's own heading, in scene units: one that swims on an arc loses nothing by it. */

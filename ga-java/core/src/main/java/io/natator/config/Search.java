@@ -1,7 +1,6 @@
 package io.natator.config;
 
 import io.soabase.recordbuilder.core.RecordBuilder;
-import java.util.Locale;
 
 /**
  * How gaits are searched for, and how each is judged.
@@ -18,8 +17,7 @@ import java.util.Locale;
  */
 @RecordBuilder
 public record Search(OptimizerKind optimizer, int population, long seed, OperatorSet operators,
-        double gaussianDeviation,
-        Integer starts, Aggregate judge) implements SearchBuilder.With {
+        double gaussianDeviation, Integer starts, Aggregate judge) implements SearchBuilder.With {
 
     /** Elites of 150 selected chromosomes (thesis 2.6). */
     private static final double ELITE_SHARE = 30.0 / 150.0;
@@ -41,8 +39,7 @@ public record Search(OptimizerKind optimizer, int population, long seed, Operato
         Limits.require(starts >= 1 && starts <= Limits.STARTS, "starts", starts,
                 "a whole number from 1 to " + Limits.STARTS);
         Limits.require(starts >= judge.leastRuns(), "starts", starts,
-                "at least " + judge.leastRuns() + " with --judge "
-                        + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
+                "at least " + judge.leastRuns() + " with --judge " + Json.name(judge));
     }
 
     /** Runs of a generation that go to the best gaits so far, to know them better; none with a single start. */

@@ -7,7 +7,7 @@ import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Set;
 
-/** In what settings differ from others, in words. */
+/** How settings differ from others, in words. */
 public final class SettingsChange {
 
     /** What may change while a run is under way: how far it goes, and what it computes on. */
@@ -21,7 +21,7 @@ public final class SettingsChange {
         return between(before, now, Set.of());
     }
 
-    /** The same but for what may change while a run is under way. */
+    /** All that has changed but what may change while a run is under way. */
     public static String withinRun(EvolutionSettings before, EvolutionSettings now) {
         return between(before, now, FREE);
     }

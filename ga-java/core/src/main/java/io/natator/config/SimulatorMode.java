@@ -2,7 +2,10 @@ package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
 
-/** How evaluations reach the native program. The same request gives the same result in all of them. */
+/**
+ * How evaluations reach the native program. A request has the same result in every mode. The command line's default is
+ * {@link #PROCESS}, as in the thesis; that of {@link ExecutionSettings#of} is {@link #RESIDENT}, which is faster.
+ */
 public enum SimulatorMode {
     /** A process for each evaluation, as in the thesis. */
     @JsonProperty("process")

@@ -4,8 +4,8 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.base.InvalidInputException;
 import io.natator.base.Numbers;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
-import java.util.Locale;
 import java.util.stream.Collectors;
 
 /**
@@ -18,7 +18,7 @@ import java.util.stream.Collectors;
 public record WeightedObjective(Objective objective, Double weight) {
 
     /**
-     * As the user writes them: {@code distance,work}, or with weights {@code forward=1,straight=0.2}.
+     * Reads objectives as the user writes them: {@code distance,work}, or with weights {@code forward=1,straight=0.2}.
      *
      * @throws InvalidInputException if that is no such list
      */
@@ -42,19 +42,15 @@ public record WeightedObjective(Objective objective, Double weight) {
 
     /** Some as text, as {@link #parse} reads it. */
     public static String text(List<WeightedObjective> objectives) {
-        return objectives.stream().map(one -> one.objective.name().toLowerCase(Locale.ROOT)
+        return objectives.stream().map(one -> Json.name(one.objective)
                 + (one.weight == null ? "" : "=" + one.weight)).collect(Collectors.joining(","));
     }
 
     private static Objective objective(String name, String part) {
-        for (Objective one : Objective.values()) {
-            if (one.name().toLowerCase(Locale.ROOT).equals(name)) {
-                return one;
-            }
-        }
-        throw new InvalidInputException(
-                "--objectives has '" + part + "'; expected some of distance, net, forward, straight, "
-                        + "work, efficiency, each with a weight or none: forward=1,straight=0.2");
+        return Arrays.stream(Objective.values()).filter(one -> Json.name(one).equals(name)).findFirst()
+                .orElseThrow(() -> new InvalidInputException("--objectives has '" + part
+                        + "'; expected some of distance, net, forward, straight, work, efficiency, each with a weight or "
+                        + "none: forward=1,straight=0.2"));
     }
 
     private static double weight(String[] sides, String part) {

@@ -17,8 +17,7 @@ import java.util.Objects;
  * @param offset    what drives the muscles beside the beat, per actuator, above 0 to the left; null for none
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power,
-        List<Double> offset) {
+public record Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power, List<Double> offset) {
 
     /**
      * Copies the lists.
@@ -62,8 +61,7 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
      */
     public Gait mirrored() {
         return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(),
-                power,
-                offset == null ? null : offset.stream().map(one -> -one).toList());
+                power, offset == null ? null : offset.stream().map(one -> -one).toList());
     }
 
     /** This gait with all actuators driven so far to one side beside their beat. */

@@ -16,7 +16,7 @@ import java.util.TreeMap;
 public final class EliteMap {
 
     /** What beats more often for a body length gets nowhere, which is a kind by itself. */
-    public static final double MOST_BEATS = 128;
+    public static final double MAX_BEATS = 128;
     /** Cells in an octave. */
     private static final int PER_OCTAVE = 2;
 
@@ -30,7 +30,7 @@ public final class EliteMap {
      */
     public record Cell(int beats, int cost) implements Comparable<Cell> {
 
-        /** Of all that get nowhere, whatever that costs. */
+        /** The kind of all gaits that get nowhere, at whatever cost. */
         public static final Cell NOWHERE = new Cell(Integer.MAX_VALUE, 0);
 
         @Override
@@ -40,7 +40,7 @@ public final class EliteMap {
     }
 
     /**
-     * Of these individuals, the first of equals.
+     * The map of individuals; of equals it keeps the first.
      *
      * @throws EvolutionFailedException if it is not known what a swim took
      */
@@ -59,11 +59,11 @@ public final class EliteMap {
 
     /** The kind of what took this. Without any work, as with muscles that are pushed, it is of the kind that gets nowhere. */
     static Cell cell(Effort effort) {
-        boolean moves = effort.beatsPerLength() < MOST_BEATS && effort.work() > 0;
+        boolean moves = effort.beatsPerLength() < MAX_BEATS && effort.work() > 0;
         return moves ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport())) : Cell.NOWHERE;
     }
 
-    /** The same bits on every machine, as the course of a run depends on it. */
+    /** Number of a cell; the same on every machine, since the course of a run depends on it. */
     private static int number(double value) {
         return (int) Math.floor(PER_OCTAVE * StrictMath.log(value) / StrictMath.log(2));
     }
@@ -78,7 +78,7 @@ public final class EliteMap {
         return elites;
     }
 
-    /** The same without the kind that gets nowhere. */
+    /** The best of each kind that gets somewhere, by cells. */
     public SortedMap<Cell, Individual> moving() {
         return elites.headMap(Cell.NOWHERE);
     }

@@ -27,12 +27,12 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
         objectives = objectives == null ? null : List.copyOf(objectives);
     }
 
-    /** By what the runs were worth alone. */
+    /** An estimate without objectives or effort. */
     public Estimate(double score, List<Double> runs) {
         this(score, runs, null, null, null);
     }
 
-    /** By these runs, at least one. */
+    /** The estimate that at least one run gives. */
     static Estimate of(List<SimulationResult> results, Aggregate judge) {
         return new Estimate(0, List.of()).with(results, judge);
     }
@@ -44,11 +44,10 @@ public record Estimate(double score, List<Double> runs, List<Double> objectives,
         int broken = (int) more.stream().filter(one -> one.status() == SimulationResult.Status.UNSTABLE).count()
                 + (unstable == null ? 0 : unstable);
         return new Estimate(broken == 0 ? judge.of(all) : Math.min(Collections.min(all), 0), all, means(more),
-                sum(more),
-                broken == 0 ? null : broken);
+                sum(more), broken == 0 ? null : broken);
     }
 
-    /** The same, of a gait that was unstable in a run that is not among these. */
+    /** This estimate for a gait that was also unstable in a run that is not among these. */
     Estimate refused() {
         return isStable() ? new Estimate(Math.min(Collections.min(runs), 0), runs, objectives, effort, 1) : this;
     }

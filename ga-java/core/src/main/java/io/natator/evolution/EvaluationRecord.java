@@ -18,7 +18,7 @@ import java.util.Objects;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result, Integer start) {
 
-    /** Copies the genes, which it has to have as well as a gait and a result with its id. */
+    /** Copies the genes; requires them, a gait, and a result with its id. */
     public EvaluationRecord {
         genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
         Objects.requireNonNull(gait, "gait");
@@ -26,7 +26,7 @@ public record EvaluationRecord(int generation, List<Double> genes, Gait gait, Si
         Objects.requireNonNull(result.id(), "id");
     }
 
-    /** From the scene's own start. */
+    /** A record of a run from the scene's own start. */
     public EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result) {
         this(generation, genes, gait, result, null);
     }

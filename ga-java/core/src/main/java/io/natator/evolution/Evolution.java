@@ -79,7 +79,7 @@ public final class Evolution {
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
                 born.clear();
-                List<List<Double>> newborn = begun(optimizer.propose(generation, parents));
+                List<List<Double>> newborn = announce(optimizer.propose(generation, parents));
                 state = finish(state, optimizer.population(newborns(newborn, simulate(runs(newborn)))));
             }
             return state;
@@ -118,8 +118,7 @@ public final class Evolution {
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, population, simulated.size(),
                 count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED))
-                .withUnchanged(unchanged(population))
-                .withLaws(broken()));
+                .withUnchanged(unchanged(population)).withLaws(broken()));
         EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions,
                 refused);
         listeners.forEach(listener -> listener.generationFinished(state));
@@ -134,7 +133,7 @@ public final class Evolution {
     }
 
     /** What of a proposal can still be simulated, announced to the listeners. */
-    private List<List<Double>> begun(List<List<Double>> proposed) {
+    private List<List<Double>> announce(List<List<Double>> proposed) {
         int starts = settings.search().starts();
         List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
         born.addAll(genomes);
@@ -143,7 +142,7 @@ public final class Evolution {
         return genomes;
     }
 
-    /** Of new genomes: each from all starts of the generation. */
+    /** Runs of new genomes: each from all starts of the generation. */
     private List<Run> runs(List<List<Double>> genomes) {
         int starts = settings.search().starts();
         List<Run> runs = new ArrayList<>();
@@ -220,8 +219,7 @@ public final class Evolution {
             evaluator.evaluateAll(requests, Evaluator.inOrder(requests, result -> {
                 Run run = runs.get(simulated.size() - before);
                 accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(),
-                        result,
-                        run.start()));
+                        result, run.start()));
             }));
         } catch (InterruptedException e) {
             throw new EvolutionStoppedException("stopped in generation " + generation + " after "

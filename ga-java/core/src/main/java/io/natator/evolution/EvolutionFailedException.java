@@ -5,7 +5,7 @@ public class EvolutionFailedException extends RuntimeException {
 
     private static final long serialVersionUID = 1L;
 
-    /** For this reason, in one line. */
+    /** A failure with its reason in one line. */
     public EvolutionFailedException(String message) {
         super(message);
     }

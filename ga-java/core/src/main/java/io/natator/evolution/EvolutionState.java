@@ -35,20 +35,19 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         history = List.copyOf(Objects.requireNonNull(history, "history"));
         if (generation < 0 || history.size() != generation + 1L) {
             throw new InvalidInputException("history has " + Numbers.count(history.size(), "generation")
-                    + "; expected those from 0 to generation, "
-                    + generation);
+                    + "; expected those from 0 to generation, " + generation);
         }
         champions = champions == null ? null : List.copyOf(champions);
         refused = refused == null ? null : refused.stream().map(List::copyOf).toList();
     }
 
-    /** Of an evolution in which no gait was unstable in some of its runs. */
+    /** The state of an evolution in which no gait was unstable in some of its runs. */
     public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
             List<GenerationSummary> history, List<Individual> champions) {
         this(generation, evaluations, population, best, history, champions, null);
     }
 
-    /** Of an evolution in which every gait is run once. */
+    /** The state of an evolution in which every gait is run once. */
     public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
             List<GenerationSummary> history) {
         this(generation, evaluations, population, best, history, null);

@@ -57,7 +57,7 @@ final class GaussianMutation extends BaseGeneticOperator {
         gene.setAllele(reflect(shifted, lower, upper));
     }
 
-    /** Folds a value into the range, as a ball between two walls. */
+    /** Reflects a value at the bounds of its range. */
     static double reflect(double value, double lower, double upper) {
         double width = upper - lower;
         double offset = Math.abs(value - lower) % (2.0 * width);

@@ -3,6 +3,7 @@ package io.natator.evolution;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonPropertyOrder;
 import io.natator.protocol.SimulationResult;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -25,20 +26,25 @@ import java.util.stream.Stream;
  * @param evaluations simulations for it
  * @param unstable    simulations that became unstable
  * @param failed      simulations without a valid answer
- * @param unchanged   of the chromosomes, those that were not newly simulated; null where an earlier version did not count them
- * @param laws        of the unstable simulations, how many broke which law; null without any, and where an earlier version looked for
- *                    nothing but finite numbers
+ * @param unchanged   of the chromosomes, those that were not newly simulated
+ * @param laws        of the unstable simulations, how many broke which law; null without any
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
 @JsonPropertyOrder({"generation", "best", "mean", "median", "worst", "population", "evaluations", "unstable", "failed",
         "unchanged", "laws"})
 public record GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
-        int evaluations, int unstable, int failed, Integer unchanged, SortedMap<String, Integer> laws) {
+        int evaluations, int unstable, int failed, int unchanged, SortedMap<String, Integer> laws)
+        implements GenerationSummaryBuilder.With {
+    /** No law that was broken is null. */
+    public GenerationSummary {
+        laws = laws == null || laws.isEmpty() ? null : laws;
+    }
 
     /** A summary without a count of what was unchanged. */
     public GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
             int evaluations, int unstable, int failed) {
-        this(generation, best, mean, median, worst, population, evaluations, unstable, failed, null, null);
+        this(generation, best, mean, median, worst, population, evaluations, unstable, failed, 0, null);
     }
 
     /** Summarises a population, at least one. */
@@ -68,24 +74,6 @@ public record GenerationSummary(int generation, double best, double mean, double
                 unstable, failed);
     }
 
-    private GenerationSummary withPopulation(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed,
-                unchanged, laws);
-    }
-
-    /** The same with a count of the chromosomes that were not newly simulated. */
-    GenerationSummary withUnchanged(int count) {
-        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed,
-                count, laws);
-    }
-
-    /** The same with the laws that its simulations broke. */
-    GenerationSummary withLaws(SortedMap<String, Integer> broken) {
-        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed,
-                unchanged,
-                broken.isEmpty() ? null : broken);
-    }
-
     /** How many of its simulations broke which law; those that are not told of by law were not finite. */
     public SortedMap<String, Integer> brokenLaws() {
         SortedMap<String, Integer> all = new TreeMap<>(laws == null ? Map.of() : laws);
@@ -108,8 +96,4 @@ public record GenerationSummary(int generation, double best, double mean, double
         return csv.toString();
     }
 
-    /** Chromosomes that were not newly simulated, or as far as that is known. */
-    public int unchangedOrRest() {
-        return unchanged != null ? unchanged : Math.max(population - evaluations, 0);
-    }
 }

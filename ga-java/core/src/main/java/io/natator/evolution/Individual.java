@@ -17,14 +17,14 @@ import java.util.Objects;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate) {
 
-    /** Copies the genes, which it has to have as well as a result with its id. */
+    /** Copies the genes; requires them and a result with its id. */
     public Individual {
         genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
         Objects.requireNonNull(result, "result");
         Objects.requireNonNull(result.id(), "id");
     }
 
-    /** Of a single run. */
+    /** An individual of a single run. */
     public Individual(List<Double> genes, int age, SimulationResult result) {
         this(genes, age, result, null);
     }

@@ -21,7 +21,7 @@ import org.uma.jmetal.util.pseudorandom.RandomGenerator;
  */
 final class Nsga2 implements Optimizer {
 
-    /** Of the original: nine pairs of ten are crossed, a gene in each child is mutated; both with index 20. */
+    /** As in the paper: nine of ten pairs are crossed, one gene of each child is mutated; both with index 20. */
     private static final double CROSSOVER_SHARE = 0.9;
     private static final double INDEX = 20;
 

@@ -20,7 +20,7 @@ public record RecordedEvaluations(long first, List<EvaluationRecord> rows) {
         return first + rows.size();
     }
 
-    /** That with this id, at least {@code first} and below {@link #end}. */
+    /** The evaluation with this id, at least {@code first} and below {@link #end}. */
     public EvaluationRecord get(long id) {
         return rows.get((int) (id - first));
     }

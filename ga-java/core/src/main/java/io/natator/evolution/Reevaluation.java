@@ -41,7 +41,7 @@ final class Reevaluation {
     }
 
     /**
-     * In a generation.
+     * The re-evaluation of a generation.
      *
      * @param population its individuals
      * @param champions  of the generation before
@@ -57,7 +57,7 @@ final class Reevaluation {
         champions.forEach(this::enter);
     }
 
-    /** Who was unstable stays known, but is no more ranked: the runs before must not win for it. */
+    /** An unstable gait stays in the field but is never ranked, whatever its earlier runs. */
     private void enter(Individual entering) {
         Individual one = refused.contains(entering.genes()) ? entering.withEstimate(entering.estimate().refused())
                 : entering;
@@ -94,7 +94,7 @@ final class Reevaluation {
         return first(ranked());
     }
 
-    /** Whom of the champions to take for the best; null without champions. */
+    /** The champion to take for the best; null without champions. */
     Individual winner() {
         List<Individual> champions = first(ranked());
         return champions.isEmpty() ? null
@@ -137,8 +137,7 @@ final class Reevaluation {
             Individual one = ranked.get(i);
             double toLead = i == 0 ? lead - ranked.get(1).score() : lead - one.score();
             // All gaits are taken to scatter alike: a few runs do not tell by how much each does.
-            closeness.put(one.genes(),
-                    Math.min(Math.abs(one.score() - border), toLead) * Math.sqrt(one.runs()));
+            closeness.put(one.genes(), Math.min(Math.abs(one.score() - border), toLead) * Math.sqrt(one.runs()));
         }
         ranked.sort(Comparator.comparingDouble(one -> closeness.get(one.genes())));
         return ranked;

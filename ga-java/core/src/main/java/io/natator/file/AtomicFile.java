@@ -24,7 +24,7 @@ public final class AtomicFile {
         write(file, content.getBytes(StandardCharsets.UTF_8));
     }
 
-    /** The same of bytes. */
+    /** Replaces a file by bytes; see {@link #write(Path, String)}. */
     public static void write(Path file, byte[] content) {
         Path fresh = unfinished(file);
         try {

@@ -31,7 +31,7 @@ public final class JsonLines<T> implements AutoCloseable {
     private final List<T> rows = new ArrayList<>();
     /** Where each row that was in the file begins, and where the last one ends: bytes. */
     private final List<Long> starts = new ArrayList<>(List.of(0L));
-    /** Of the file when it was read, with what was cut short. */
+    /** Bytes of the file when it was read, with what was cut short. */
     private long length;
     private int size;
     /** Whether it was not there before it was opened for writing. */
@@ -152,7 +152,7 @@ public final class JsonLines<T> implements AutoCloseable {
         dropFrom(size);
     }
 
-    /** The same, as it is. */
+    /** Opens for writing what nobody has changed since it was read. */
     private void openUnchanged() throws IOException {
         open();
         if (content.length() != length) {

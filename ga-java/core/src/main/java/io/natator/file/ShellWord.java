@@ -6,7 +6,7 @@ public final class ShellWord {
     private ShellWord() {
     }
 
-    /** As one word of a POSIX shell: in quotes where it has a character that could mean something else. */
+    /** One word of a POSIX shell: quoted where it has a character that could mean something else. */
     public static String of(Object argument) {
         String plain = argument.toString();
         return plain.matches("[\\w\\p{L}\\p{M}\\p{N}./,:=+@%-]+") ? plain : "'" + plain.replace("'", "'\\''") + "'";

@@ -14,14 +14,14 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * Refuses bodies that are none, before they cost a simulation: what the simulator does not take, and what has more or fewer
- * particles, or actuators, than the scene's own body.
+ * Refuses invalid bodies before they cost a simulation: those that the simulator does not take, and those with more or
+ * fewer particles, or actuators, than the scene's own body.
  */
 public final class BodyCheckEvaluator implements Evaluator {
 
     /** Share of the particles that may be too many or too few: what is held is the volume. */
     private static final double HELD = 0.02;
-    /** Of a body that is as it should be. */
+    /** The fault of a valid body. */
     private static final String NOTHING = "";
 
     private final Evaluator evaluator;
@@ -72,8 +72,7 @@ public final class BodyCheckEvaluator implements Evaluator {
         if (body.bodyParticles() != null
                 && Math.abs(body.bodyParticles() - scene.bodyParticles()) > HELD * scene.bodyParticles()) {
             return "body has " + Numbers.count(body.bodyParticles(), "particle") + "; expected the "
-                    + scene.bodyParticles()
-                    + " of the scene's, within " + Math.round(100 * HELD) + " %";
+                    + scene.bodyParticles() + " of the scene's, within " + Math.round(100 * HELD) + " %";
         }
         return NOTHING;
     }

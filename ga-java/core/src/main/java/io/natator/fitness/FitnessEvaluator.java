@@ -3,6 +3,7 @@ package io.natator.fitness;
 import io.natator.base.InvalidInputException;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
+import io.natator.config.Json;
 import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Problem;
@@ -16,7 +17,6 @@ import io.natator.protocol.VacuumRequests;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
-import java.util.Locale;
 import java.util.Map;
 import java.util.function.Consumer;
 import java.util.function.ToDoubleFunction;
@@ -31,23 +31,27 @@ import java.util.function.ToDoubleFunction;
 public final class FitnessEvaluator implements Evaluator {
 
     /** Yaw and roll of a run that did not come to its end: no other can have turned more. */
-    private static final double LEAST_STRAIGHT = -2 * Math.PI;
+    private static final double MIN_STRAIGHT = -2 * Math.PI;
     /** Its work, more than that of one that did. */
-    private static final double MOST_WORK = -1e6;
+    private static final double MIN_WORK = -1e6;
 
     private final Evaluator evaluator;
     private final List<WeightedObjective> objectives;
     private final boolean isNet;
+    private final OptimizerKind optimizer;
     private final ToDoubleFunction<SimulationRequest> bodyLength;
 
     /**
      * Wraps an evaluator, which is closed with this one.
      *
      * @param problem    that says what is rewarded
-     * @param bodyLength of a request's creature in scene units; null for results that do not tell what the swim took
+     * @param optimizer  that needs the effort of swims, for messages; or null
+     * @param bodyLength of a request's creature in scene units; null for results that do not tell the effort
      */
-    FitnessEvaluator(Evaluator evaluator, Problem problem, ToDoubleFunction<SimulationRequest> bodyLength) {
+    FitnessEvaluator(Evaluator evaluator, Problem problem, OptimizerKind optimizer,
+            ToDoubleFunction<SimulationRequest> bodyLength) {
         this.evaluator = evaluator;
+        this.optimizer = optimizer;
         this.objectives = problem.objectives() == null ? List.of() : problem.objectives();
         this.isNet = problem.objectives() == null ? problem.fitness() == FitnessKind.NET
                 : objectives.stream().anyMatch(one -> one.objective() == Objective.NET);
@@ -57,11 +61,11 @@ public final class FitnessEvaluator implements Evaluator {
     /** An evaluator whose results are worth what a run rewards; the given one, if that is the distance or the scene's goals. */
     public static Evaluator of(Evaluator evaluator, Problem problem) {
         return problem.objectives() == null && problem.fitness() == FitnessKind.DISTANCE ? evaluator
-                : new FitnessEvaluator(evaluator, problem, null);
+                : new FitnessEvaluator(evaluator, problem, null, null);
     }
 
     /**
-     * The same, whose results also tell by what a run's optimizer tells gaits apart.
+     * An evaluator whose results are worth what a run rewards, with their effort where the optimizer needs it.
      *
      * @throws InvalidInputException if the scene has goals, and the run would have another fitness; or if the optimizer asks for a
      *                               body's length, and that is not known
@@ -72,17 +76,20 @@ public final class FitnessEvaluator implements Evaluator {
             throw new InvalidInputException("--fitness net is for scenes without goals, and " + problem.scene()
                     + " has some, which are its fitness; expected --objectives net, alone or together with goals");
         }
-        if (settings.search().optimizer() != OptimizerKind.MAP_ELITES) {
+        OptimizerKind optimizer = settings.search().optimizer();
+        if (!optimizer.mapsKinds()) {
             return of(evaluator, problem);
         }
         if (problem.evolve() != null) {
-            return new FitnessEvaluator(evaluator, problem, request -> problem.bodyLength(request.overrides()));
+            return new FitnessEvaluator(evaluator, problem, optimizer,
+                    request -> problem.bodyLength(request.overrides()));
         }
         if (scene.bodyLength() == null || !(scene.bodyLength() > 0)) {
-            throw new InvalidInputException("optimizer map-elites: the body's length is " + scene.bodyLength()
-                    + "; expected a simulator that tells it, and a scene with a body");
+            throw new InvalidInputException(
+                    "optimizer " + Json.name(optimizer) + ": the body's length is " + scene.bodyLength()
+                            + "; expected a simulator that tells it, and a scene with a body");
         }
-        return new FitnessEvaluator(evaluator, problem, request -> scene.bodyLength());
+        return new FitnessEvaluator(evaluator, problem, optimizer, request -> scene.bodyLength());
     }
 
     @Override
@@ -97,12 +104,12 @@ public final class FitnessEvaluator implements Evaluator {
                 inWater.put(result.id(), result);
                 inVacuum.add(VacuumRequests.of(asked.get(result.id()), result.simulated()));
             } else {
-                whenDone.accept(judged(result, asked.get(result.id())));
+                whenDone.accept(judge(result, asked.get(result.id())));
             }
         });
         if (!inVacuum.isEmpty()) {
             evaluator.evaluateAll(inVacuum,
-                    vacuum -> whenDone.accept(judged(net(inWater.get(vacuum.id()), vacuum), asked.get(vacuum.id()))));
+                    vacuum -> whenDone.accept(judge(net(inWater.get(vacuum.id()), vacuum), asked.get(vacuum.id()))));
         }
     }
 
@@ -117,7 +124,7 @@ public final class FitnessEvaluator implements Evaluator {
         return SimulationResult.failed(water.id(), "in vacuum: " + vacuum.error());
     }
 
-    private SimulationResult judged(SimulationResult result, SimulationRequest request) {
+    private SimulationResult judge(SimulationResult result, SimulationRequest request) {
         SimulationResult worth = objectives.isEmpty() ? result : worth(result);
         return bodyLength == null || result.status() != SimulationResult.Status.OK ? worth
                 : worth.withEffort(effort(result, request));
@@ -136,7 +143,7 @@ public final class FitnessEvaluator implements Evaluator {
 
     private static double value(Objective objective, SimulationResult result) {
         if (result.status() != SimulationResult.Status.OK) {
-            return objective == Objective.STRAIGHT ? LEAST_STRAIGHT : objective == Objective.WORK ? MOST_WORK : 0;
+            return objective == Objective.STRAIGHT ? MIN_STRAIGHT : objective == Objective.WORK ? MIN_WORK : 0;
         }
         return switch (objective) {
             case DISTANCE -> result.distance();
@@ -160,7 +167,7 @@ public final class FitnessEvaluator implements Evaluator {
 
     private static <T> T known(T figure, Objective objective, SimulationResult result) {
         if (figure == null) {
-            throw new InvalidInputException("objective " + objective.name().toLowerCase(Locale.ROOT)
+            throw new InvalidInputException("objective " + Json.name(objective)
                     + ": this simulator does not measure it in scheme " + result.scheme());
         }
         return figure;
@@ -168,10 +175,9 @@ public final class FitnessEvaluator implements Evaluator {
 
     private Effort effort(SimulationResult result, SimulationRequest request) {
         if (result.work() == null) {
-            throw new InvalidInputException(
-                    "optimizer map-elites: this simulator does not measure the muscles' work in scheme "
-                            + result.scheme()
-                            + ", by which kinds of gaits are told apart; expected --scheme conserving or lattice");
+            throw new InvalidInputException("optimizer " + Json.name(optimizer)
+                    + ": this simulator does not measure the muscles' work in scheme " + result.scheme()
+                    + ", by which kinds of gaits are told apart; expected --scheme conserving or lattice");
         }
         return new Effort(request.gait().frequency() * result.simulated(),
                 result.distance() / bodyLength.applyAsDouble(request), result.distance(), result.work());

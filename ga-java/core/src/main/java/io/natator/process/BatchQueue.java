@@ -15,10 +15,10 @@ import java.util.concurrent.TimeUnit;
 final class BatchQueue {
 
     /** Most evaluations in a batch, what {@code serve} takes together. */
-    private static final int MOST = 1024;
+    private static final int MAX_BATCH = 1024;
     /** How long no more requests come before a batch is begun. */
     private static final long LULL = TimeUnit.MILLISECONDS.toNanos(3);
-    private static final int MOST_FAULTS = 2;
+    private static final int MAX_FAULTS = 2;
 
     private final Deque<BatchJob> waiting = new ArrayDeque<>();
     private final Deque<Batch> returned = new ArrayDeque<>();
@@ -66,7 +66,7 @@ final class BatchQueue {
                 return again;
             }
             long lull = waiting.isEmpty() ? Long.MAX_VALUE : lastAdded + LULL - System.nanoTime();
-            if (lull <= 0 || waiting.size() >= MOST * workers.size()) {
+            if (lull <= 0 || waiting.size() >= MAX_BATCH * workers.size()) {
                 Batch share = share();
                 worker.busy = true;
                 return share;
@@ -94,7 +94,7 @@ final class BatchQueue {
         int idle = (int) workers.stream().filter(worker -> !worker.busy).count();
         List<BatchJob> jobs = new ArrayList<>();
         Iterator<BatchJob> cards = waiting.iterator();
-        for (int k = 0; cards.hasNext() && jobs.size() < MOST; k++) {
+        for (int k = 0; cards.hasNext() && jobs.size() < MAX_BATCH; k++) {
             BatchJob job = cards.next();
             if (k % idle == 0) {
                 jobs.add(job);
@@ -120,7 +120,7 @@ final class BatchQueue {
 
     /** Says that a batch which a worker failed at was no trouble elsewhere. */
     synchronized void blame(Worker worker) {
-        if (++worker.faults >= MOST_FAULTS) {
+        if (++worker.faults >= MAX_FAULTS) {
             leave(worker);
         }
     }

@@ -24,7 +24,7 @@ final class BatchWorker implements Runnable {
     /** A GPU does at least so many evaluations in the time that one takes on a processor. */
     private static final int TOGETHER = 32;
     /** Failures without an answer between them after which the program is taken to be broken: two searches of 1024. */
-    private static final int MOST_FAILURES = 24;
+    private static final int MAX_FAILURES = 24;
 
     private final BatchQueue queue;
     private final BatchQueue.Worker self;
@@ -115,7 +115,7 @@ final class BatchWorker implements Runnable {
     }
 
     private void retry(List<BatchJob> open, String reason) throws InterruptedException {
-        if (failures >= MOST_FAILURES) {
+        if (failures >= MAX_FAILURES) {
             open.forEach(job -> job.done(SimulationResult.failed(0, reason)));
         } else if (open.size() > 1) {
             evaluate(open.subList(0, open.size() / 2), false);

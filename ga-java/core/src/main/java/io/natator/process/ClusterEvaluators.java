@@ -15,7 +15,7 @@ public interface ClusterEvaluators {
      */
     Evaluator evaluator(ExecutionSettings execution);
 
-    /** The same from the module for Spark, if this program has it. */
+    /** Opens an evaluator by the module for Spark, if this program has it. */
     static Evaluator open(ExecutionSettings execution) {
         return ServiceLoader.load(ClusterEvaluators.class, ClusterEvaluators.class.getClassLoader()).findFirst()
                 .orElseThrow(() -> new InvalidInputException("this program has no simulator mode spark; expected "

@@ -22,8 +22,6 @@ public final class ConvergeProgram {
 
     /** Half the spacing takes eight times as many particles. */
     private static final int TIMES_AS_LONG = 16;
-    /** It has an answer, without the runs that became unstable. */
-    private static final int UNSTABLE = 3;
     private static final String PROGRESS = NativeProgram.Output.NAME + NativeProgram.Output.PROGRESS;
 
     private final ExecutionSettings execution;
@@ -39,7 +37,7 @@ public final class ConvergeProgram {
     }
 
     /**
-     * Of an execution.
+     * The program of an execution.
      *
      * @param execution with a time limit for one evaluation; each run has as many threads as it has workers
      */
@@ -50,22 +48,13 @@ public final class ConvergeProgram {
     /**
      * Runs a swim as it is asked for and at finer levels, all from the same starts.
      *
-     * @param starts how many, at least 2
-     * @param levels beside its own, each once
+     * @param starts   how many, at least 2
+     * @param levels   beside its own, each once
+     * @param runs     gets a line for each run; those that it has already are not done again
+     * @param listener called in another thread
      * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
-     */
-    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
-        return call(request, starts, levels, List.of(), line -> {
-        });
-    }
-
-    /**
-     * The same, telling of it while it lasts and keeping each run.
-     *
-     * @param runs     gets a line for each run; those that it has already are not done again
-     * @param listener called in another thread
      */
     public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs, Listener listener)
             throws InterruptedException {
@@ -76,23 +65,16 @@ public final class ConvergeProgram {
                 listener.table(line);
             }
         };
-        return call(request, starts, levels, List.of("--output", runs.toString()), lines);
-    }
-
-    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more,
-            Consumer<String> lines)
-            throws InterruptedException {
         List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
                 "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend",
-                execution.backend().argument()));
+                execution.backend().argument(), "--output", runs.toString()));
         arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
                 : List.of("--device", "" + execution.device()));
-        arguments.addAll(more);
         Duration limit = execution.timeout().multipliedBy((long) TIMES_AS_LONG * starts * (1 + levels.size()));
         String subject = "scene " + request.scene() + " at other levels";
         try (NativeProgram program = new NativeProgram(execution.simulator(), limit)) {
             NativeProgram.Output output = program.call(arguments, "", lines);
-            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
+            if (output.exitStatus() != ExitStatus.OK && output.exitStatus() != ExitStatus.UNSTABLE) {
                 throw output.failure(subject);
             }
             return Json.parse(output.text(), JsonNode.class);

@@ -22,7 +22,7 @@ public final class ErrorTail implements Runnable {
     private final InputStream stderr;
     private final CompletableFuture<String> text = new CompletableFuture<>();
 
-    /** That of a program's standard error. */
+    /** Reads a program's standard error. */
     public ErrorTail(InputStream stderr) {
         this.stderr = stderr;
     }
@@ -56,7 +56,7 @@ public final class ErrorTail implements Runnable {
     }
 
     /**
-     * The same, telling each line as it comes; of what has no end of line for kilobytes, pieces.
+     * Reads to the end of the stream and passes on each line as it comes; longer lines in pieces of {@value #KEPT_BYTES} bytes.
      *
      * @throws IOException if the stream cannot be read
      */

@@ -61,7 +61,7 @@ public interface Evaluator extends AutoCloseable {
         return results;
     }
 
-    /** One evaluation. */
+    /** Carries out one evaluation. */
     default SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
         return evaluate(List.of(request)).get(0);
     }
@@ -74,9 +74,9 @@ public interface Evaluator extends AutoCloseable {
      */
     static Evaluator open(ExecutionSettings execution) {
         return switch (execution.mode()) {
-            case PROCESS -> new ProcessSimulator(execution);
-            case RESIDENT -> new ResidentSimulator(execution);
-            case BATCH -> new BatchSimulator(execution);
+            case PROCESS -> new ProcessEvaluator(execution);
+            case RESIDENT -> new ResidentEvaluator(execution);
+            case BATCH -> new BatchEvaluator(execution);
             case SPARK -> ClusterEvaluators.open(execution);
         };
     }

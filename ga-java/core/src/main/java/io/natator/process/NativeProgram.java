@@ -47,7 +47,6 @@ final class NativeProgram implements AutoCloseable {
         static final String NAME = "natator-sim: ";
         /** What follows the name where a line tells of a finished run of {@code converge}. */
         static final String PROGRESS = "converge: ";
-        private static final int BAD_INPUT = 2;
 
         /**
          * Why there is no answer. Only what the simulator itself refuses is bad input; a shell that takes a program of
@@ -56,7 +55,7 @@ final class NativeProgram implements AutoCloseable {
          * @param subject for example {@code scene pool/eel}
          */
         RuntimeException failure(String subject) {
-            return exitStatus == BAD_INPUT && ownWords() != null ? new RefusedSceneException(reason(subject))
+            return exitStatus == ExitStatus.BAD_INPUT && ownWords() != null ? new RefusedSceneException(reason(subject))
                     : new RequestRejectedException(reason(subject), false);
         }
 

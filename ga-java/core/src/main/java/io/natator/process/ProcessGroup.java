@@ -22,7 +22,7 @@ public final class ProcessGroup implements AutoCloseable {
     private static final long KILL_GRACE_SECONDS = 5;
 
     /**
-     * In the environment of a process and of all its descendants: which start they come from. One id after another where
+     * Environment variable of a process and of all its descendants: which start they come from. One id after another where
      * a process that was started so starts others so, each ended by {@link #END}: every one of the starts finds them.
      */
     private static final String MARK = "NATATOR_STARTED_AS";

@@ -80,8 +80,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
             numbers = Arrays.stream(choice.split(",")).map(Integer::valueOf).toList();
         } else {
             throw new InvalidInputException(
-                    "--device is " + choice + "; expected a GPU's number, several with commas between "
-                            + "them, or all");
+                    "--device is " + choice + "; expected a GPU's number, several with commas between them, or all");
         }
         List<String> kinds = numbers.stream().flatMap(number -> kind(number).stream()).distinct().toList();
         if (kinds.size() > 1) {
@@ -113,7 +112,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
             NativeProgram.Output output = program.call(arguments, "", line -> {
             });
-            if (output.exitStatus() != 0) {
+            if (output.exitStatus() != ExitStatus.OK) {
                 throw output.failure(subject);
             }
             return output.text();

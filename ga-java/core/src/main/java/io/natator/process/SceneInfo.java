@@ -67,7 +67,7 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
     }
 
     /**
-     * The same, of a scene whose gaits are to be evolved.
+     * Asks the simulator about a scene whose gaits are to be evolved.
      *
      * @throws InvalidInputException also if it has no actuators, or too few for the encoding
      */

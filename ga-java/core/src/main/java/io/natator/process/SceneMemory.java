@@ -13,14 +13,14 @@ import java.util.Map;
  */
 public final class SceneMemory<T> {
 
-    private static final int MOST = 4096;
+    private static final int MAX_KNOWN = 4096;
 
     private final Map<List<Object>, T> known = new LinkedHashMap<>(16, 0.75f, true) {
         private static final long serialVersionUID = 1L;
 
         @Override
         protected boolean removeEldestEntry(Map.Entry<List<Object>, T> eldest) {
-            return size() > MOST;
+            return size() > MAX_KNOWN;
         }
     };
 

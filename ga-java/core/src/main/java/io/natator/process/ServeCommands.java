@@ -65,7 +65,7 @@ final class ServeCommands {
         }
     }
 
-    /** All of them. */
+    /** All commands. */
     List<Command> all() {
         return List.copyOf(commands);
     }
@@ -151,7 +151,7 @@ final class ServeCommands {
             SimulationRequest cut = request.withDuration(SAMPLE);
             String hash = null;
             if (settings.backend() == Backend.CPU) {
-                try (ProcessSimulator own = new ProcessSimulator(settings)) {
+                try (ProcessEvaluator own = new ProcessEvaluator(settings)) {
                     SimulationResult result = own.evaluate(cut);
                     hash = result.hash();
                     if (hash == null) {

@@ -14,8 +14,6 @@ import java.util.concurrent.TimeUnit;
  */
 final class ServeProcess implements AutoCloseable {
 
-    private static final int EXIT_BAD_INPUT = 2;
-    private static final int EXIT_NO_DEVICE = 4;
     private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group;
@@ -50,7 +48,7 @@ final class ServeProcess implements AutoCloseable {
         }
     }
 
-    /** What it was started by. */
+    /** The command that started it. */
     ServeCommands.Command command() {
         return command;
     }
@@ -91,8 +89,8 @@ final class ServeProcess implements AutoCloseable {
         }
         String said = errors.text();
         int status = process.exitValue();
-        if (!answered && (status == EXIT_BAD_INPUT || status == EXIT_NO_DEVICE) && !said.isEmpty()) {
-            throw new RequestRejectedException(said, status == EXIT_BAD_INPUT);
+        if (!answered && (status == ExitStatus.BAD_INPUT || status == ExitStatus.NO_DEVICE) && !said.isEmpty()) {
+            throw new RequestRejectedException(said, status == ExitStatus.BAD_INPUT);
         }
         return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + ResultReader.shown(said));
     }

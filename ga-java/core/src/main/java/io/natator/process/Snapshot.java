@@ -24,8 +24,6 @@ import java.util.Map;
  */
 public record Snapshot(List<double[]> fluid, List<double[]> body) {
 
-    /** Exit status of a run that became unstable. */
-    private static final int UNSTABLE = 3;
     /** Width of a column of water, in mean distances of its particles. */
     private static final double WIDTH = 2;
 
@@ -53,7 +51,7 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
             add(arguments, "--at", at);
             NativeProgram.Output output = program.call(arguments, "", line -> {
             });
-            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
+            if (output.exitStatus() != ExitStatus.OK && output.exitStatus() != ExitStatus.UNSTABLE) {
                 throw output.failure("scene " + request.scene());
             }
             return read(file);
@@ -115,7 +113,7 @@ public record Snapshot(List<double[]> fluid, List<double[]> body) {
         return body.stream().filter(one -> one[1] < level).count() / (double) body.size();
     }
 
-    /** Of fluid particles that fill their box. */
+    /** Mean distance of fluid particles that fill their box, in scene units. */
     private double meanDistance() {
         double volume = 1;
         for (int axis = 0; axis < 3; axis++) {

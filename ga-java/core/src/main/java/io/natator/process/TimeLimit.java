@@ -5,14 +5,14 @@ import java.time.Duration;
 /** How long an evaluation may take before it is taken to hang. */
 public final class TimeLimit {
 
-    /** For a slow start of the program, and a machine that has more to do. */
+    /** Seconds for a slow start of the program on a busy machine. */
     private static final double FLOOR_SECONDS = 30;
     /**
      * Particles stepped through an iteration in a second, at the least: some seventieth of what one core does with
      * scheme {@code flex}.
      */
     private static final double PARTICLE_ITERATIONS_PER_SECOND = 5e5;
-    /** Of a substep's work, what does not depend on the number of iterations counts as so many of them. */
+    /** Iterations that cost as much as the part of a substep that does not depend on their number. */
     private static final int FIXED_ITERATIONS = 4;
 
     private TimeLimit() {

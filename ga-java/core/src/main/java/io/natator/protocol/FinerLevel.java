@@ -4,7 +4,7 @@ import io.natator.base.InvalidInputException;
 import java.util.Arrays;
 import java.util.stream.Collectors;
 
-/** By which smaller steps {@code natator-sim converge} runs a swim. */
+/** The smaller steps by which {@code natator-sim converge} can run a swim. */
 public enum FinerLevel {
     /** Twice the substeps. */
     HALF_STEP("time/2", "half the time step"),

@@ -47,8 +47,7 @@ public final class ResultReader {
     /** The beginning of an answer, quoted, on one line. */
     public static String shown(String text) {
         String stripped = text.strip();
-        String start = stripped.length() <= SHOWN_CHARACTERS ? stripped
-                : stripped.substring(0, SHOWN_CHARACTERS) + "…";
+        String start = stripped.length() <= SHOWN_CHARACTERS ? stripped : stripped.substring(0, SHOWN_CHARACTERS) + "…";
         return "\"" + start.replaceAll("\\R", " | ").replaceAll("\\p{Cntrl}", "�") + "\"";
     }
 }

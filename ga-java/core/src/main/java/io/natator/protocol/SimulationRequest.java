@@ -45,8 +45,7 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
      */
     public static SimulationRequest of(long id, EvolutionSettings settings, Swimmer swimmer) {
         return new SimulationRequest(id, settings.problem().scene(), swimmer.gait(), settings.problem().duration(),
-                settings.problem().scheme(),
-                MergePatch.both(settings.problem().overrides(), swimmer.body()));
+                settings.problem().scheme(), MergePatch.both(settings.problem().overrides(), swimmer.body()));
     }
 
     /** This request in a scene that is changed further; null for no change. */

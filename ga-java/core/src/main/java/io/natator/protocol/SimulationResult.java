@@ -41,14 +41,13 @@ import java.util.Objects;
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
         SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift,
-        List<Double> objectives, Double worth,
-        Effort effort)
+        List<Double> objectives, Double worth, Effort effort)
         implements SimulationResultBuilder.With {
 
     /** Why a simulation ended that {@code stopping.planeContact} ended: its body touched a wall. */
     public static final String AT_WALL = "touched-plane";
 
-    /** Copies the lists. What is {@code ok} has to have a distance and a time. */
+    /** Copies the lists; status {@code ok} requires a distance and a time. */
     public SimulationResult {
         Objects.requireNonNull(status, "status");
         if (status == Status.OK) {
@@ -57,22 +56,6 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         }
         goals = goals == null ? null : List.copyOf(goals);
         objectives = objectives == null ? null : List.copyOf(objectives);
-    }
-
-    /** A result whose course is not known. */
-    public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
-            String scheme, String precision, String hash, Instability unstable, String error, SwimmingNumbers swimming,
-            Double work, Double vacuumDrift) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work,
-                null, null,
-                vacuumDrift, null, null, null);
-    }
-
-    /** A result as the simulator gives it where nothing of the swim's mechanics is known. */
-    public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
-            String scheme, String precision, String hash, Instability unstable, String error) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null, null,
-                null);
     }
 
     /** How an evaluation ended. */
@@ -86,7 +69,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         /** The simulator refused the request. */
         @JsonProperty("error")
         ERROR,
-        /** The body is none, so nothing was simulated. Never said by the simulator itself. */
+        /** The body is invalid; nothing was simulated. Never said by the simulator itself. */
         @JsonProperty("refused")
         REFUSED,
         /** No valid answer came, also not at the second attempt. Never said by the simulator itself. */
@@ -117,12 +100,12 @@ public record SimulationResult(Long id, Status status, Double distance, String s
 
     /** The record of an evaluation that got no valid answer. */
     public static SimulationResult failed(long id, String reason) {
-        return new SimulationResult(id, Status.FAILED, null, null, null, null, null, null, null, null, reason);
+        return SimulationResultBuilder.builder().id(id).status(Status.FAILED).error(reason).build();
     }
 
     /** The record of a body that was not simulated. */
     public static SimulationResult refused(long id, String reason) {
-        return new SimulationResult(id, Status.REFUSED, null, null, null, null, null, null, null, null, reason);
+        return SimulationResultBuilder.builder().id(id).status(Status.REFUSED).error(reason).build();
     }
 
     /** The law that an unstable simulation broke; null of any other. */

@@ -5,12 +5,12 @@ public final class SimulatorFailure extends Exception {
 
     private static final long serialVersionUID = 1L;
 
-    /** With what went wrong. */
+    /** A failure with its description. */
     public SimulatorFailure(String message) {
         super(message);
     }
 
-    /** With what went wrong, and why. */
+    /** A failure with its description and cause. */
     public SimulatorFailure(String message, Throwable cause) {
         super(message, cause);
     }

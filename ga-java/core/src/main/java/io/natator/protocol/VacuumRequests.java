@@ -13,7 +13,7 @@ public final class VacuumRequests {
     }
 
     /**
-     * The same gait without water.
+     * The request without water.
      *
      * @param duration simulated time in seconds, or null for the scene's own; it has no early stops, see
      *                 {@link SimulationRequest#withoutStops()}

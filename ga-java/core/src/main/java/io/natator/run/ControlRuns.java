@@ -8,6 +8,7 @@ import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Scheme;
 import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
 import io.natator.process.ProgramInfo;
@@ -20,7 +21,6 @@ public final class ControlRuns {
 
     /** The largest number that a particle's acceleration can be: no clamp. */
     private static final double NO_CLAMP = 3.4028234663852886e38;
-    private static final String FLEX = "flex";
 
     private final EvolutionSettings settings;
     private final ExecutionSettings execution;
@@ -54,7 +54,7 @@ public final class ControlRuns {
                     swimmer, 1);
             SwimSample vacuum = again.sample(evaluator.evaluate(again.requests(swimmer, starts, null).stream()
                     .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList()), swimmer, 1);
-            SwimSample clampOff = scheme.equals(FLEX)
+            SwimSample clampOff = Scheme.of(scheme) == Scheme.FLEX
                     ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1)
                     : null;
             SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())),
@@ -64,13 +64,12 @@ public final class ControlRuns {
                     swimmer, 1);
             Backend other = otherBackend();
             return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer),
-                    water, resting,
-                    vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
+                    water, resting, vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
                     other == null ? null : other.argument(), null);
         }
     }
 
-    /** The same runs on another backend. */
+    /** Runs from the same starts on another backend. */
     private SwimSample onOther(Swimmer swimmer, Backend backend) throws InterruptedException {
         ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);

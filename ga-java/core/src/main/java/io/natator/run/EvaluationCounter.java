@@ -58,12 +58,12 @@ final class EvaluationCounter implements EvolutionListener {
     /** What cannot be counted anew, since the evaluations were dropped. */
     private void takeOver(EvaluationStatistics before) {
         evaluations = before.evaluations();
-        refused = before.evaluations() - before.simulations();
+        refused = before.refused();
         stoppedEarly = before.stoppedEarly();
         saved = Math.round((before.wholeSeconds() - before.simulatedSeconds()) * NANOSECONDS);
     }
 
-    /** Of the run so far; a damaged file of them costs only how many results came from the cache. */
+    /** Statistics of the run so far; a damaged file costs only the number of results from the cache. */
     private static EvaluationStatistics statistics(RunWriter folder) {
         try {
             return RunReader.statistics(folder.directory());
@@ -89,7 +89,7 @@ final class EvaluationCounter implements EvolutionListener {
 
     @Override
     public void generationFinished(EvolutionState state) {
-        long unchanged = state.history().stream().mapToLong(GenerationSummary::unchangedOrRest).sum();
+        long unchanged = state.history().stream().mapToLong(GenerationSummary::unchanged).sum();
         long whole = (evaluations - refused) * Math.round(duration * NANOSECONDS);
         if (known) {
             folder.write(new EvaluationStatistics(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly,

@@ -59,7 +59,7 @@ public final class EvolutionRun {
                 settings.problem().duration()));
     }
 
-    /** The same with the longest of the limits that suit several settings. */
+    /** The execution with the longest of the time limits that suit several settings. */
     public static ExecutionSettings withTimeLimit(ExecutionSettings execution, Collection<EvolutionSettings> all)
             throws InterruptedException {
         Duration longest = Duration.ZERO;
@@ -123,8 +123,7 @@ public final class EvolutionRun {
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all,
-                folder.recorded())
-                .run(folder.checkpoint());
+                folder.recorded()).run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
     }
@@ -139,7 +138,7 @@ public final class EvolutionRun {
         }
         BestGait best = folder.writeResults(state);
         if (best != null) {
-            best = examined(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
+            best = examine(best, state.best(), new FreshStarts(settings, evaluator, simulator), evaluator,
                     best.body() == null ? scene.bodyLength()
                             : Double.valueOf(settings.problem().bodyLength(best.body())));
             folder.write(best);
@@ -148,10 +147,10 @@ public final class EvolutionRun {
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */
-    private BestGait examined(BestGait best, Individual winner, FreshStarts starts, Evaluator evaluator,
+    private BestGait examine(BestGait best, Individual winner, FreshStarts starts, Evaluator evaluator,
             Double bodyLength) throws InterruptedException {
         SimulationResult own = winner.runs() == 1 ? winner.result() : starts.fromOwnStart(winner);
         SimulationResult vacuum = VacuumCheck.drift(winner, settings, own.simulated(), evaluator);
-        return best.examined(own, bodyLength, vacuum, starts.of(winner));
+        return best.withExamination(own, bodyLength, vacuum, starts.of(winner));
     }
 }

@@ -23,7 +23,7 @@ public final class FreshStarts {
 
     private static final Logger LOG = LoggerFactory.getLogger(FreshStarts.class);
     /** Runs at each time step: twice those that a newborn has, and enough for a standard deviation. */
-    private static final int LEAST = 4;
+    private static final int MIN_STARTS = 4;
 
     private final EvolutionSettings settings;
     private final Evaluator evaluator;
@@ -45,7 +45,7 @@ public final class FreshStarts {
 
     /** From how many starts a run's winner is run again. */
     public static int usual(EvolutionSettings settings) {
-        return Math.max(LEAST, 2 * settings.search().starts());
+        return Math.max(MIN_STARTS, 2 * settings.search().starts());
     }
 
     /**
@@ -91,7 +91,7 @@ public final class FreshStarts {
         }
     }
 
-    /** The winner from the scene's own start, as whoever watches it sees it. */
+    /** Runs the winner from the scene's own start, as it is watched. */
     SimulationResult fromOwnStart(Individual winner) throws InterruptedException {
         return evaluator.evaluate(SimulationRequest.of(winner.result().id(), settings, genome.decode(winner.genes())));
     }

@@ -38,12 +38,12 @@ final class WinnerRuns {
         this.duration = scene.end(settings.problem().duration());
     }
 
-    /** In seconds, of a run that nothing ends early. */
+    /** Simulated time of a run that nothing ends early, in seconds. */
     double duration() {
         return duration;
     }
 
-    /** Of a swimmer in scene units, or null. */
+    /** Length of a swimmer in scene units, or null if it is unknown. */
     Double bodyLength(Swimmer swimmer) {
         return swimmer.body() == null ? scene.bodyLength()
                 : Double.valueOf(settings.problem().bodyLength(swimmer.body()));
@@ -67,7 +67,7 @@ final class WinnerRuns {
     }
 
     /**
-     * Of such runs.
+     * Sums up runs of such requests.
      *
      * @param finer 2 at half the time step, else 1
      */

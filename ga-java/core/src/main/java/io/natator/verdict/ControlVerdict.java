@@ -21,27 +21,26 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         double unit = length.unit();
         String name = length.name();
         double net = controls.net();
-        if (net / unit < Verdict.LEAST_DISTANCE) {
+        if (net / unit < Limit.MIN_DISTANCE) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves "
                     + Numbers.withError(net / unit, controls.water().distance().sd() / unit, 3) + " " + name
                     + " further than a resting body in " + Numbers.fixed(controls.duration(), 2) + " s, less than "
-                    + Verdict.LEAST_DISTANCE);
+                    + Limit.MIN_DISTANCE);
         }
-        if (drift(controls) - error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
+        if (drift(controls) - error(controls.vacuum(), controls) >= Limit.MIN_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM,
                     "does not swim: moves " + Numbers.fixed(drift(controls), 1)
                             + " times as far in vacuum"
                             + (controls.vacuum().distance().mean() < 0 ? ", the other way" : ""));
         }
         SwimSample clampOff = controls.clampOff();
-        if (clampOff != null && left(clampOff, controls) + error(clampOff, controls) < Verdict.LEAST_LEFT) {
+        if (clampOff != null && left(clampOff, controls) + error(clampOff, controls) < Limit.MIN_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM,
                     "does not swim: the acceleration clamp moves it; without, "
                             + percent(left(clampOff, controls)) + " of its way is left");
         }
         String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2)
-                + " " + name
-                + "/s more than a resting body";
+                + " " + name + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, length);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
@@ -54,20 +53,19 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (!Verdict.getsFar(net, controls.error(), length.unit())) {
             doubts.add("its runs differ too much to tell");
         }
-        if (controls.water().endsAtWall() && controls.water().distance().mean() / length.unit() < Verdict.WAY_TO_WALL) {
-            doubts.add("the wall is nearer than " + Verdict.WAY_TO_WALL + " " + length.name());
+        if (controls.water().endsAtWall() && controls.water().distance().mean() / length.unit() < Limit.WAY_TO_WALL) {
+            doubts.add("the wall is nearer than " + Limit.WAY_TO_WALL + " " + length.name());
         }
-        if (drift(controls) + error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
+        if (drift(controls) + error(controls.vacuum(), controls) >= Limit.MIN_LEFT) {
             doubts.add("it moves " + Numbers.withError(drift(controls), error(controls.vacuum(), controls), 1)
                     + " times as far in vacuum");
         }
         SwimSample clampOff = controls.clampOff();
-        if (clampOff != null && left(clampOff, controls) - error(clampOff, controls) < Verdict.LEAST_LEFT) {
+        if (clampOff != null && left(clampOff, controls) - error(clampOff, controls) < Limit.MIN_LEFT) {
             doubts.add("without the acceleration clamp " + percent(left(clampOff, controls)) + " ± "
-                    + percent(error(clampOff, controls))
-                    + " of its way is left");
+                    + percent(error(clampOff, controls)) + " of its way is left");
         }
-        if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {
+        if (controls.underWater() != null && controls.underWater() < Limit.MIN_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
         }
         if (!HalfStep.agrees(1, left(controls.halfStep(), controls))) {
@@ -93,7 +91,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
     }
 
     private static void doubt(List<String> doubts, String where, SwimSample sample, Controls controls) {
-        if (sample != null && left(sample, controls) < Verdict.LEAST_LEFT) {
+        if (sample != null && left(sample, controls) < Limit.MIN_LEFT) {
             doubts.add(where + " " + percent(left(sample, controls)) + " of its way is left");
         }
     }
@@ -119,7 +117,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
 
     /** So much a control's mean is known to, as a share of the way in water. */
     private static double error(SwimSample sample, Controls controls) {
-        return Verdict.SURE * sample.distance().standardError(sample.runs()) / controls.net();
+        return Limit.SURE * sample.distance().standardError(sample.runs()) / controls.net();
     }
 
     /** Share of its way in water, less the dead body's drift in both. */

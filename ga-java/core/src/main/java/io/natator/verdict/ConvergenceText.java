@@ -10,11 +10,6 @@ import java.util.stream.Collectors;
 /** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
 public final class ConvergenceText {
 
-    /** Share of the speed that it changes by at most where it is called converged. */
-    private static final double CONVERGED = 0.1;
-    /** Standard errors on either side of a figure in which the true one is taken to be. */
-    private static final double SURE = 2;
-
     private ConvergenceText() {
     }
 
@@ -36,11 +31,11 @@ public final class ConvergenceText {
             return "no speed that could be told from none";
         }
         List<Convergence.Level> finer = finer(convergence);
-        if (finer.stream().anyMatch(level -> reach(level, -SURE) > CONVERGED)) {
+        if (finer.stream().anyMatch(level -> reach(level, -Limit.SURE) > Limit.CONVERGED)) {
             return "not converged";
         }
-        return finer.stream().allMatch(level -> reach(level, SURE) <= CONVERGED) ? "converged to within 10 %"
-                : "not known whether converged";
+        return finer.stream().allMatch(level -> reach(level, Limit.SURE) <= Limit.CONVERGED)
+                ? "converged to within 10 %" : "not known whether converged";
     }
 
     /** How large a level's change may be, or has to be, as a share; nothing is known where it has none or no error. */
@@ -52,7 +47,7 @@ public final class ConvergenceText {
     private static boolean speedMayBeNone(Convergence convergence) {
         Convergence.Value base = baseSpeed(convergence);
         return base != null
-                && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= SURE * base.error());
+                && (base.mean() == 0 || base.error() != null && Math.abs(base.mean()) <= Limit.SURE * base.error());
     }
 
     private static Convergence.Value baseSpeed(Convergence convergence) {
@@ -87,7 +82,7 @@ public final class ConvergenceText {
         return withError(speed, error, one -> one / length.unit(), 3) + " " + length.name() + "/s";
     }
 
-    /** In other units; one run does not tell its error. */
+    /** Value and error in other units; a single run has no known error. */
     private static String withError(double value, Double error, DoubleUnaryOperator units, int decimals) {
         double shown = units.applyAsDouble(value);
         return error == null ? Numbers.fixed(shown, decimals) + " ± ?"

@@ -17,7 +17,7 @@ public final class FreshText {
     private FreshText() {
     }
 
-    /** By what it is about: distance, the same at half the time step, speed, selected. Empty without fresh runs. */
+    /** Rows of name and text: distance, half step, goals, speed, selected. Empty without fresh runs. */
     public static Map<String, String> of(BestGait best) {
         Map<String, String> lines = new LinkedHashMap<>();
         FreshRuns fresh = best.fresh();
@@ -43,8 +43,7 @@ public final class FreshText {
         lines.put("selected", Numbers.worth(fresh.selected()) + " by " + (fresh.selectedRuns() == 1 ? "one run"
                 : judge(fresh.judge()) + " of " + fresh.selectedRuns() + " runs") + ", "
                 + (fresh.judge() == Aggregate.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again())
-                + " again"
-                + (fresh.selectionLoss() == null ? ""
+                + " again" + (fresh.selectionLoss() == null ? ""
                         : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
         return lines;
     }

@@ -3,8 +3,6 @@ package io.natator.verdict;
 /** Whether a swim at half the time step is still the same swim. */
 final class HalfStep {
 
-    /** Change of the way, up or down, as a share of it, from which on the time step makes the swim. */
-    static final double MOST_CHANGE = 0.5;
     /** What is expected, in words. */
     static final String EXPECTED = "its way to within half of it";
 
@@ -18,10 +16,10 @@ final class HalfStep {
      * @param atHalf at half of it, in the same
      */
     static boolean agrees(double way, double atHalf) {
-        return Math.abs(atHalf - way) <= MOST_CHANGE * Math.abs(way);
+        return Math.abs(atHalf - way) <= Limit.MAX_CHANGE * Math.abs(way);
     }
 
-    /** In words how they do not agree; null if they do. */
+    /** How the two ways disagree, in words; null if they agree. */
     static String doubt(double way, double atHalf) {
         return agrees(way, atHalf) ? null
                 : (atHalf - way) * way > 0 ? "it gets more than half as far again at half the time step"

@@ -21,12 +21,10 @@ import java.util.List;
 public record Measure(String name, String value, String expected, Outcome outcome) {
 
     private static final String HALF = "at least half of its way";
-    /** Selection loss up to which a winner has what it was chosen for, as a share. */
-    private static final double SMALL_LOSS = 0.05;
 
     /** Whether a measure is as expected. */
     public enum Outcome {
-        /** As expected. */
+        /** It is as expected. */
         HOLDS,
         /** Otherwise. */
         FAILS,
@@ -46,11 +44,11 @@ public record Measure(String name, String value, String expected, Outcome outcom
         List<Measure> all = new ArrayList<>();
         FreshRuns fresh = best.fresh();
         double way = fresh == null ? best.result().distanceOrZero() : fresh.base().distance().mean();
-        String least = "more than " + Verdict.LEAST_DISTANCE + " " + name;
+        String least = "more than " + Limit.MIN_DISTANCE + " " + name;
         if (fresh == null) {
             boolean isKnown = Verdict.isMeasurable(best.vacuum(), best.bodyLength());
             all.add(new Measure("way, one run", Numbers.fixed(way / unit, 2) + " " + name,
-                    isKnown ? least : "more than " + Verdict.LEAST_DISTANCE + " " + Verdict.Length.BODIES,
+                    isKnown ? least : "more than " + Limit.MIN_DISTANCE + " " + Verdict.Length.BODIES,
                     isKnown ? outcome(Verdict.getsFar(way, 0, unit)) : Outcome.NOT_MEASURED));
         } else {
             SwimSample base = fresh.base();
@@ -63,8 +61,8 @@ public record Measure(String name, String value, String expected, Outcome outcom
         if (fresh != null && fresh.selectionLoss() != null) {
             all.add(new Measure("lost since it was chosen", Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %",
                     "at most "
-                            + Math.round(100 * SMALL_LOSS) + " %",
-                    outcome(fresh.selectionLoss() <= SMALL_LOSS)));
+                            + Math.round(100 * Limit.MAX_LOSS) + " %",
+                    outcome(fresh.selectionLoss() <= Limit.MAX_LOSS)));
         }
         all.addAll(controls == null ? List.of(missing("resting muscles", "moves less than the swimmer"),
                 missing("mirrored", HALF)) : controls(controls, unit, name));
@@ -80,7 +78,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
                 outcome(HalfStep.agrees(way, half.mean())));
     }
 
-    /** By speeds, since old folders have runs of other lengths. */
+    /** Compares speeds, since the run without water ends when the one in water did. */
     private static Measure vacuum(SimulationResult vacuum, BestGait best, double way) {
         String expected = "less than half of its speed";
         if (vacuum == null || vacuum.status() != SimulationResult.Status.OK || way == 0) {
@@ -89,21 +87,21 @@ public record Measure(String name, String value, String expected, Outcome outcom
         double speed = best.fresh() == null ? best.speed() : best.fresh().base().speed().mean();
         double share = vacuum.speed() / speed;
         return new Measure("without water", Numbers.fixed(100 * share, 0) + " % of its speed", expected,
-                outcome(Math.abs(share) < Verdict.DRIFT_ONLY));
+                outcome(Math.abs(share) < Limit.DRIFT_ONLY));
     }
 
     private static List<Measure> controls(Controls controls, double unit, String name) {
         List<Measure> all = new ArrayList<>();
         all.add(new Measure("resting muscles", spread(controls.resting().distance(), unit) + " " + name,
-                Verdict.LEAST_DISTANCE + " " + name + " less than the swimmer",
-                outcome(controls.net() / unit >= Verdict.LEAST_DISTANCE)));
+                Limit.MIN_DISTANCE + " " + name + " less than the swimmer",
+                outcome(controls.net() / unit >= Limit.MIN_DISTANCE)));
         add(all, "mirrored", controls.mirrored(), controls);
         add(all, "without the acceleration clamp", controls.clampOff(), controls);
         add(all, "on " + controls.backend(), controls.otherBackend(), controls);
         if (controls.underWater() != null) {
             all.add(new Measure("share of the body under water", Numbers.fixed(100 * controls.underWater(), 0) + " %",
                     "at least half",
-                    outcome(controls.underWater() >= Verdict.LEAST_LEFT)));
+                    outcome(controls.underWater() >= Limit.MIN_LEFT)));
         }
         return all;
     }
@@ -112,7 +110,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
         if (sample != null) {
             double left = ControlVerdict.left(sample, controls);
             all.add(new Measure(name, Numbers.fixed(100 * left, 0) + " % of its way", HALF,
-                    outcome(left >= Verdict.LEAST_LEFT)));
+                    outcome(left >= Limit.MIN_LEFT)));
         }
     }
 

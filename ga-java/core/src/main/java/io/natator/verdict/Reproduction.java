@@ -58,7 +58,7 @@ public final class Reproduction {
     }
 
     /**
-     * The same where only the distance at {@link #lastFrame()} is known.
+     * What to say of a result of which only the distance at {@link #lastFrame()} is known.
      *
      * @param error that the distance may have by its rounding, in scene units
      */
@@ -78,7 +78,6 @@ public final class Reproduction {
 
     private String told(double today, String reason) {
         return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program "
-                + Numbers.fixed(today, DIGITS)
-                + " (" + reason + ")";
+                + Numbers.fixed(today, DIGITS) + " (" + reason + ")";
     }
 }

@@ -7,12 +7,14 @@ import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Spread;
 import io.natator.checkpoint.SwimSample;
+import io.natator.config.Scheme;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.Locale;
 
 /**
- * Whether a gait swims, judged by its runs from fresh starts (in old folders, by one run in water) and one without water.
+ * Whether a gait swims, judged by its runs from fresh starts, or by one run in water where there are none, and one without
+ * water.
  * The signs of distances count: what goes backwards does not swim forwards, and drift in vacuum speaks against a gait in
  * either direction.
  *
@@ -23,23 +25,8 @@ import java.util.Locale;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Verdict(Kind kind, String text, String advice) {
 
-    /** What moves less than this in a whole run does not swim: body lengths, or scene units in old folders. */
-    static final double LEAST_DISTANCE = 0.05;
-    /** Drift in vacuum up to this share of the speed in water is none. */
-    static final double NO_DRIFT = 0.1;
-    /** From this share on the drift is the motion. */
-    static final double DRIFT_ONLY = 0.5;
-    /** What touches a wall sooner than this many body lengths (or units) from its start has not shown how it swims. */
-    static final double WAY_TO_WALL = 0.5;
     static final String UNTIL_WALL = ", until it touches a wall";
 
-    /** A mean is known to so many standard errors. */
-    static final double SURE = 2;
-    /** What keeps less than this share of its way under another condition, mirrored say, is no swimmer under that. */
-    static final double LEAST_LEFT = 0.5;
-
-    private static final String CONSERVING = "conserving";
-    private static final String LATTICE = "lattice";
     private static final String NEUTRAL = "try --scene pool/creature-N or, finer and slower, "
             + "open-water/creature-N, whose scheme keeps momentum";
     private static final String HONEST = NEUTRAL + "; or --fitness net, which takes off the drift in vacuum";
@@ -65,7 +52,7 @@ public record Verdict(Kind kind, String text, String advice) {
     public static Verdict of(BestGait best) {
         Swim swim = best.fresh() == null ? Swim.of(best.result()) : Swim.of(best.fresh(), best.result());
         Verdict verdict = of(swim, best.vacuum(), best.bodyLength());
-        boolean sinks = best.scene().startsWith("thesis/") && CONSERVING.equals(best.result().scheme());
+        boolean sinks = best.scene().startsWith("thesis/") && Scheme.of(best.result().scheme()) == Scheme.CONSERVING;
         return sinks && verdict.advice != null ? new Verdict(verdict.kind, verdict.text, SINKS) : verdict;
     }
 
@@ -86,9 +73,9 @@ public record Verdict(Kind kind, String text, String advice) {
         }
         Length length = Length.of(bodyLength);
         double way = water.distance() / length.unit();
-        if (isMeasurable(vacuum, bodyLength) && Math.abs(way) < LEAST_DISTANCE) {
+        if (isMeasurable(vacuum, bodyLength) && Math.abs(way) < Limit.MIN_DISTANCE) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + length.distance(water)
-                    + " in " + seconds(water.simulated()) + ", less than " + LEAST_DISTANCE, LONGER);
+                    + " in " + seconds(water.simulated()) + ", less than " + Limit.MIN_DISTANCE, LONGER);
         }
         String moves = length.speed(water);
         if (vacuum == null) {
@@ -97,15 +84,15 @@ public record Verdict(Kind kind, String text, String advice) {
         if (vacuum.status() != SimulationResult.Status.OK) {
             return unproven("not judged: moves at " + moves + "; no result in vacuum, " + why(vacuum), null);
         }
-        return judged(water, vacuum, length,
+        return judge(water, vacuum, length,
                 moves + ", " + Numbers.fixed(vacuum.speed() / length.unit(), 2) + " in vacuum");
     }
 
-    /** By the drift first, since that is no swimming wherever it leads. */
-    private static Verdict judged(Swim water, SimulationResult vacuum, Length length, String speeds) {
-        boolean keepsMomentum = CONSERVING.equals(water.scheme()) || LATTICE.equals(water.scheme());
+    /** Judges the drift first, since that is no swimming wherever it leads. */
+    private static Verdict judge(Swim water, SimulationResult vacuum, Length length, String speeds) {
+        boolean keepsMomentum = water.scheme() != null && water.scheme().keepsMomentum();
         double drift = vacuum.speed() / water.speed();
-        if (Math.abs(drift) >= DRIFT_ONLY) {
+        if (Math.abs(drift) >= Limit.DRIFT_ONLY) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + times(drift, water, vacuum),
                     keepsMomentum ? LONGER : HONEST);
         }
@@ -119,7 +106,7 @@ public record Verdict(Kind kind, String text, String advice) {
         String end = "";
         if (water.stopped().equals(SimulationResult.AT_WALL)) {
             end = UNTIL_WALL + (water.fresh() == null ? " at " + seconds(water.simulated()) : "");
-            if (water.distance() / length.unit() < WAY_TO_WALL) {
+            if (water.distance() / length.unit() < Limit.WAY_TO_WALL) {
                 return unproven("not judged: " + speeds + end, LONGER);
             }
         }
@@ -127,7 +114,7 @@ public record Verdict(Kind kind, String text, String advice) {
         if (doubt != null) {
             return unproven("may swim: " + speeds + end + "; " + doubt, FINER);
         }
-        if (Math.abs(drift) > NO_DRIFT) {
+        if (Math.abs(drift) > Limit.NO_DRIFT) {
             return unproven("may swim: " + speeds + end + "; moves " + times(drift, water, vacuum),
                     keepsMomentum ? LONGER : HONEST);
         }
@@ -162,8 +149,8 @@ public record Verdict(Kind kind, String text, String advice) {
     }
 
     /**
-     * Whether a way can be set beside {@link #LEAST_DISTANCE}. A run that goes on knows no length of its body yet; old folders have but the
-     * vacuum's result, and units stand for it.
+     * Whether a way can be set beside {@link Limit#MIN_DISTANCE}. A run that goes on has neither its body's length nor a
+     * result in vacuum; a folder with the latter alone is judged in scene units.
      */
     static boolean isMeasurable(SimulationResult vacuum, Double bodyLength) {
         return bodyLength != null || vacuum != null;
@@ -176,14 +163,14 @@ public record Verdict(Kind kind, String text, String advice) {
      * @param unit  length of the body in that unit, or 1
      */
     static boolean getsFar(double way, double error, double unit) {
-        return (way - SURE * error) / unit >= LEAST_DISTANCE;
+        return (way - Limit.SURE * error) / unit >= Limit.MIN_DISTANCE;
     }
 
     private static Verdict unproven(String text, String advice) {
         return new Verdict(Kind.UNPROVEN, text, advice);
     }
 
-    /** Runs of other lengths, as old folders have them, are compared by their mean speeds. */
+    /** Compares distances, or mean speeds where one run took longer than the other. */
     private static String times(double drift, Swim water, SimulationResult vacuum) {
         double size = Math.abs(drift);
         boolean sameTime = Math.abs(water.simulated() - vacuum.simulated()) < 1e-6;
@@ -211,19 +198,19 @@ public record Verdict(Kind kind, String text, String advice) {
      * @param fresh     the runs that the others are means of; null of one run
      * @param failure   why nothing is known, or null
      */
-    private record Swim(double distance, double speed, double simulated, String stopped, String scheme, FreshRuns fresh,
+    private record Swim(double distance, double speed, double simulated, String stopped, Scheme scheme, FreshRuns fresh,
             String failure) {
 
         static Swim of(SimulationResult one) {
             return one.status() != SimulationResult.Status.OK ? new Swim(0, 0, 0, null, null, null, why(one))
-                    : new Swim(one.distance(), one.speed(), one.simulated(), one.stopped(), one.scheme(), null, null);
+                    : new Swim(one.distance(), one.speed(), one.simulated(), one.stopped(), Scheme.of(one.scheme()),
+                            null, null);
         }
 
         static Swim of(FreshRuns fresh, SimulationResult one) {
             SwimSample base = fresh.base();
             return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(),
-                    one.scheme(),
-                    fresh, null);
+                    Scheme.of(one.scheme()), fresh, null);
         }
     }
 

@@ -21,13 +21,13 @@ public final class WinnerFacts {
 
     private static final int DIGITS = 3;
     private static final double WORTH_TELLING = 0.01; // body volumes of cavities
-    private static final double LEAST_ACROSS = 3.99; // spacings of the water, less rounding, that a body needs
+    private static final double MIN_ACROSS = 3.99; // spacings of the water, less rounding, that a body needs
 
     private WinnerFacts() {
     }
 
     /**
-     * By what each is about, the verdict first; what is not known is left out.
+     * Rows of name and text, the verdict first; what is not known is left out.
      *
      * @param run folder of it, for what {@code natator check} and {@code natator converge} found
      */
@@ -82,7 +82,7 @@ public final class WinnerFacts {
         return parts;
     }
 
-    /** The same for all runs of a body in one water. */
+    /** Spacings of the water across the body: the same in all its runs. */
     private static Double across(SwimmingNumbers one) {
         return one == null ? null : one.across();
     }
@@ -98,7 +98,7 @@ public final class WinnerFacts {
         if (cavities != null && cavities >= WORTH_TELLING) {
             parts.add("cavities in the water " + Numbers.significant(cavities, DIGITS) + " body volumes");
         }
-        if (across != null && across > 0 && across < LEAST_ACROSS) {
+        if (across != null && across > 0 && across < MIN_ACROSS) {
             parts.add("body " + Numbers.significant(across, 2) + " spacings of the water across");
         }
         return parts;

@@ -2,8 +2,8 @@ package io.natator.cache;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
-import io.natator.protocol.SimulationResult.Status;
 import io.natator.protocol.SwimmingNumbers;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -18,9 +18,9 @@ import org.junit.jupiter.api.io.TempDir;
 
 class EvaluationCacheTest {
 
-    private static final SimulationResult RESULT = new SimulationResult(0L, Status.OK, 0.1 + 0.2, "no-progress", 2.5,
-            150, "conserving", "float", "17a1dfe6c68edf45", null, null,
-            new SwimmingNumbers(0.1, null, 131.4, 1e5, 0.02, null), 0.7, null);
+    private static final SimulationResult RESULT = Results.ok(0.1 + 0.2)
+            .with(to -> to.stopped("no-progress").simulated(2.5).frames(150).hash("17a1dfe6c68edf45").work(0.7)
+                    .swimming(new SwimmingNumbers(0.1, null, 131.4, 1e5, 0.02, null)));
 
     @TempDir
     private Path folder;

@@ -8,9 +8,8 @@ import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;
-import io.natator.config.WeightedObjective;
+import io.natator.evolution.ToyEvolution;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
@@ -21,7 +20,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
-import java.util.Locale;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -29,6 +27,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 class CompactRunTest {
+
+    private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2);
 
     @TempDir
     private Path folder;
@@ -42,7 +42,7 @@ class CompactRunTest {
     @Test
     void aCompactRunIsStillFinishedAndHasItsResults() throws Exception {
         Path directory = folder.resolve("run");
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3);
+        EvolutionSettings settings = SETTINGS.withSize(8, 3);
         try (RunWriter run = RunWriter.create(directory, settings);
                 Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
             assertThatThrownBy(() -> CompactRun.compact(directory)).isInstanceOf(InvalidInputException.class)
@@ -73,14 +73,9 @@ class CompactRunTest {
 
     /** Twice in parts: once from what is left of it alone, then from that and the evaluations since. */
     @ParameterizedTest
-    @CsvSource({"jgap, 1", "jgap, 2", "random, 1", "map-elites, 2", "nsga2, 1"})
-    void aCompactRunGoesOnAsIfItHadNeverStopped(String optimizer, int starts) throws Exception {
-        OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withStarts(starts, Aggregate.MEAN)
-                .withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
-                        : List.of(new WeightedObjective(Objective.DISTANCE, null),
-                                new WeightedObjective(Objective.WORK, null)));
+    @CsvSource({"JGAP, 1", "JGAP, 2", "RANDOM, 1", "MAP_ELITES, 2", "NSGA2, 1"})
+    void aCompactRunGoesOnAsIfItHadNeverStopped(OptimizerKind optimizer, int starts) throws Exception {
+        EvolutionSettings settings = ToyEvolution.by(optimizer, SETTINGS.withStarts(starts, Aggregate.MEAN));
         Path parts = folder.resolve("parts");
         evolve(parts, settings.withSize(8, 2));
         long dropped = RunReader.recorded(parts).end();
@@ -109,7 +104,7 @@ class CompactRunTest {
     /** What was written first is whole: the kill may come after any of the steps, and before the first new evaluation. */
     @Test
     void aRunThatWasKilledWhileItWasMadeSmallIsSound() throws Exception {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        EvolutionSettings settings = SETTINGS.withSize(8, 2);
         Path run = folder.resolve("run");
         evolve(run, settings);
         byte[] evaluations = Files.readAllBytes(run.resolve("evaluations.jsonl"));
@@ -137,7 +132,7 @@ class CompactRunTest {
     /** The compressed checkpoint is a whole one. */
     @Test
     void goesOnWithoutTheSmallCheckpoint() throws Exception {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        EvolutionSettings settings = SETTINGS.withSize(8, 2);
         Path run = folder.resolve("run");
         Path whole = folder.resolve("whole");
         evolve(run, settings);
@@ -150,7 +145,7 @@ class CompactRunTest {
 
     @Test
     void whatIsNeededToGoOnMayBeGone() throws Exception {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        EvolutionSettings settings = SETTINGS.withSize(8, 2);
         Path old = folder.resolve("old");
         evolve(old, settings);
         CompactRun.compact(old);

@@ -5,12 +5,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
 import io.natator.config.Json;
-import io.natator.encoding.Gait;
-import io.natator.protocol.SimulationResult;
+import io.natator.verdict.Winners;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.List;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -19,14 +17,8 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 class ControlsTest {
 
-    private static final Gait GAIT = new Gait(2, List.of(0.1), List.of(0.0));
-    private static final SwimSample SAMPLE = SwimSample
-            .of(List.of(new SimulationResult(0L, SimulationResult.Status.OK, 1.0, "completed", 4.0,
-                    240, "conserving", "float", null, null, null, null, null, null)), 4, GAIT, 4.0, null);
-    private static final Controls CONTROLS = new Controls(GAIT, null, "conserving", 4.0, null, SAMPLE, SAMPLE, SAMPLE,
-            null, SAMPLE, SAMPLE,
-            null, null, null);
-    private static final Swimmer WINNER = new Swimmer(GAIT, null);
+    private static final Controls CONTROLS = Winners.controls(Winners.sample(1.0));
+    private static final Swimmer WINNER = new Swimmer(Winners.GAIT, null);
     @TempDir
     private Path run;
 
@@ -38,7 +30,7 @@ class ControlsTest {
     @Test
     void thoseOfAnotherGaitAreNone() {
         assertThat(Controls.of(run, WINNER)).isEqualTo(CONTROLS);
-        assertThat(Controls.of(run, WINNER.withGait(GAIT.resting()))).isNull();
+        assertThat(Controls.of(run, WINNER.withGait(Winners.GAIT.resting()))).isNull();
     }
 
     @ParameterizedTest

@@ -10,6 +10,7 @@ import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -116,16 +117,11 @@ class EvolutionTest {
 
     @Test
     void theSelectedGoOnUnchangedAndAge() {
-        List<EvolutionState> states = new ArrayList<>();
-        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, new EvolutionListener() {
-            @Override
-            public void generationFinished(EvolutionState state) {
-                states.add(state);
-            }
-        });
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, recorder);
 
-        List<Individual> first = states.get(0).population();
-        List<Individual> second = states.get(1).population();
+        List<Individual> first = recorder.states.get(0).population();
+        List<Individual> second = recorder.states.get(1).population();
         assertThat(first).hasSize(50).extracting(Individual::age).containsOnly(1);
         List<List<Double>> firstGenes = first.stream().map(Individual::genes).toList();
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
@@ -140,7 +136,8 @@ class EvolutionTest {
     /** Backward swimmers have fitness 0 for JGAP, and their distance in the record. */
     @Test
     void negativeDistancesAreKeptInTheRecord() {
-        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), constant(-0.25), 2);
+        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), request -> Results.ok(request.id(), -0.25),
+                2);
 
         assertThat(end.best().result().distance()).isEqualTo(-0.25);
         assertThat(end.history()).extracting(GenerationSummary::mean)
@@ -150,7 +147,7 @@ class EvolutionTest {
     @Test
     void oneFailureCostsOneEvaluation() {
         FakePool.Simulation flaky = request -> request.id() % 4 == 1
-                ? SimulationResult.failed(request.id(), "crashed") : ok(request.id(), 0.1);
+                ? SimulationResult.failed(request.id(), "crashed") : Results.ok(request.id(), 0.1);
         EvolutionState end = run(settings(OperatorSet.CORRECTED, 16, 2, 5), flaky, 3);
 
         assertThat(end.history().get(0).failed()).isEqualTo(4);
@@ -165,14 +162,5 @@ class EvolutionTest {
         assertThatThrownBy(() -> run(settings(OperatorSet.CORRECTED, 10, 2, 5), broken, 2))
                 .isInstanceOf(EvolutionFailedException.class)
                 .hasMessage("generation 0: 10 of 10 simulations failed, the first: exit status 1");
-    }
-
-    private static FakePool.Simulation constant(double distance) {
-        return request -> ok(request.id(), distance);
-    }
-
-    private static SimulationResult ok(long id, double distance) {
-        return new SimulationResult(id, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float",
-                null, null, null);
     }
 }

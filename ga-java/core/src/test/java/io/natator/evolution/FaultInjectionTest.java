@@ -40,8 +40,7 @@ class FaultInjectionTest {
     private Path folder;
 
     /** Also used where other simulators fail; {@code then} is told how many evaluations there have been. */
-    static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution,
-            IntConsumer then) {
+    static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution, IntConsumer then) {
         List<EvaluationRecord> evaluations = new ArrayList<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {
             new Evolution(settings, evaluator, List.of(new EvolutionListener() {

@@ -3,6 +3,7 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.stream.Stream;
@@ -32,9 +33,7 @@ class GenerationSummaryTest {
     }
 
     private static Individual swim(double distance) {
-        return new Individual(List.of(0.5), 0,
-                new SimulationResult(1L, SimulationResult.Status.OK, distance, "completed", 1.0, 60,
-                        null, null, null, null, null));
+        return new Individual(List.of(0.5), 0, Results.ok(1, distance));
     }
 
     private static Individual failed() {

@@ -12,10 +12,9 @@ import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
-import io.natator.protocol.SimulationResult;
+import io.natator.protocol.Results;
 import java.util.List;
 import java.util.SortedMap;
 import org.junit.jupiter.api.Test;
@@ -102,16 +101,10 @@ class MapElitesTest {
     /** As scheme flex, which cannot tell what its muscles do. */
     @Test
     void withoutWorkThereAreNoKinds() {
-        FakePool.Simulation flex = request -> new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0,
-                "completed", 4.0, 240, "flex", "float",
-                null, null, null);
-        try (Evaluator pool = new FakePool(flex, 1)) {
-            Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(),
-                    new RecordedEvaluations(0, List.of()));
-            assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
-                    .hasMessageStartingWith(
-                            "optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
-        }
+        FakePool.Simulation flex = request -> Results.ok(request.id(), 1.0).withScheme("flex");
+        assertThatThrownBy(() -> ToyEvolution.run(SETTINGS, flex)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(
+                        "optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
     }
 
     /** A run by a version whose kinds were others does not go on as if its map were empty. */

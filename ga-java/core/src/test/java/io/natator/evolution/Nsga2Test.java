@@ -10,8 +10,6 @@ import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
-import io.natator.process.Evaluator;
-import io.natator.process.FakePool;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -21,14 +19,10 @@ class Nsga2Test {
     private static final Encoding ENCODING = EncodingKind.DENSE.forActuators(2);
 
     private static EvolutionState run(int generations, int starts) {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withSize(24, generations)
-                .withSeed(3).withStarts(starts, Aggregate.MEAN)
-                .withObjectives(OptimizerKind.NSGA2, WeightedObjective.parse("distance,work"));
-        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
-            return new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
-                    new RecordedEvaluations(0, List.of())).run(null);
-        }
+        return ToyEvolution.run(ToyEvolution.by(OptimizerKind.NSGA2,
+                EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(24, generations).withSeed(3)
+                        .withStarts(starts, Aggregate.MEAN)),
+                new ToySimulator());
     }
 
     private static boolean dominates(Individual one, Individual other) {
@@ -86,18 +80,15 @@ class Nsga2Test {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
                 .withObjectives(OptimizerKind.CMA_ES,
                         WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
-        try (Evaluator pool = new FakePool(new ToySimulator(), 2)) {
-            EvolutionState end = new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(),
-                    new RecordedEvaluations(0, List.of())).run(null);
-            SimulationResult best = end.best().result();
-            Gait gait = ENCODING.decode(end.best().genes());
-            double distance = ToySimulator.distance(gait);
-            double work = ToySimulator.work(gait);
-            assertThat(best.objectives().get(0)).isEqualTo(distance);
-            assertThat(best.objectives().get(1)).isCloseTo(-0.3, within(1e-12));
-            assertThat(best.objectives().get(3)).isCloseTo(distance / work, within(1e-12));
-            assertThat(end.best().score())
-                    .isCloseTo(2 * distance - 0.15 - 0.1 * work + 0.01 * distance / work, within(1e-12));
-        }
+        EvolutionState end = ToyEvolution.run(settings, new ToySimulator());
+        SimulationResult best = end.best().result();
+        Gait gait = ENCODING.decode(end.best().genes());
+        double distance = ToySimulator.distance(gait);
+        double work = ToySimulator.work(gait);
+        assertThat(best.objectives().get(0)).isEqualTo(distance);
+        assertThat(best.objectives().get(1)).isCloseTo(-0.3, within(1e-12));
+        assertThat(best.objectives().get(3)).isCloseTo(distance / work, within(1e-12));
+        assertThat(end.best().score())
+                .isCloseTo(2 * distance - 0.15 - 0.1 * work + 0.01 * distance / work, within(1e-12));
     }
 }

@@ -11,7 +11,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 /** Evolutions with {@link ToySimulator}. */
-final class ToyEvolution {
+public final class ToyEvolution {
 
     /** Of the toy's body. */
     static final double BODY_LENGTH = 0.8;
@@ -20,14 +20,25 @@ final class ToyEvolution {
     }
 
     /** By this optimizer, with objectives where it takes several. */
-    static EvolutionSettings by(OptimizerKind optimizer, EvolutionSettings settings) {
+    public static EvolutionSettings by(OptimizerKind optimizer, EvolutionSettings settings) {
         return settings.withObjectives(optimizer,
                 optimizer == OptimizerKind.NSGA2 ? WeightedObjective.parse("distance,work") : null);
     }
 
     static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
-        try (Evaluator pool = new FakePool(new ToySimulator(), workers)) {
+        return run(settings, new ToySimulator(), workers, from, recorded, listeners);
+    }
+
+    /** From its beginning, with another simulator. */
+    static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator,
+            EvolutionListener... listeners) {
+        return run(settings, simulator, 2, null, List.of(), listeners);
+    }
+
+    private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
+            EvolutionState from, List<EvaluationRecord> recorded, EvolutionListener... listeners) {
+        try (Evaluator pool = new FakePool(simulator, workers)) {
             return new Evolution(settings, evaluator(settings, pool), List.of(listeners),
                     new RecordedEvaluations(0, recorded)).run(from);
         }
@@ -39,8 +50,8 @@ final class ToyEvolution {
     }
 
     /** Keeps all that a run folder keeps. */
-    static final class Recorder implements EvolutionListener {
-        final List<EvolutionState> states = new ArrayList<>();
+    public static final class Recorder implements EvolutionListener {
+        public final List<EvolutionState> states = new ArrayList<>();
         final List<EvaluationRecord> evaluations = new ArrayList<>();
         final List<Integer> announced = new ArrayList<>();
 

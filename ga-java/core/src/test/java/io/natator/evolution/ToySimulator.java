@@ -3,6 +3,7 @@ package io.natator.evolution;
 import io.natator.encoding.Gait;
 import io.natator.process.FakePool;
 import io.natator.protocol.Course;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.util.SplittableRandom;
@@ -23,10 +24,8 @@ public final class ToySimulator implements FakePool.Simulation {
         }
         double distance = isVacuum(request) ? drift(request.gait())
                 : distance(request.gait()) + luck(request.gait(), request.start());
-        return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
-                "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2),
-                null, null,
-                null, null, null);
+        return Results.ok(request.id(), distance).with(to -> to.scheme("flex").hash("0123456789abcdef")
+                .work(work(request.gait())).course(new Course(distance, 0.1, -0.2)));
     }
 
     /** Best at f = 1.2, a = 0.6, φ = 0.3; negative far from there. */

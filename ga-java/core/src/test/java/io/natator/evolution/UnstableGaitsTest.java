@@ -3,7 +3,7 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
-import io.natator.checkpoint.JudgedGaits;
+import io.natator.checkpoint.GaitRanking;
 import io.natator.config.Aggregate;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
@@ -15,6 +15,7 @@ import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.protocol.Effort;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulationResult.Instability;
@@ -57,7 +58,7 @@ class UnstableGaitsTest {
             }
             int start = request.start() == null ? 0 : request.start();
             return Math.floorMod(start + request.gait().hashCode() / 2, oneOf) == 0
-                    ? unstable(request.id(), LAWS.get(Math.floorMod(start, LAWS.size())))
+                    ? Results.unstable(request.id(), LAWS.get(Math.floorMod(start, LAWS.size())))
                     : result.withDistance(result.distance() + 10);
         }
 
@@ -66,18 +67,9 @@ class UnstableGaitsTest {
         }
     }
 
-    private static SimulationResult unstable(long id, String law) {
-        return new SimulationResult(id, Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float", null,
-                new Instability(1, "frame", 0.5, law), null);
-    }
-
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        try (Evaluator pool = new FakePool(new Cheats(oneOf), 2)) {
-            new Evolution(settings, ToyEvolution.evaluator(settings, pool), List.of(recorder),
-                    new RecordedEvaluations(0, List.of()))
-                    .run(null);
-        }
+        ToyEvolution.run(settings, new Cheats(oneOf), recorder);
         return recorder;
     }
 
@@ -119,7 +111,7 @@ class UnstableGaitsTest {
         }
         Set<List<Double>> broken = recorder.evaluations.stream().filter(one -> one.result().status() == Status.UNSTABLE)
                 .map(EvaluationRecord::genes).collect(Collectors.toSet());
-        assertThat(JudgedGaits.ranked(settings, recorder.evaluations)).isNotEmpty()
+        assertThat(GaitRanking.ranked(settings, recorder.evaluations)).isNotEmpty()
                 .allSatisfy(one -> assertThat(broken).doesNotContain(one.genes()));
     }
 
@@ -139,8 +131,7 @@ class UnstableGaitsTest {
         int all = laws.values().stream().mapToInt(Integer::intValue).sum();
         assertThat(end.history().stream().mapToInt(GenerationSummary::unstable).sum()).isEqualTo(all);
         assertThat(Refusals.of(end)).startsWith("refused " + all + " of " + end.evaluations() + " evaluations: ")
-                .doesNotContain("\n")
-                .contains(" broke law ");
+                .doesNotContain("\n").contains(" broke law ");
         laws.forEach((law, count) -> assertThat(Refusals.of(end))
                 .containsPattern("\\b" + count + "( broke law)? " + law + "\\b"));
         assertThat(Json.parse(Json.document(end), EvolutionState.class)).as("kept in a checkpoint").isEqualTo(end);
@@ -153,7 +144,7 @@ class UnstableGaitsTest {
         FakePool.Simulation simulator = new Cheats(1) {
             @Override
             public SimulationResult evaluate(SimulationRequest one) throws InterruptedException {
-                return one.overrides() == null ? new ToySimulator().evaluate(one) : unstable(one.id(), "shape");
+                return one.overrides() == null ? new ToySimulator().evaluate(one) : Results.unstable(one.id(), "shape");
             }
         };
         try (Evaluator pool = new FakePool(simulator, 1)) {
@@ -175,7 +166,7 @@ class UnstableGaitsTest {
     void runsWithoutLawsAreReadAsBefore() throws JsonProcessingException {
         GenerationSummary old = Json
                 .parse("{\"generation\":0,\"best\":1,\"mean\":0,\"median\":0,\"worst\":-1,\"population\":10,"
-                        + "\"evaluations\":10,\"unstable\":2,\"failed\":0}", GenerationSummary.class);
+                        + "\"evaluations\":10,\"unstable\":2,\"failed\":0,\"unchanged\":0}", GenerationSummary.class);
         Estimate estimate = Json.parse("{\"score\":1,\"runs\":[1,1]}", Estimate.class);
         Instability instability = Json.parse("{\"particle\":3,\"stage\":\"springs\",\"time\":0.5}", Instability.class);
 
@@ -183,15 +174,13 @@ class UnstableGaitsTest {
         assertThat(estimate.isStable()).isTrue();
         assertThat(Json.document(estimate)).doesNotContain("table");
         assertThat(instability.law()).isNull();
-        assertThat(unstable(0, null).whyUnstable()).isEqualTo("unstable at 0.50 s");
-        Individual one = new Individual(List.of(1.0), 0,
-                new SimulationResult(0L, Status.OK, 1.0, "completed", 4.0, 240, "flex", "float", null,
-                        null, null));
+        assertThat(Results.unstable(0, null).whyUnstable()).isEqualTo("unstable at 0.50 s");
+        Individual one = new Individual(List.of(1.0), 0, Results.ok(1.0));
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old), List.of())))
                 .isEqualTo("refused 2 of 10 evaluations: 2 broke law finite");
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one,
                 List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3)), List.of()))).isNull();
-        assertThat(new EliteMap(List.of(new Individual(List.of(1.0), 0, unstable(1, "tank")),
+        assertThat(new EliteMap(List.of(new Individual(List.of(1.0), 0, Results.unstable(1, "tank")),
                 new Individual(List.of(2.0), 0, one.result().withEffort(new Effort(8, 1, 2, 12))))).elites())
                 .hasSize(1);
     }

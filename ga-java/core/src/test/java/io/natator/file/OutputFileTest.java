@@ -66,8 +66,7 @@ class OutputFileTest {
         for (Path file : new Path[] {pipe, link, Path.of("/dev/full")}) {
             assertThatThrownBy(() -> OutputFile.check(file)).isInstanceOf(InvalidInputException.class)
                     .hasMessage("output file is " + file
-                            + ", which is a device or a pipe; expected the name of a file, new "
-                            + "or to be replaced");
+                            + ", which is a device or a pipe; expected the name of a file, new or to be replaced");
         }
         assertThatThrownBy(() -> OutputFile.check(folder)).hasMessageContaining("which is a folder");
         assertThatThrownBy(() -> OutputFile.check(folder.resolve("no/page.html")))

@@ -25,8 +25,7 @@ class ShellWordTest {
     void aShellReadsItAsOneWord(String word) throws IOException, InterruptedException {
         Process shell = new ProcessBuilder("sh", "-c", "printf %s " + ShellWord.of(word)).start();
         assertThat(new String(shell.getInputStream().readAllBytes(), StandardCharsets.UTF_8)
-                .replaceAll("[^\\x00-\\x7f]+", "?"))
-                .isEqualTo(word.replaceAll("[^\\x00-\\x7f]+", "?"));
+                .replaceAll("[^\\x00-\\x7f]+", "?")).isEqualTo(word.replaceAll("[^\\x00-\\x7f]+", "?"));
         assertThat(shell.waitFor()).isZero();
     }
 }

@@ -14,6 +14,7 @@ import io.natator.encoding.Gait;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.protocol.GoalScore;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.util.List;
@@ -39,19 +40,13 @@ class FitnessEvaluatorTest {
         return new SceneInfo("goals/turn", 2, 1000, 4, 1 / 60.0, 4, 4, bodyLength, 100, goals);
     }
 
-    private static SimulationResult result(SimulationRequest request, double distance) {
-        return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240,
-                "conserving", "float",
-                null, null, null);
-    }
-
     /** What goes so far in water gets a score by the scene's goals, and drifts in vacuum, where there are none; the goals are another matter. */
     @ParameterizedTest
     @CsvSource({"0.5, -1, 0.3", "0.5, 0, 0.3", "0.5, 1, 0.3", "-0.5, 1, -0.5"})
     void whatGoesForwardsLosesItsDrift(double distance, double score, double net) throws InterruptedException {
         Evaluator swim = (requests, whenDone) -> requests.forEach(request -> whenDone.accept(request.overrides() == null
-                ? result(request, distance).withGoals(List.of(new GoalScore("turn", 1, score, null, null)))
-                : result(request, DRIFT)));
+                ? Results.ok(request.id(), distance).withGoals(List.of(new GoalScore("turn", 1, score, null, null)))
+                : Results.ok(request.id(), DRIFT)));
 
         assertThat(FitnessEvaluator.of(swim, NET.problem()).evaluate(REQUEST).netDistance()).isEqualTo(net);
     }
@@ -93,11 +88,9 @@ class FitnessEvaluatorTest {
         assertThat(inner.closed).isEqualTo(4);
 
         assertThatThrownBy(() -> FitnessEvaluator.of(inner, MAP, scene(null, null)))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("the body's length is null");
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("the body's length is null");
         assertThatThrownBy(() -> FitnessEvaluator.of(inner, NET, scene(1.0, List.of("turn"))))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("--fitness net");
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("--fitness net");
         assertThat(inner.closed).isEqualTo(4);
     }
 }

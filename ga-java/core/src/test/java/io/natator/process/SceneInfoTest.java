@@ -52,8 +52,7 @@ class SceneInfoTest {
         String[] said = lines.split(";", 2);
 
         assertThat(failure(Integer.parseInt(said[0]), said[1].replace(";", ErrorTail.LINE_END)).getMessage()
-                .replace(" | ", " / "))
-                .startsWith("scene pool/eel: " + reason)
+                .replace(" | ", " / ")).startsWith("scene pool/eel: " + reason)
                 .matches(message -> said[0].equals("134") || message.endsWith(reason));
     }
 

@@ -88,8 +88,7 @@ class ServeCommandsTest {
         String away = "echo tried >>" + folder.resolve("away") + "; echo no route to host >&2; exit 255";
 
         assertThat(evaluate(settings(SimulatorMode.RESIDENT, away, marked("a")), 20))
-                .extracting(SimulationResult::status)
-                .containsOnly(Status.OK).hasSize(20);
+                .extracting(SimulationResult::status).containsOnly(Status.OK).hasSize(20);
         assertThat(Files.readAllLines(folder.resolve("away"))).as("attempts there").hasSizeBetween(1, 2);
     }
 
@@ -136,8 +135,7 @@ class ServeCommandsTest {
                 "local[2]")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
         assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(),
-                "local[2]")
-                .withMode(SimulatorMode.RESIDENT).master()).isNull();
+                "local[2]").withMode(SimulatorMode.RESIDENT).master()).isNull();
     }
 
     @Test
@@ -152,16 +150,14 @@ class ServeCommandsTest {
         assertThatThrownBy(
                 () -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
                         List.of(), null))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessage(
+                .isInstanceOf(InvalidInputException.class).hasMessage(
                         "devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
     }
 
     @Test
     void aProgramWithoutSparkSaysWhichOneHasIt() {
         assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK)))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessage(
+                .isInstanceOf(InvalidInputException.class).hasMessage(
                         "this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
                                 + "(ga-java/docs/cluster.md)");
     }

@@ -9,6 +9,7 @@ import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.EvaluationStatistics;
+import io.natator.checkpoint.RunFiles;
 import io.natator.checkpoint.RunReader;
 import io.natator.checkpoint.RunWriter;
 import io.natator.checkpoint.VacuumRecord;
@@ -18,13 +19,12 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.config.Objective;
 import io.natator.config.OptimizerKind;
-import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
+import io.natator.evolution.ToyEvolution;
 import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
@@ -38,7 +38,6 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
-import java.util.Locale;
 import java.util.Set;
 import java.util.stream.Collectors;
 import org.junit.jupiter.api.BeforeEach;
@@ -73,10 +72,15 @@ class EvolutionRunTest {
         return simulator.calls();
     }
 
-    private void assertSame(String one, String other) {
-        for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
-            assertThat(folder.resolve(one).resolve(file)).hasSameBinaryContentAs(folder.resolve(other).resolve(file));
+    private void finish(RunWriter run, FakePool.Simulation simulator, EvolutionListener... listeners)
+            throws InterruptedException {
+        try (run; Evaluator evaluator = new FakePool(simulator, 2)) {
+            new EvolutionRun(run).run(execution, evaluator, listeners);
         }
+    }
+
+    private void assertSame(String one, String other) {
+        RunFiles.assertSame(folder.resolve(one), folder.resolve(other));
     }
 
     @Test
@@ -134,28 +138,16 @@ class EvolutionRunTest {
 
     /** Counted in another way: from what was recorded of each generation. A run that goes on from its middle counts the same. */
     @ParameterizedTest
-    @CsvSource({"map-elites, 1", "map-elites, 2", "jgap, 1", "jgap, 2", "random, 1", "cma-es, 2", "nsga2, 1"})
-    void unchangedIsWhatWasNotNewlySimulated(String optimizer, int starts) throws InterruptedException, IOException {
-        OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
-        EvolutionSettings settings = SETTINGS.withStarts(starts, Aggregate.MEAN).withObjectives(kind,
-                kind != OptimizerKind.NSGA2 ? null
-                        : List.of(new WeightedObjective(Objective.DISTANCE, null),
-                                new WeightedObjective(Objective.WORK, null)));
-        List<EvolutionState> states = new ArrayList<>();
-        EvolutionListener recorder = new EvolutionListener() {
-            @Override
-            public void generationFinished(EvolutionState state) {
-                states.add(state);
-            }
-        };
-        try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
-                Evaluator evaluator = new FakePool(new ToySimulator(), 2)) {
-            new EvolutionRun(run).run(execution, evaluator, recorder);
-        }
+    @CsvSource({"MAP_ELITES, 1", "MAP_ELITES, 2", "JGAP, 1", "JGAP, 2", "RANDOM, 1", "CMA_ES, 2", "NSGA2, 1"})
+    void unchangedIsWhatWasNotNewlySimulated(OptimizerKind optimizer, int starts)
+            throws InterruptedException, IOException {
+        EvolutionSettings settings = ToyEvolution.by(optimizer, SETTINGS.withStarts(starts, Aggregate.MEAN));
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        finish(RunWriter.create(folder.resolve("run"), settings), new ToySimulator(), recorder);
 
         Set<List<Double>> known = new HashSet<>();
         long unchanged = 0;
-        for (EvolutionState state : states) {
+        for (EvolutionState state : recorder.states) {
             Set<List<Double>> born = evaluations("run").stream().filter(one -> one.generation() == state.generation())
                     .map(EvaluationRecord::genes).filter(genes -> !known.contains(genes)).collect(Collectors.toSet());
             unchanged += state.population().size() - state.population().stream().map(Individual::genes).distinct()
@@ -166,12 +158,9 @@ class EvolutionRunTest {
         assertThat(statistics.unchanged()).isEqualTo(unchanged).isGreaterThanOrEqualTo(0);
 
         String whole = Files.readString(folder.resolve("run/savings.json"));
-        Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(states.get(2)));
+        Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(recorder.states.get(2)));
         Files.delete(folder.resolve("run/digests.json"));  // else it is noticed
-        try (RunWriter again = RunWriter.open(folder.resolve("run"));
-                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
-            new EvolutionRun(again).run(execution, evaluator);
-        }
+        finish(RunWriter.open(folder.resolve("run")), new ToySimulator());
         assertThat(folder.resolve("run/savings.json")).hasContent(whole);
     }
 
@@ -183,8 +172,7 @@ class EvolutionRunTest {
         EvaluationStatistics statistics = RunReader.statistics(folder.resolve("short"));
         assertThat(statistics.simulatedSeconds()).isEqualTo(statistics.wholeSeconds());
         assertThat(statistics.shareOfEarlyStops()).isEqualTo(0.0);
-        assertThat(new EvaluationStatistics(30, 0, 0, 0, 3.0000000000000004, 3, null).shareOfEarlyStops())
-                .as("of an earlier version").isEqualTo(0.0);
+        assertThat(new EvaluationStatistics(30, 0, 0, 0, 3.0000000000000004, 3, 0).shareOfEarlyStops()).isEqualTo(0.0);
     }
 
     /** A stop with the last frame saves nothing; frames are what a duration is rounded to. */
@@ -196,10 +184,7 @@ class EvolutionRunTest {
         ToySimulator toy = new ToySimulator();
         FakePool.Simulation stopped = request -> toy.evaluate(request)
                 .with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
-        try (RunWriter run = RunWriter.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null));
-                Evaluator evaluator = new FakePool(stopped, 2)) {
-            new EvolutionRun(run).run(execution, evaluator);
-        }
+        finish(RunWriter.create(folder.resolve("run"), SETTINGS.withScene(null, duration, null)), stopped);
 
         EvaluationStatistics statistics = RunReader.statistics(folder.resolve("run"));
         assertThat(statistics.stoppedEarly()).isEqualTo(early ? statistics.simulations() : 0);
@@ -263,10 +248,7 @@ class EvolutionRunTest {
         assertThatThrownBy(() -> RunWriter.open(folder.resolve("run"))).isInstanceOf(InvalidInputException.class)
                 .hasMessageStartingWith(folder.resolve("run") + " is damaged: it has no vacuum.jsonl");
         Files.delete(folder.resolve("run/digests.json"));
-        try (RunWriter again = RunWriter.open(folder.resolve("run"));
-                Evaluator evaluator = new FakePool(new ToySimulator(), 1)) {
-            new EvolutionRun(again).run(execution, evaluator);
-        }
+        finish(RunWriter.open(folder.resolve("run")), new ToySimulator());
         assertThat(before).endsWith(Files.readString(folder.resolve("run/vacuum.jsonl")));
     }
 }

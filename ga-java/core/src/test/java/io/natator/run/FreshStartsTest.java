@@ -19,6 +19,7 @@ import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
 import io.natator.protocol.RequestRejectedException;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
@@ -135,15 +136,10 @@ class FreshStartsTest {
     @Test
     void distancesAreThoseOfTheWholeTime() {
         List<SimulationResult> results = List.of(result("touched-plane", 0.6, 1.0, 0.5),
-                result("completed", 0.4, 4.0, 1.5),
-                new SimulationResult(0L, SimulationResult.Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float",
-                        null,
-                        null, null),
-                SimulationResult.failed(0, "crashed"));
+                result("completed", 0.4, 4.0, 1.5), Results.unstable(0, "tank"), SimulationResult.failed(0, "crashed"));
 
         SwimSample sample = SwimSample.of(results, 4,
-                EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)),
-                4.0, 1.25);
+                EncodingKind.DENSE.forActuators(2).decode(List.of(2.0, 0.5, 0.5, 0.5)), 4.0, 1.25);
 
         assertThat(sample.distance().mean()).isCloseTo(0.25, within(1e-12));
         assertThat(sample.distance().sd()).isCloseTo(0.3, within(1e-12));
@@ -159,8 +155,6 @@ class FreshStartsTest {
     }
 
     private static SimulationResult result(String stopped, double distance, double simulated, double work) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, stopped, simulated, 240, "conserving",
-                "float",
-                null, null, null, null, work, null);
+        return Results.ok(distance).with(to -> to.stopped(stopped).simulated(simulated).work(work));
     }
 }

@@ -37,9 +37,7 @@ class LeadersTest {
         @Override
         public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
             SimulationResult one = toy.evaluate(request);
-            return one.distance() < 0.2 ? one
-                    : new SimulationResult(one.id(), one.status(), one.distance(), "touched-plane", 1.0,
-                            60, one.scheme(), one.precision(), one.hash(), null, null);
+            return one.distance() < 0.2 ? one : one.with(to -> to.stopped("touched-plane").simulated(1.0).frames(60));
         }
     }
 

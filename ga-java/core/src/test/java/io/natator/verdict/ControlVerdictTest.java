@@ -4,15 +4,12 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
-import io.natator.encoding.Gait;
-import io.natator.protocol.SimulationResult;
-import java.util.List;
+import io.natator.protocol.Results;
+import java.util.stream.Stream;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 class ControlVerdictTest {
-
-    private static final Gait GAIT = new Gait(1, List.of(0.1), List.of(0.0));
 
     /** Of two runs, so far from their mean. */
     private static SwimSample sample(double mean, double from) {
@@ -20,12 +17,8 @@ class ControlVerdictTest {
     }
 
     private static SwimSample sample(double mean, double from, String stopped) {
-        return SwimSample.of(List.of(result(mean - from, stopped), result(mean + from, stopped)), 4, GAIT, 4.0, 1.25);
-    }
-
-    private static SimulationResult result(double distance, String stopped) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, stopped, 4.0, 240, "flex", "float", null,
-                null, null);
+        return Winners.sample(Stream.of(mean - from, mean + from).map(Results::ok).map(one -> one.withStopped(stopped))
+                .toList());
     }
 
     /** Distances in 4 s of a body 1.25 long; a dead body drifts by -0.01. */
@@ -47,11 +40,10 @@ class ControlVerdictTest {
             "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "
                     + "differ too much to tell"})
     void allControlsHaveTheirSay(double water, double from, double vacuum, double clampOff, double half,
-            double mirrored,
-            double underWater, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0),
-                sample(vacuum, 0),
-                sample(clampOff, 0), sample(half, 0), sample(mirrored, 0), null, null, underWater);
+            double mirrored, double underWater, Verdict.Kind kind, String text) {
+        Controls controls = Winners.controls(sample(water, from)).with(to -> to.vacuum(sample(vacuum, 0))
+                .clampOff(sample(clampOff, 0)).halfStep(sample(half, 0)).mirrored(sample(mirrored, 0))
+                .underWater(underWater));
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
@@ -67,11 +59,9 @@ class ControlVerdictTest {
                     + "of its way is left",
             "0.0|0.1|0.2|0.05|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 28 % of its way is left"})
     void whatIsNotKnownWellDecidesNothing(double vacuum, double vacuumFrom, double clampOff, double clampOffFrom,
-            Verdict.Kind kind,
-            String text) {
-        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(0.74, 0.01), sample(-0.01, 0),
-                sample(vacuum, vacuumFrom),
-                sample(clampOff, clampOffFrom), sample(0.7, 0), sample(0.74, 0), null, null, 0.9);
+            Verdict.Kind kind, String text) {
+        Controls controls = Winners.controls(sample(0.74, 0.01)).with(to -> to.vacuum(sample(vacuum, vacuumFrom))
+                .clampOff(sample(clampOff, clampOffFrom)).halfStep(sample(0.7, 0)).mirrored(sample(0.74, 0)));
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
@@ -85,9 +75,7 @@ class ControlVerdictTest {
             "0.60|touched-plane|UNPROVEN|may swim: 0.122 ± 0.003 body lengths/s more than a resting body, until it touches a wall; but the wall is "
                     + "nearer than 0.5 body lengths"})
     void aWallIsTold(double way, String stopped, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(way, 0.01, stopped),
-                sample(-0.01, 0), sample(0, 0), null,
-                sample(way, 0), sample(way, 0), null, null, 0.9);
+        Controls controls = Winners.controls(sample(way, 0.01, stopped));
 
         assertThat(ControlVerdict.of(controls).text()).startsWith(text);
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
@@ -98,9 +86,7 @@ class ControlVerdictTest {
     @CsvSource({"0.74, 0.188 ± 0.004 body lengths/s more", "0.40, nearer than 0.5 body lengths",
             "0.01, body lengths further"})
     void aBodyOfLengthOneIsMeasuredByItself(double way, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(way, 0.01, "touched-plane"),
-                sample(-0.01, 0),
-                sample(0, 0), null, sample(way, 0), sample(way, 0), null, null, 0.9);
+        Controls controls = Winners.controls(sample(way, 0.01, "touched-plane")).withBodyLength(1.0);
 
         assertThat(ControlVerdict.of(controls).text()).contains(text).doesNotContain("units");
     }
@@ -109,9 +95,8 @@ class ControlVerdictTest {
     @ParameterizedTest
     @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})
     void theOtherBackendCounts(double distance, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0),
-                sample(0, 0), null,
-                sample(0.7, 0), sample(0.7, 0), sample(distance, 0), "cuda", null);
+        Controls controls = Winners.controls(sample(0.74, 0.01)).with(to -> to.bodyLength(null)
+                .halfStep(sample(0.7, 0)).mirrored(sample(0.7, 0)).otherBackend(sample(distance, 0)).backend("cuda"));
 
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
         assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.188 ± 0.004 units/s")

@@ -3,17 +3,17 @@ package io.natator.verdict;
 import static io.natator.verdict.Measure.Outcome.FAILS;
 import static io.natator.verdict.Measure.Outcome.HOLDS;
 import static io.natator.verdict.Measure.Outcome.NOT_MEASURED;
+import static io.natator.verdict.Winners.best;
+import static io.natator.verdict.Winners.controls;
+import static io.natator.verdict.Winners.fresh;
+import static io.natator.verdict.Winners.sample;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
-import io.natator.checkpoint.SwimSample;
-import io.natator.config.Aggregate;
-import io.natator.encoding.Gait;
-import io.natator.protocol.SimulationResult;
-import java.util.Arrays;
+import io.natator.protocol.Results;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -21,29 +21,11 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 class MeasureTest {
 
-    private static final Gait GAIT = new Gait(2, List.of(0.1), List.of(0.0));
-
-    private static SimulationResult result(double distance) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving",
-                "float", null, null,
-                null);
-    }
-
-    private static SwimSample sample(double... distances) {
-        return SwimSample.of(Arrays.stream(distances).mapToObj(MeasureTest::result).toList(), 4, GAIT, 4.0, 1.25);
-    }
-
-    private static BestGait best(FreshRuns fresh, double vacuum) {
-        return new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.25, result(vacuum),
-                2.5, 1, fresh);
-    }
-
     @Test
     void aWinnerWithAllThatCanBeKnown() {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(1.8, 1.8), Aggregate.MEAN, 2.5, 1, List.of(2.0));
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(1.9, 2.1), sample(0.0),
-                sample(0.0), null,
-                sample(1.8), sample(0.5), sample(2.0), "cuda", 0.4);
+        FreshRuns fresh = fresh(sample(1.9, 2.1), sample(1.8, 1.8), 2.5, 2.0);
+        Controls controls = controls(sample(1.9, 2.1)).with(to -> to.resting(sample(0.0)).halfStep(sample(1.8))
+                .mirrored(sample(0.5)).otherBackend(sample(2.0)).backend("cuda").underWater(0.4));
 
         assertThat(Measure.of(best(fresh, 0), controls))
                 .extracting(Measure::name, Measure::value, Measure::outcome).containsExactly(
@@ -52,8 +34,7 @@ class MeasureTest {
                         tuple("without water", "0 % of its speed", HOLDS),
                         tuple("lost since it was chosen", "20.0 %", FAILS),
                         tuple("resting muscles", "0.000 ± 0.000 body lengths", HOLDS),
-                        tuple("mirrored", "25 % of its way", FAILS),
-                        tuple("on cuda", "100 % of its way", HOLDS),
+                        tuple("mirrored", "25 % of its way", FAILS), tuple("on cuda", "100 % of its way", HOLDS),
                         tuple("share of the body under water", "40 %", FAILS));
     }
 
@@ -70,11 +51,8 @@ class MeasureTest {
     /** The length of its body is known, though it is the unit. */
     @Test
     void aBodyOfLengthOneIsMeasuredByItself() {
-        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(1.9), sample(0.0), sample(0.0),
-                null, sample(1.8),
-                sample(1.9), null, null, null);
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.0,
-                result(0), 2.5, 1, null);
+        Controls controls = controls(sample(1.9)).withBodyLength(1.0);
+        BestGait best = best("pool/creature-1", Results.ok(2.5), 1.0, Results.ok(0.0), null);
 
         assertThat(Measure.of(best, controls))
                 .filteredOn(one -> List.of("way, one run", "resting muscles").contains(one.name()))
@@ -84,7 +62,7 @@ class MeasureTest {
 
     @Test
     void aRunThatGoesOnIsNotJudgedByUnits() {
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, 0.001, 0.001, result(0.001), null, null);
+        BestGait best = best("pool/creature-1", Results.ok(0.001), null, null, null);
 
         assertThat(Measure.of(best, null))
                 .extracting(Measure::name, Measure::value, Measure::expected, Measure::outcome).contains(
@@ -95,7 +73,7 @@ class MeasureTest {
     @ParameterizedTest
     @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})
     void halfTheTimeStepMayChangeAWayByHalfOfIt(double half, Measure.Outcome outcome) {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(half), Aggregate.MEAN, 2.0, 1, List.of(2.0));
+        FreshRuns fresh = fresh(sample(1.9, 2.1), sample(half), 2.0, 2.0);
 
         assertThat(Measure.of(best(fresh, 0), null)).filteredOn(one -> one.name().equals("half the time step"))
                 .extracting(Measure::outcome, Measure::expected)
@@ -104,7 +82,7 @@ class MeasureTest {
 
     @Test
     void runsThatDifferTooMuchDoNotShowAWay() {
-        FreshRuns fresh = FreshRuns.of(4.0, sample(-1, 1.4), sample(0.05), Aggregate.MEAN, 0.3, 1, List.of(0.2));
+        FreshRuns fresh = fresh(sample(-1, 1.4), sample(0.05), 0.3, 0.2);
 
         assertThat(Measure.of(best(fresh, 0), null)).extracting(Measure::outcome).startsWith(FAILS, FAILS, HOLDS,
                 FAILS);

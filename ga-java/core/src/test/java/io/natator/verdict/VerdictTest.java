@@ -3,13 +3,9 @@ package io.natator.verdict;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.Controls;
-import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Aggregate;
-import io.natator.encoding.Gait;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
-import io.natator.protocol.SimulationResult.Status;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
@@ -19,14 +15,13 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 class VerdictTest {
 
-    private static final double LENGTH = 1.25;
+    private static final double LENGTH = Winners.LENGTH;
 
     private static SimulationResult result(double distance, String stopped, double simulated, String scheme) {
-        return new SimulationResult(0L, Status.OK, distance, stopped, simulated, 240, scheme, "float",
-                "0123456789abcdef", null, null);
+        return Results.ok(distance).with(to -> to.stopped(stopped).simulated(simulated).scheme(scheme));
     }
 
-    /** Distances in scene units; the last line is an old folder, whose vacuum run went on after the wall. */
+    /** Distances in scene units; in the last line the run in vacuum took longer than the one that touched a wall. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
             "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
@@ -70,15 +65,10 @@ class VerdictTest {
             "2.5 2.5 2.5 2.5|touched-plane|2.5|SWIMS|swims: 0.50 ± 0.00 body lengths/s, 0.50 at half the time step, 0.00 in "
                     + "vacuum, until it touches a wall"})
     void freshRunsJudge(String distances, String stopped, double half, Verdict.Kind kind, String text) {
-        Gait gait = new Gait(1, List.of(0.1), List.of(0.0));
         List<SimulationResult> runs = Arrays.stream(distances.split(" "))
                 .map(one -> result(Double.parseDouble(one), stopped, 1, "conserving")).toList();
-        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(runs, 4, gait, 4.0, LENGTH),
-                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Aggregate.MEAN, 9,
-                1, List.of(1.0));
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, null, 9, 9,
-                result(9, "completed", 4, "conserving"),
-                LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
+        SwimSample atHalf = Winners.sample(List.of(result(half, stopped, 1, "conserving")));
+        BestGait best = Winners.best(Winners.fresh(Winners.sample(runs), atHalf, 9, 1.0), 0);
 
         assertThat(Verdict.of(best).text()).isEqualTo(text);
         assertThat(Verdict.of(best).kind()).isEqualTo(kind);
@@ -92,10 +82,7 @@ class VerdictTest {
     @CsvSource(delimiter = '|', value = {"1|0|; 1 of 4 runs was unstable", "2|0|; 2 of 4 runs were unstable",
             "0|1|; 1 of 4 runs was unstable at half the time step", "0|0|''"})
     void noVerdictByTheOtherRunsOfAGaitThatWasUnstable(int base, int half, String doubt) {
-        FreshRuns fresh = FreshRuns.of(4.0, runs(base), runs(half), Aggregate.MEAN, 9, 1, List.of(1.0));
-        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 9, 9,
-                result(9, "completed", 4, "conserving"),
-                LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
+        BestGait best = Winners.best(Winners.fresh(runs(base), runs(half), 9, 1.0), 0);
 
         assertThat(Verdict.of(best).text()).endsWith("in vacuum" + doubt);
         assertThat(Verdict.of(best).kind()).isEqualTo(doubt.isEmpty() ? Verdict.Kind.SWIMS : Verdict.Kind.UNPROVEN);
@@ -106,41 +93,37 @@ class VerdictTest {
     @CsvSource({"0, ''", "1, ' at rest'", "2, ' in vacuum'", "3, ' at half the time step'", "4, ' mirrored'",
             "5, ' on cuda'", "-1,"})
     void noVerdictOfControlsBesideAnUnstableOne(int which, String where) {
-        SwimSample[] samples = new SwimSample[6];
-        for (int i = 0; i < samples.length; i++) {
-            boolean still = i == 1 || i == 2;
-            samples[i] = still
-                    ? SwimSample.of(List.of(result(0, "completed", 4, "conserving"), i == which ? unstable("shape")
-                            : result(0, "completed", 4, "conserving")), 4, GAIT, 4.0, LENGTH)
-                    : runs(i == which ? 1 : 0);
-        }
-        ControlVerdict verdict = ControlVerdict
-                .of(new Controls(GAIT, null, "conserving", 4.0, LENGTH, samples[0], samples[1], samples[2], null,
-                        samples[3], samples[4], samples[5], "cuda", null));
+        boolean still = which == 1 || which == 2;
+        SwimSample doubted = still ? Winners.sample(List.of(Results.ok(0), Results.unstable(0, "shape"))) : runs(1);
+        ControlVerdict verdict = ControlVerdict.of(Winners.controls(runs(0)).with(to -> {
+            to.otherBackend(runs(0)).backend("cuda");
+            switch (which) {
+                case 0 -> to.water(doubted);
+                case 1 -> to.resting(doubted);
+                case 2 -> to.vacuum(doubted);
+                case 3 -> to.halfStep(doubted);
+                case 4 -> to.mirrored(doubted);
+                case 5 -> to.otherBackend(doubted);
+                default -> {
+                }
+            }
+        }));
 
         if (where == null) {
             assertThat(verdict.kind()).as(verdict.text()).isEqualTo(Verdict.Kind.SWIMS);
         } else {
             assertThat(verdict.kind()).isEqualTo(Verdict.Kind.UNPROVEN);
-            assertThat(verdict.text()).contains(
-                    which == 1 || which == 2 ? "1 of 2 runs was unstable" + where : "1 of 4 runs was unstable" + where);
+            assertThat(verdict.text()).contains((still ? "1 of 2" : "1 of 4") + " runs was unstable" + where);
         }
     }
-
-    private static final Gait GAIT = new Gait(1, List.of(0.1), List.of(0.0));
 
     /** Four runs that go far, so many of them unstable. */
     private static SwimSample runs(int unstable) {
         List<SimulationResult> all = new ArrayList<>();
         for (int i = 0; i < 4; i++) {
-            all.add(i < unstable ? unstable("tank") : result(2.5, "completed", 4, "conserving"));
+            all.add(i < unstable ? Results.unstable(0, "tank") : Results.ok(2.5));
         }
-        return SwimSample.of(all, 4, GAIT, 4.0, LENGTH);
-    }
-
-    private static SimulationResult unstable(String law) {
-        return new SimulationResult(0L, Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float", null,
-                new SimulationResult.Instability(1, "frame", 0.5, law), null);
+        return Winners.sample(all);
     }
 
     @Test
@@ -161,9 +144,7 @@ class VerdictTest {
         SimulationResult water = result(0.5, "touched-plane", 1, scheme);
         SimulationResult vacuum = result("flex".equals(scheme) ? 2 : 0, "completed", 1, scheme);
 
-        Verdict verdict = Verdict
-                .of(new BestGait(scene, List.of(1.0), new Gait(1, List.of(0.1), List.of(0.0)), 0.5, 0.5,
-                        water, LENGTH, vacuum));
+        Verdict verdict = Verdict.of(Winners.best(scene, water, LENGTH, vacuum, null));
 
         assertThat(verdict.advice()).contains(advice);
         assertThat(verdict.text()).isEqualTo(Verdict.of(water, vacuum, LENGTH).text());
@@ -180,8 +161,7 @@ class VerdictTest {
     @CsvSource({"0.001, 0.00", "0.75, 0.19"})
     void aRunThatGoesOnIsNotJudgedByUnits(double way, String speed) {
         assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null))
-                .extracting(Verdict::kind, Verdict::text)
-                .containsExactly(Verdict.Kind.UNPROVEN,
+                .extracting(Verdict::kind, Verdict::text).containsExactly(Verdict.Kind.UNPROVEN,
                         "not judged: moves at " + speed + " units/s; not run in vacuum yet");
     }
 
@@ -192,9 +172,9 @@ class VerdictTest {
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; not run in vacuum yet");
         assertThat(Verdict.of(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; no result in vacuum, no answer");
-        assertThat(Verdict.of(unstable("tank"), null, LENGTH).text())
+        assertThat(Verdict.of(Results.unstable(0, "tank"), null, LENGTH).text())
                 .isEqualTo("not judged: unstable at 0.50 s (broke law tank)");
-        assertThat(Verdict.of(unstable(null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
+        assertThat(Verdict.of(Results.unstable(0, null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
                 .containsExactly(Verdict.Kind.UNPROVEN, "not judged: unstable at 0.50 s");
     }
 }

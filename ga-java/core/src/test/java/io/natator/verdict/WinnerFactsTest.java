@@ -5,8 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.SwimSample;
-import io.natator.config.Aggregate;
-import io.natator.encoding.Gait;
+import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SwimmingNumbers;
 import java.nio.file.Path;
@@ -20,7 +19,6 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 class WinnerFactsTest {
 
-    private static final Gait GAIT = new Gait(2, List.of(0.1), List.of(0.0));
     @TempDir
     private Path run;
 
@@ -29,22 +27,19 @@ class WinnerFactsTest {
     }
 
     private static SimulationResult result(double distance, Double across) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving",
-                "float", null, null,
-                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, across), 3.0, null);
+        return Results.ok(distance).withWork(3.0)
+                .withSwimming(new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10, across));
     }
 
     private static BestGait best(FreshRuns fresh) {
-        return new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5,
-                1, fresh);
+        return Winners.best("pool/creature-1", result(2.5), 1.25, result(0), fresh);
     }
 
     /** Whether it swims, how fast, how sure, what it lost since it was selected, and what it costs. */
     @Test
     void aReaderOfAWinnerIsToldAll() {
-        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(result(1.9), result(2.1)), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1,
-                List.of(2.0));
+        FreshRuns fresh = Winners.fresh(Winners.sample(List.of(result(1.9), result(2.1))),
+                Winners.sample(List.of(result(1.8), result(1.8))), 2.5, 2.0);
 
         assertThat(WinnerFacts.of(run, best(fresh))).containsExactly(
                 Map.entry("verdict", "swims: 0.40 ± 0.03 body lengths/s, 0.36 at half the time step, 0.00 in vacuum"),
@@ -72,13 +67,12 @@ class WinnerFactsTest {
             "4|-", "3.999999|-", "9|-", "0|-", "-|-"})
     void coarseWaterIsTold(Double across, String told) {
         SimulationResult one = result(2.0, across);
-        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(one), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(one), 8, GAIT, 4.0, 1.25), Aggregate.MEAN, 2.5, 1, List.of(2.0));
+        SwimSample sample = Winners.sample(List.of(one));
+        FreshRuns fresh = Winners.fresh(sample, sample, 2.5, 2.0);
         String flow = "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes"
                 + (told == null ? "" : told);
         for (FreshRuns runs : Arrays.asList(null, fresh)) {
-            BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, one, 1.25, result(0),
-                    2.5, 1, runs);
+            BestGait best = Winners.best("pool/creature-1", one, 1.25, result(0), runs);
             assertThat(WinnerFacts.mechanics(best)).containsEntry("flow", flow);
         }
     }

@@ -30,10 +30,8 @@ final class Cluster {
     private static final Map<String, String> SETTINGS = Map.ofEntries(
             Map.entry("spark.app.name", "natator"),
             Map.entry("spark.log.level", "ERROR"),  // failed tasks are told of in one line each, see ExecutorLog
-            Map.entry("spark.scheduler.mode", "FAIR"),
-            Map.entry("spark.locality.wait", "0"),
-            Map.entry("spark.ui.showConsoleProgress", "false"),
-            Map.entry("spark.task.maxFailures", "16"),
+            Map.entry("spark.scheduler.mode", "FAIR"), Map.entry("spark.locality.wait", "0"),
+            Map.entry("spark.ui.showConsoleProgress", "false"), Map.entry("spark.task.maxFailures", "16"),
             Map.entry("spark.excludeOnFailure.enabled", "true"),
             Map.entry("spark.excludeOnFailure.task.maxTaskAttemptsPerExecutor", "1"),
             Map.entry("spark.excludeOnFailure.task.maxTaskAttemptsPerNode", "15"),
@@ -42,10 +40,8 @@ final class Cluster {
             Map.entry("spark.excludeOnFailure.application.maxFailedTasksPerExecutor", "1"),
             Map.entry("spark.excludeOnFailure.application.maxFailedExecutorsPerNode", "1000000"),
             Map.entry("spark.scheduler.excludeOnFailure.unschedulableTaskSetTimeout", "20s"),
-            Map.entry("spark.speculation", "true"),
-            Map.entry("spark.speculation.multiplier", "3"),
-            Map.entry("spark.speculation.quantile", "0.9"),
-            Map.entry("spark.speculation.minTaskRuntime", "10s"));
+            Map.entry("spark.speculation", "true"), Map.entry("spark.speculation.multiplier", "3"),
+            Map.entry("spark.speculation.quantile", "0.9"), Map.entry("spark.speculation.minTaskRuntime", "10s"));
 
     private static Cluster present;
 
@@ -152,7 +148,7 @@ final class Cluster {
         return send(SentFile.name(kind, digest), copy -> Files.copy(file, copy));
     }
 
-    /** The same of a text. */
+    /** Gives a text to all executors, as a file. */
     String send(String kind, String text) {
         return send(SentFile.name(kind, Sha256.of(text)), copy -> Files.writeString(copy, text));
     }

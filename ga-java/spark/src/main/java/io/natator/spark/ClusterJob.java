@@ -50,8 +50,7 @@ final class ClusterJob implements AutoCloseable {
             context.setLocalProperty("spark.scheduler.pool", Thread.currentThread().getName());
             RDD<String> done = cluster.context().parallelize(parts, parts.size()).mapPartitions(work).rdd();
             Seq<Object> all = CollectionConverters
-                    .asScala(IntStream.range(0, parts.size()).<Object>mapToObj(i -> i).toList())
-                    .toSeq();
+                    .asScala(IntStream.range(0, parts.size()).<Object>mapToObj(i -> i).toList()).toSeq();
             action = context.submitJob(done, new Collected(), all, new AbstractFunction2<>() {
                 @Override
                 public BoxedUnit apply(Object part, ArrayList<String> lines) {

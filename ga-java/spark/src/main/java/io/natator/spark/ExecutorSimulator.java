@@ -5,11 +5,12 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
-import io.natator.process.ProcessSimulator;
+import io.natator.process.ProcessEvaluator;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
+import io.natator.protocol.SimulationResultBuilder;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -115,7 +116,7 @@ final class ExecutorSimulator {
 
     private SimulationResult swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {
         SimulationRequest here = located(sample);
-        try (ProcessSimulator single = new ProcessSimulator(settings)) {
+        try (ProcessEvaluator single = new ProcessEvaluator(settings)) {
             return single.evaluate(here);
         } catch (RequestRejectedException e) {
             throw new UnfitExecutorException(e.getMessage(), e);
@@ -161,7 +162,6 @@ final class ExecutorSimulator {
 
     /** With the request's number, where it is known which of them it was. */
     private static SimulationResult refused(Long id, String reason) {
-        return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null,
-                reason);
+        return SimulationResultBuilder.builder().id(id).status(SimulationResult.Status.ERROR).error(reason).build();
     }
 }

@@ -11,20 +11,20 @@ import java.util.concurrent.ConcurrentHashMap;
  * Divides evaluations into parts, of which Spark does one at a time in each of its slots. A part costs the driver some milliseconds
  * whatever is in it, so parts are large; but what an executor does not finish is lost, and at the end of a generation all wait
  * for the last part. So a part takes half of what is left for each slot (guided self-scheduling, Polychronopoulos and Kuck
- * 1987), and at most {@value #LONGEST} s, by the time that such evaluations took before.
+ * 1987), and at most {@value #MAX_SECONDS} s, by the time that such evaluations took before.
  */
 final class Partitioner {
 
     /** Time of the longest parts, s. */
-    static final double LONGEST = 2;
+    static final double MAX_SECONDS = 2;
     /** Time below which a part is not made shorter, s: ten times what it costs. */
-    static final double SHORTEST = 0.05;
-    /** Of what is left, a part has one in so many for each slot. */
+    static final double MIN_SECONDS = 0.05;
+    /** A part takes this fraction (1/n) of what is left for each slot. */
     private static final int SHARES = 2;
     /** Parts for each slot at most while it is not known how long evaluations take. */
     private static final int UNKNOWN = 256;
     /** A time that a clock can tell from none, s. */
-    private static final double LEAST = 1e-6;
+    private static final double MIN_MEASURED = 1e-6;
     /** Weight of the latest part in the mean. */
     private static final double LATEST = 0.2;
 
@@ -42,7 +42,7 @@ final class Partitioner {
 
     /** Takes note of how long a part took. */
     void took(List<SimulationRequest> part, double time) {
-        double each = Math.max(time, LEAST) / part.size();
+        double each = Math.max(time, MIN_MEASURED) / part.size();
         seconds.merge(kind(part.get(0)), each, (mean, latest) -> mean + LATEST * (latest - mean));
     }
 
@@ -77,7 +77,7 @@ final class Partitioner {
      * @param each time that one takes, s, above 0
      */
     static int size(double left, double each, int slots) {
-        double time = Math.max(SHORTEST, Math.min(LONGEST, left / (SHARES * slots)));
+        double time = Math.max(MIN_SECONDS, Math.min(MAX_SECONDS, left / (SHARES * slots)));
         return (int) Math.max(1, Math.min(time / each, Integer.MAX_VALUE));
     }
 

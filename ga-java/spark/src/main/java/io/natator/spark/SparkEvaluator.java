@@ -7,7 +7,7 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.process.Evaluator;
-import io.natator.process.ProcessSimulator;
+import io.natator.process.ProcessEvaluator;
 import io.natator.process.ProgramEnd;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.RequestRejectedException;
@@ -151,8 +151,7 @@ final class SparkEvaluator implements Evaluator {
                     Sha256.of(execution.simulator()),
                     here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),
                     execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut),
-                    hash,
-                    null);
+                    hash, null);
             config = here ? first : like(first);
         }
         return config;
@@ -160,7 +159,7 @@ final class SparkEvaluator implements Evaluator {
 
     /** The hash of the end of the swim on this machine; null if it has no end that others can be compared with. */
     private String swim(SimulationRequest sample) throws InterruptedException {
-        try (ProcessSimulator own = new ProcessSimulator(execution)) {
+        try (ProcessEvaluator own = new ProcessEvaluator(execution)) {
             return own.evaluate(sample).hash();
         }
     }

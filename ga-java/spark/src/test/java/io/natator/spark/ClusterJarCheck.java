@@ -218,8 +218,7 @@ class ClusterJarCheck {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations",
                 "1", "--seed", "3"};
         Path simulator = script("if [[ -n $TEST_NONSENSE && $1 != info ]]; then echo nonsense; exit; fi\n"
-                + "if [[ -n $TEST_HANG && $1 = serve ]]; then sleep 3600; fi\n"
-                + "exec FOLDER/fake-simulator.sh \"$@\"");
+                + "if [[ -n $TEST_HANG && $1 = serve ]]; then sleep 3600; fi\nexec FOLDER/fake-simulator.sh \"$@\"");
         alone(simulator, folder.resolve("alone"), settings);
         Files.writeString(folder.resolve("slow"), "0.03");
         Process nonsense = cluster.addWorker(Map.of("TEST_NONSENSE", "1"), List.of(), "");
@@ -250,8 +249,7 @@ class ClusterJarCheck {
         arguments.addAll(settings);
         arguments.add(folder.resolve("alone").toString());
         assertThat(Main.commandLine().setOut(new PrintWriter(Writer.nullWriter()))
-                .setErr(new PrintWriter(Writer.nullWriter()))
-                .execute(arguments.toArray(String[]::new))).isZero();
+                .setErr(new PrintWriter(Writer.nullWriter())).execute(arguments.toArray(String[]::new))).isZero();
         arguments = new ArrayList<>(List.of("evolve"));
         arguments.addAll(settings);
         arguments.add(folder.resolve("run").toString());
@@ -273,8 +271,7 @@ class ClusterJarCheck {
         assertThat(driver.waitFor()).as(Files.readString(log)).isEqualTo(2);
 
         assertThat(Files.readAllLines(log)).filteredOn(line -> line.startsWith("natator evolve: ")).singleElement()
-                .asString()
-                .matches(
+                .asString().matches(
                         "natator evolve: simulator: no executor can do it; executor \\d on 127.0.0.\\d: instruction set is "
                                 + "portable, the driver's is .*: last digits would differ; set NATATOR_ISA for all to what all have");
     }

@@ -75,7 +75,7 @@ public final class ReplayHtml {
                 html.length / MEGABYTE, framesPerSecond(last), size(maxBytes)));
     }
 
-    /** In a unit in which it is not 0. */
+    /** A size in bytes, kB or MB, whichever does not round to 0. */
     private static String size(long bytes) {
         return bytes >= 100_000 ? String.format(Locale.ROOT, "%.1f MB", bytes / MEGABYTE)
                 : bytes >= 1000 ? String.format(Locale.ROOT, "%.1f kB", bytes / 1000.0) : Numbers.count(bytes, "byte");

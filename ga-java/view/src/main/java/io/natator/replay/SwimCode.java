@@ -28,13 +28,13 @@ final class SwimCode {
 
     /** Time, distance, velocity (x, y, z), momentum, angular momentum, mean and largest density error. */
     static final int SCALARS = 9;
-    /** Of the range that a coordinate of the water has. */
+    /** Bits of a coordinate of the water. */
     static final int WATER_BITS = 16;
-    /** Of the range that a coordinate of the body has. */
+    /** Bits of a coordinate of the body. */
     static final int BODY_BITS = 20;
     static final int DENSITY_BITS = 8;
     private static final int AXES = 3;
-    /** By which the better code of a table is found. */
+    /** Rows that are coded to find the better code of a table. */
     private static final int TRIED_ROWS = 40;
     private static final List<String> SCENE_KEYS = List.of("program", "scene", "overrides", "gait", "scheme",
             "precision",
@@ -183,8 +183,7 @@ final class SwimCode {
         }).toArray(Quantiser[]::new);
     }
 
-    private double[] ends(int[] particles, int components, int component,
-            Function<StreamFrame, float[]> field) {
+    private double[] ends(int[] particles, int components, int component, Function<StreamFrame, float[]> field) {
         double low = Double.POSITIVE_INFINITY;
         double high = Double.NEGATIVE_INFINITY;
         for (StreamFrame frame : swim.frames()) {

@@ -1,10 +1,10 @@
 package io.natator.stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
 import io.natator.config.Scheme;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Locale;
 import java.util.stream.Collectors;
 
 /**
@@ -36,16 +36,15 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         return new StreamOptions(scene, overrides, gait, null, null, ALL, 0, until, true, false);
     }
 
-    /** The same with another scheme and precision; null leaves either to the scene and the program. */
+    /** These options with another scheme and precision; null leaves either to the scene and the program. */
     public StreamOptions with(Scheme newScheme, String newPrecision) {
         return new StreamOptions(scene, overrides, gait, newScheme, newPrecision, fields, rate, until, lossless,
                 paused);
     }
 
-    /** The same with other fields. */
+    /** These options with other fields. */
     public StreamOptions withFields(List<StreamField> newFields) {
-        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless,
-                paused);
+        return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless, paused);
     }
 
     /** The arguments after the program's name. */
@@ -53,7 +52,7 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         List<String> arguments = new ArrayList<>(List.of("stream", scene));
         add(arguments, "--overrides", overrides);
         add(arguments, "--gait", gait);
-        add(arguments, "--scheme", scheme == null ? null : scheme.name().toLowerCase(Locale.ROOT));
+        add(arguments, "--scheme", scheme == null ? null : Json.name(scheme));
         add(arguments, "--precision", precision);
         add(arguments, "--fields", fields.stream().sorted().map(StreamField::text).collect(Collectors.joining(",")));
         add(arguments, "--rate", rate);

@@ -3,6 +3,7 @@ package io.natator.stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
 import io.natator.process.ErrorTail;
+import io.natator.process.ExitStatus;
 import io.natator.process.ProcessGroup;
 import io.natator.protocol.RefusedSceneException;
 import io.natator.protocol.RequestRejectedException;
@@ -26,7 +27,6 @@ public final class StreamProcess implements AutoCloseable {
 
     /** Commands that wait to be written; a program that takes none any more must not cost memory. */
     static final int QUEUED_COMMANDS = 1024;
-    private static final int EXIT_BAD_INPUT = 2;
     private static final int BUFFER_BYTES = 1 << 16;
     private static final long GRACE_MILLISECONDS = 5000;
 
@@ -135,7 +135,7 @@ public final class StreamProcess implements AutoCloseable {
             throw new StreamException("simulator closed its output" + how);
         }
         int status = process.exitValue();
-        if (status == EXIT_BAD_INPUT && !begun && !said().isEmpty()) {
+        if (status == ExitStatus.BAD_INPUT && !begun && !said().isEmpty()) {
             throw new RefusedSceneException(said());
         }
         if (status != 0 && !closed) {

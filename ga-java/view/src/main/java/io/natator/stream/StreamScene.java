@@ -200,11 +200,6 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         return fluid.get(1);
     }
 
-    /** Whether a particle is one of the fluid's. */
-    public boolean isFluid(int particle) {
-        return particle >= firstFluid() && particle < firstFluid() + fluidCount();
-    }
-
     /** Length of the body of a {@code FRAM}, bytes. */
     public int frameBytes() {
         int perParticle = fields.stream().mapToInt(StreamField::components).sum();

@@ -17,7 +17,7 @@ import java.util.Set;
  */
 record BodyOutline(String label, double length, List<double[]> sections, List<Double> joints) {
 
-    /** Of a run's generations, besides the scene's. */
+    /** Bodies of generations that are shown besides the scene's. */
     private static final int BODIES = 4;
 
     /** The scene's body, and the best of generations from the first to the last; null of a run that evolves gaits alone. */

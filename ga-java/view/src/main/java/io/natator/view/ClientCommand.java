@@ -85,7 +85,7 @@ record ClientCommand(String what, ObjectNode content) {
         content.properties().forEach(entry -> check(entry.getValue(), entry.getKey(), files));
     }
 
-    /** Of whatever the scene may consist of: its creature, companions, obstacles, and what a scene has in future. */
+    /** Checks every part of a scene: creature, companions, obstacles, and what scenes will have in future. */
     private static void check(JsonNode node, String where, Set<String> files) {
         if (node.isArray()) {
             for (int i = 0; i < node.size(); i++) {

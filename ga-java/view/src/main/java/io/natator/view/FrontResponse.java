@@ -55,7 +55,7 @@ record FrontResponse(List<Goal> goals, List<Point> points) {
     record Point(List<Double> values, boolean isBest, int runs, Gait gait, ObjectNode overrides) {
     }
 
-    /** Of a run; null with a single objective, or while nothing is measured. */
+    /** The front of a run; null with a single objective, or while nothing is measured. */
     static FrontResponse of(RunReader run) {
         List<Individual> front = run.front();
         if (front.isEmpty()) {

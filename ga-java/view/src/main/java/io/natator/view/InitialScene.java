@@ -3,9 +3,9 @@ package io.natator.view;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
-import java.util.Locale;
 
 /**
  * What the page shows first.
@@ -23,7 +23,7 @@ public record InitialScene(String scene, ObjectNode overrides, Gait gait) {
         }
         ObjectNode all = overrides == null ? JsonNodeFactory.instance.objectNode() : overrides.deepCopy();
         if (scheme != null) {
-            all.put("scheme", scheme.name().toLowerCase(Locale.ROOT));
+            all.put("scheme", Json.name(scheme));
         }
         return all;
     }

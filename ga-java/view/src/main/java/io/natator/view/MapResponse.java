@@ -40,7 +40,7 @@ record MapResponse(String worth, List<Double> beats, List<Double> costs, List<El
             ObjectNode overrides) {
     }
 
-    /** Of a run; null without a map, or while it is empty. */
+    /** The map of a run; null without one, or while it is empty. */
     static MapResponse of(RunReader run) {
         EliteMap map = run.elites();
         if (map == null || map.moving().isEmpty()) {

@@ -4,7 +4,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.MergePatch;
 import io.natator.body.Genome;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
@@ -91,7 +91,7 @@ record RunResponse(int id, String name, String scene, ObjectNode overrides, Opti
         return InitialScene.patch(settings.problem().overrides(), settings.problem().scheme());
     }
 
-    /** The same with a swimmer's body; null where that is the scene's own. */
+    /** The patch with a swimmer's body; null where that is the scene's own. */
     static ObjectNode overrides(EvolutionSettings settings, Swimmer swimmer) {
         return swimmer.body() == null ? null
                 : InitialScene.patch(MergePatch.both(settings.problem().overrides(), swimmer.body()),
@@ -108,11 +108,11 @@ record RunResponse(int id, String name, String scene, ObjectNode overrides, Opti
         return generations;
     }
 
-    /** Of several starts, the gait that was the best so far at a generation's end. */
+    /** With several starts, the gait that was the best so far at each generation's end. */
     private static List<Best> champions(RunReader run, List<Generation> generations) {
-        Map<Integer, JudgedGait> bests = run.bestsByGeneration();
+        Map<Integer, GaitScore> bests = run.bestsByGeneration();
         return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
-            JudgedGait best = bests.get(one.generation());
+            GaitScore best = bests.get(one.generation());
             return Best.of(one, best.score(), run.settings(), best.swimmer());
         }).toList();
     }

@@ -25,7 +25,7 @@ final class SavedFiles implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(SavedFiles.class);
     private static final String FILE_ENDING = ".json";
     private static final long LOOK_MILLISECONDS = 250;
-    private static final int MOST_BASES = 8;
+    private static final int MAX_BASES = 8;
     private static final Stamp MISSING = new Stamp(null, -1);
 
     private final Map<String, Map<Path, Stamp>> seen = new HashMap<>();
@@ -87,7 +87,7 @@ final class SavedFiles implements AutoCloseable {
 
     private static Map<Path, Stamp> stamps(String scene) {
         Map<Path, Stamp> stamps = new HashMap<>();
-        add(scene, stamps, MOST_BASES);
+        add(scene, stamps, MAX_BASES);
         return stamps;
     }
 
@@ -110,7 +110,7 @@ final class SavedFiles implements AutoCloseable {
         }
     }
 
-    /** Of what a file names there are two places: beside the file, and from the working directory, where it is looked for next. */
+    /** A named file is looked for beside the file that names it, then from the working directory. */
     private static void addNamed(Path file, String name, Map<Path, Stamp> stamps, int levels) {
         Path beside;
         try {

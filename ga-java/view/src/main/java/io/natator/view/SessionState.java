@@ -12,7 +12,7 @@ import io.natator.stream.StreamScene;
  */
 final class SessionState {
 
-    /** As it was when the scene began. */
+    /** Options of the scene when it began. */
     private StreamOptions options;
     private boolean paused;
     private JsonNode rate;

@@ -10,7 +10,6 @@ import io.natator.stream.StreamProcess;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.Iterator;
@@ -35,11 +34,11 @@ import org.slf4j.LoggerFactory;
 final class StreamSession implements AutoCloseable {
 
     private static final Logger LOG = LoggerFactory.getLogger(StreamSession.class);
-    private static final int MOST_RESTARTS = 3;
-    private static final int MOST_REASON_BYTES = 100;
+    private static final int MAX_RESTARTS = 3;
+    private static final int MAX_REASON_BYTES = 100;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
 
-    private final Session socket;
+    final Session socket;
     private final Path simulator;
     private final Set<String> files;
     private final ReentrantLock sending = new ReentrantLock();
@@ -199,7 +198,7 @@ final class StreamSession implements AutoCloseable {
         while (now - deaths.getFirst() > WITHIN_NANOSECONDS) {
             deaths.removeFirst();
         }
-        return deaths.size() <= MOST_RESTARTS;
+        return deaths.size() <= MAX_RESTARTS;
     }
 
     /** From here on the page may start another simulation. */
@@ -294,8 +293,8 @@ final class StreamSession implements AutoCloseable {
 
     /** The reason of a close frame has at most 123 bytes. */
     static String shortened(String reason) {
-        int end = Math.min(reason.length(), MOST_REASON_BYTES);
-        while (reason.substring(0, end).getBytes(StandardCharsets.UTF_8).length > MOST_REASON_BYTES) {
+        int end = Math.min(reason.length(), MAX_REASON_BYTES);
+        while (reason.substring(0, end).getBytes(StandardCharsets.UTF_8).length > MAX_REASON_BYTES) {
             end--;
         }
         return reason.substring(0, end);
@@ -308,11 +307,6 @@ final class StreamSession implements AutoCloseable {
     /** Process id of the simulator, for those who watch it; −1 without one. */
     synchronized long pid() {
         return course == null ? -1 : process.pid();
-    }
-
-    /** How long its page may take nothing; zero for any time. */
-    Duration mostSilence() {
-        return socket.getIdleTimeout();
     }
 
     /** Ends the simulator. The socket is the caller's. */

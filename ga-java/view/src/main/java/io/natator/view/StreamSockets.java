@@ -12,10 +12,10 @@ import java.util.concurrent.Semaphore;
 import java.util.concurrent.TimeUnit;
 import org.eclipse.jetty.websocket.api.StatusCode;
 
-/** All sockets, each with a session of its own, and no more than {@value #MOST_SESSIONS} at a time. */
+/** All sockets, each with a session of its own, and no more than {@value #MAX_SESSIONS} at a time. */
 final class StreamSockets implements AutoCloseable {
 
-    static final int MOST_SESSIONS = 4;
+    static final int MAX_SESSIONS = 4;
     /** A page that is loaded anew opens its socket before the end of the old one is noticed. */
     private static final long PATIENCE_SECONDS = 5;
     private static final long PING_SECONDS = 15;
@@ -23,7 +23,7 @@ final class StreamSockets implements AutoCloseable {
     private final Path simulator;
     private final Set<String> files;
     private final Map<String, StreamSession> sessions = new ConcurrentHashMap<>();
-    private final Semaphore free = new Semaphore(MOST_SESSIONS, true);
+    private final Semaphore free = new Semaphore(MAX_SESSIONS, true);
 
     /** See {@link StreamSession}. */
     StreamSockets(Path simulator, Set<String> files) {
@@ -52,7 +52,7 @@ final class StreamSockets implements AutoCloseable {
 
     private void open(WsContext context) throws InterruptedException {
         if (!free.tryAcquire(PATIENCE_SECONDS, TimeUnit.SECONDS)) {
-            context.closeSession(StatusCode.TRY_AGAIN_LATER, MOST_SESSIONS + " simulations run already; close a page");
+            context.closeSession(StatusCode.TRY_AGAIN_LATER, MAX_SESSIONS + " simulations run already; close a page");
             return;
         }
         // Tells a page that is paused from one that has gone.

@@ -43,15 +43,15 @@ public final class ViewServer implements AutoCloseable {
     /** Where it listens unless told otherwise. */
     public static final int DEFAULT_PORT = 6287;
     /** How many simulations it runs at a time. */
-    public static final int MOST_SIMULATIONS = StreamSockets.MOST_SESSIONS;
+    public static final int MAX_SIMULATIONS = StreamSockets.MAX_SESSIONS;
     private static final Logger LOG = LoggerFactory.getLogger(ViewServer.class);
-    private static final int MOST_MESSAGE_BYTES = 64 << 10;
+    private static final int MAX_MESSAGE_BYTES = 64 << 10;
     /**
      * How long a page may take nothing: for ever. One that is stopped (in a debugger, or put to sleep by its browser) would
      * else lose its simulation, which stands still meanwhile and costs memory alone. A page that has gone closes its socket;
      * where a network swallows that, TCP gives up the pings that nobody acknowledges, after about a quarter of an hour.
      */
-    private static final Duration MOST_SILENCE = Duration.ZERO;
+    private static final Duration IDLE_TIMEOUT = Duration.ZERO;
     private static final JarFiles APP = new JarFiles("io/natator/view/app");
     private static final String WEBJAR = "META-INF/resources/webjars/three/0.181.1";
     private static final JarFiles THREE = new JarFiles(WEBJAR + "/build");
@@ -109,8 +109,7 @@ public final class ViewServer implements AutoCloseable {
             }
         } catch (UnknownHostException e) {
             throw new InvalidInputException(
-                    "--host is " + host + ", an unknown name; expected a name or address of this "
-                            + "machine",
+                    "--host is " + host + ", an unknown name; expected a name or address of this machine",
                     e);
         } catch (SocketException e) {
             LOG.debug("network interfaces not known", e);
@@ -152,10 +151,10 @@ public final class ViewServer implements AutoCloseable {
     }
 
     private static void limit(JettyWebSocketServletFactory factory) {
-        factory.setMaxTextMessageSize(MOST_MESSAGE_BYTES);
-        factory.setMaxBinaryMessageSize(MOST_MESSAGE_BYTES);
-        factory.setMaxFrameSize(MOST_MESSAGE_BYTES);
-        factory.setIdleTimeout(MOST_SILENCE);
+        factory.setMaxTextMessageSize(MAX_MESSAGE_BYTES);
+        factory.setMaxBinaryMessageSize(MAX_MESSAGE_BYTES);
+        factory.setMaxFrameSize(MAX_MESSAGE_BYTES);
+        factory.setIdleTimeout(IDLE_TIMEOUT);
     }
 
     private void route(RoutesConfig routes) {

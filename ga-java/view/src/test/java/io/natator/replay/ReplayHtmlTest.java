@@ -71,8 +71,7 @@ class ReplayHtmlTest {
                 density[i] = random.nextFloat();
             }
             all.add(new StreamFrame(1, frame, 0, true, false, 0.0125 * frame, 0, 0.1 * frame, new float[] {1, 2, 3}, 4,
-                    5, 6, 7,
-                    new float[] {0.5f}, position, new float[0], density));
+                    5, 6, 7, new float[] {0.5f}, position, new float[0], density));
         }
         try {
             return new Replay(title, Json.parse(json.toString(), StreamScene.class), json.toString(), all);
@@ -152,8 +151,7 @@ class ReplayHtmlTest {
         assertThat(found(SWIM, html)).hasSize(2);
         String loading = html.replaceAll("<script type=\"text/plain\"[^>]*>[^<]*</script>", "");
         assertThat(loading).doesNotContainPattern("https?://").doesNotContainPattern("\\ssrc=")
-                .doesNotContain("@import")
-                .doesNotContain("url(").doesNotContain("fetch(");
+                .doesNotContain("@import").doesNotContain("url(").doesNotContain("fetch(");
         assertThat(found(Pattern.compile("href=\"([^\"]*)\""), loading))
                 .allSatisfy(link -> assertThat(link).startsWith("data:"));
     }

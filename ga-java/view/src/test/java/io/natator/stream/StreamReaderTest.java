@@ -182,8 +182,8 @@ class StreamReaderTest {
 
     @Test
     void aSceneThatGoesOnTellsOnlyWhatHasChanged() throws IOException {
-        StreamReader reader = reader(new StreamBytes().json("SCEN", StreamBytes.scene())
-                .json("SCEN", "{\"number\":2,\"restarted\":false,\"duration\":9}").frame(2, 1));
+        StreamReader reader = reader(
+                begun().json("SCEN", "{\"number\":2,\"restarted\":false,\"duration\":9}").frame(2, 1));
 
         StreamScene first = ((StreamMessage.Scene) reader.next()).scene();
         StreamMessage.Scene second = (StreamMessage.Scene) reader.next();
@@ -199,7 +199,7 @@ class StreamReaderTest {
     void aSceneThatStartsAnewOwesNothingToTheOneBefore() {
         ObjectNode other = StreamBytes.scene();
         other.remove("mass");
-        StreamReader reader = reader(new StreamBytes().json("SCEN", StreamBytes.scene()).json("SCEN", other));
+        StreamReader reader = reader(begun().json("SCEN", other));
 
         assertThatThrownBy(() -> {
             reader.next();
@@ -271,8 +271,7 @@ class StreamReaderTest {
             assertThat(wrong).isNotEqualTo(skin);
             scene.set("skin", Json.parse(wrong, JsonNode.class));
             assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
-                    .isInstanceOf(StreamException.class)
-                    .hasMessageContaining("skin");
+                    .isInstanceOf(StreamException.class).hasMessageContaining("skin");
         }
     }
 }

@@ -18,8 +18,7 @@ class StreamSessionTest {
     private final List<String> sent = new CopyOnWriteArrayList<>();
     private final List<Callback> done = new CopyOnWriteArrayList<>();
     private final Session socket = (Session) Proxy.newProxyInstance(Session.class.getClassLoader(),
-            new Class<?>[] {Session.class},
-            (proxy, method, arguments) -> {
+            new Class<?>[] {Session.class}, (proxy, method, arguments) -> {
                 if (method.getName().equals("sendText")) {
                     sent.add((String) arguments[0]);
                     done.add((Callback) arguments[1]);

@@ -17,7 +17,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 class ViewPictureTest extends ViewBrowserTest {
 
     /** An empty picture has its background's few colours. */
-    private static final int LEAST_COLOURS = 500;
+    private static final int MIN_COLOURS = 500;
 
     /** A browser that says it has a graphics card. */
     private static final String CARD = """
@@ -33,7 +33,7 @@ class ViewPictureTest extends ViewBrowserTest {
         await("natator.fps() > 0");
 
         BufferedImage before = picture(get("picture-a"));
-        assertThat(colours(before)).isGreaterThan(LEAST_COLOURS);
+        assertThat(colours(before)).isGreaterThan(MIN_COLOURS);
         await("natator.frame() > " + (number("natator.frame()") + 60));
         assertThat(difference(before, picture(get("picture-a")))).as("what has moved").isGreaterThan(0.005);
         assertThat(get("time-a")).containsText("s");
@@ -58,7 +58,7 @@ class ViewPictureTest extends ViewBrowserTest {
             choose("water-" + shown);
             BufferedImage with = restingPicture();
             keepPicture("ViewPictureTest-" + drawing + "-" + shown);
-            assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(LEAST_COLOURS);
+            assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(MIN_COLOURS);
             assertThat(difference(without, with)).as("share of %s", shown).isGreaterThan(0.2);
         }
     }
@@ -148,6 +148,6 @@ class ViewPictureTest extends ViewBrowserTest {
         page.evaluate("() => { window.isQuick = true; }");
         await("natator.samples() >= 4");
         assertThat(number("natator.share()")).isOne();
-        assertThat(colours(picture(get("picture-a")))).isGreaterThan(LEAST_COLOURS);
+        assertThat(colours(picture(get("picture-a")))).isGreaterThan(MIN_COLOURS);
     }
 }

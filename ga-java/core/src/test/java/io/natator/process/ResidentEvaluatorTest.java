@@ -16,7 +16,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
-class ResidentSimulatorTest {
+class ResidentEvaluatorTest {
 
     /** For an answer, s; reached by failures only. */
     private static final double PATIENCE = 300;
@@ -25,14 +25,14 @@ class ResidentSimulatorTest {
     private Path folder;
 
     private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
-        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+        try (Evaluator simulator = new ResidentEvaluator(FakeSimulator.execution(folder, timeoutSeconds))) {
             return simulator.evaluate(FakeSimulator.request(7, scene));
         }
     }
 
     @Test
     void keepsOneProcessForManyEvaluations() throws InterruptedException {
-        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ResidentEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             SimulationResult first = simulator.evaluate(FakeSimulator.request(1, "thesis/creature-1"));
             long[] processes = ProcessHandle.current().children().mapToLong(ProcessHandle::pid).toArray();
             SimulationResult second = simulator.evaluate(FakeSimulator.request(2, "thesis/creature-1"));
@@ -68,7 +68,7 @@ class ResidentSimulatorTest {
 
     @Test
     void aProcessThatSaysTooMuchCostsTheNextEvaluationNothing() throws InterruptedException {
-        try (Evaluator simulator = new ResidentSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator simulator = new ResidentEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             simulator.evaluate(FakeSimulator.request(1, "fault/two-lines"));
             Thread.sleep(100);
 

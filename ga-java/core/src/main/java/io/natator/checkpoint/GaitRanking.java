@@ -16,7 +16,7 @@ import java.util.NavigableSet;
 import java.util.TreeSet;
 
 /** The gaits of a run as its evaluations become known one after another. */
-public final class JudgedGaits {
+public final class GaitRanking {
 
     private final EvolutionSettings settings;
     private final Genome genome;
@@ -54,20 +54,20 @@ public final class JudgedGaits {
             return measured && !unstable && estimate.runs().size() >= settings.search().starts();
         }
 
-        JudgedGait judged() {
+        GaitScore toScore() {
             swimmer = swimmer == null ? new Swimmer(first.gait(), genome.body(first.genes())) : swimmer;
-            return new JudgedGait(first.genes(), swimmer, first.generation(), estimate.score(), estimate.runs().size());
+            return new GaitScore(first.genes(), swimmer, first.generation(), estimate.score(), estimate.runs().size());
         }
     }
 
     /** Those of these evaluations alone, the best first. */
-    public static List<JudgedGait> ranked(EvolutionSettings settings, List<EvaluationRecord> evaluations) {
-        JudgedGaits gaits = new JudgedGaits(settings);
+    public static List<GaitScore> ranked(EvolutionSettings settings, List<EvaluationRecord> evaluations) {
+        GaitRanking gaits = new GaitRanking(settings);
         evaluations.forEach(gaits::add);
         return gaits.ranked();
     }
 
-    JudgedGaits(EvolutionSettings settings) {
+    GaitRanking(EvolutionSettings settings) {
         this.settings = settings;
         this.genome = settings.problem().genome();
     }
@@ -86,16 +86,16 @@ public final class JudgedGaits {
         }
     }
 
-    /** Whom the run would take for its winner, had it ended here; null without any. */
-    JudgedGait best() {
+    /** The gait that the run would take for its winner, had it ended here; null without any. */
+    GaitScore best() {
         List<Runs> best = ranked.stream()
                 .limit(settings.search().starts() == 1 ? 1 : Math.max(settings.search().elites(), 1)).toList();
         return best.isEmpty() ? null
-                : best.get(LowerConfidenceBound.of(best.stream().map(one -> one.estimate).toList())).judged();
+                : best.get(LowerConfidenceBound.of(best.stream().map(one -> one.estimate).toList())).toScore();
     }
 
     /** All that swam, the best first. */
-    List<JudgedGait> ranked() {
-        return ranked.stream().map(Runs::judged).toList();
+    List<GaitScore> ranked() {
+        return ranked.stream().map(Runs::toScore).toList();
     }
 }

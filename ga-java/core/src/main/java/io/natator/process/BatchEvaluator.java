@@ -16,7 +16,7 @@ import java.util.function.Consumer;
  * GPUs or commands, to a process of each an equal share. Evaluations that several threads ask for share a batch. A GPU or
  * command that fails leaves its share to the others.
  */
-public final class BatchSimulator implements Evaluator {
+public final class BatchEvaluator implements Evaluator {
 
     private static final long POLL_MILLISECONDS = 100;
 
@@ -31,7 +31,7 @@ public final class BatchSimulator implements Evaluator {
      *
      * @param settings with a time limit, which is that of one evaluation
      */
-    public BatchSimulator(ExecutionSettings settings) {
+    public BatchEvaluator(ExecutionSettings settings) {
         ServeCommands commands = new ServeCommands(settings);
         for (ServeCommands.Command command : commands.all()) {
             threads.add(new Thread(new BatchWorker(queue, commands, command, group, settings.timeout()), "batches"));
@@ -66,7 +66,7 @@ public final class BatchSimulator implements Evaluator {
         }
     }
 
-    /** Whom a thread that has ended worked for would wait for ever. */
+    /** Rethrows what ended a worker thread; its callers would block for ever. */
     private void failIfThreadFailed() {
         if (failure.get() instanceof Error lacking) {
             throw lacking;

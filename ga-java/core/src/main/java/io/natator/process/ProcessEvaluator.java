@@ -18,15 +18,12 @@ import org.slf4j.LoggerFactory;
  * standard output. A process that crashes, hangs or answers nonsense is tried once more; if that fails too, the
  * evaluation is recorded as failed and nothing else suffers.
  */
-public final class ProcessSimulator extends WorkerPool {
+public final class ProcessEvaluator extends WorkerPool {
 
     /** How often an evaluation is tried. */
     static final int ATTEMPTS = 2;
 
-    private static final Logger LOG = LoggerFactory.getLogger(ProcessSimulator.class);
-    private static final int EXIT_OK = 0;
-    private static final int EXIT_BAD_INPUT = 2;
-    private static final int EXIT_UNSTABLE = 3;
+    private static final Logger LOG = LoggerFactory.getLogger(ProcessEvaluator.class);
 
     private final NativeProgram program;
     private final List<List<String>> arguments;
@@ -37,7 +34,7 @@ public final class ProcessSimulator extends WorkerPool {
      *
      * @param settings with a time limit
      */
-    public ProcessSimulator(ExecutionSettings settings) {
+    public ProcessEvaluator(ExecutionSettings settings) {
         super(settings.workers());
         this.program = new NativeProgram(settings.simulator(), settings.timeout());
         this.arguments = settings.devices().stream()
@@ -76,13 +73,12 @@ public final class ProcessSimulator extends WorkerPool {
         } catch (SimulatorFailure e) {
             throw new SimulatorFailure(e.getMessage() + end(output), e);
         }
-        if (result.status() == SimulationResult.Status.ERROR && output.exitStatus() != EXIT_OK) {
-            throw new RequestRejectedException(result.error(), output.exitStatus() == EXIT_BAD_INPUT);
+        if (result.status() == SimulationResult.Status.ERROR && output.exitStatus() != ExitStatus.OK) {
+            throw new RequestRejectedException(result.error(), output.exitStatus() == ExitStatus.BAD_INPUT);
         }
-        int expected = result.status() == SimulationResult.Status.UNSTABLE ? EXIT_UNSTABLE : EXIT_OK;
+        int expected = result.status() == SimulationResult.Status.UNSTABLE ? ExitStatus.UNSTABLE : ExitStatus.OK;
         if (result.id() == null || result.id() != request.id()) {
-            throw new SimulatorFailure("no valid result: id is " + result.id() + ", not " + request.id()
-                    + end(output));
+            throw new SimulatorFailure("no valid result: id is " + result.id() + ", not " + request.id() + end(output));
         }
         if (output.exitStatus() != expected || result.status() == SimulationResult.Status.ERROR) {
             throw new SimulatorFailure("no valid result: status " + result.status().name().toLowerCase()

@@ -26,7 +26,7 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
-class BatchSimulatorTest {
+class BatchEvaluatorTest {
 
     /** For an answer, s; reached by failures only. */
     private static final double PATIENCE = 300;
@@ -45,7 +45,7 @@ class BatchSimulatorTest {
 
     private List<SimulationResult> evaluate(List<SimulationRequest> requests, double timeoutSeconds)
             throws InterruptedException {
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+        try (Evaluator evaluator = new BatchEvaluator(FakeSimulator.execution(folder, timeoutSeconds))) {
             return evaluator.evaluate(requests);
         }
     }
@@ -94,7 +94,7 @@ class BatchSimulatorTest {
 
     @Test
     void aRejectedRequestEndsItsCallOnly() throws InterruptedException {
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator evaluator = new BatchEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "fault/rejected")))
                     .isInstanceOf(RequestRejectedException.class).hasMessageContaining("gait.frequency is 70");
             assertThat(evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")).status())
@@ -118,7 +118,7 @@ class BatchSimulatorTest {
                         serialize(generator, serializers);
                     }
                 }));
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator evaluator = new BatchEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             for (SimulationRequest request : List.of(tooLarge, FakeSimulator.request(2, "thesis/creature-1"))) {
                 assertThatThrownBy(() -> evaluator.evaluate(request)).isInstanceOf(OutOfMemoryError.class)
                         .hasMessage("no room for a line");
@@ -130,7 +130,7 @@ class BatchSimulatorTest {
     void callersShareTheProcessAndGetTheirOwn() throws InterruptedException {
         List<Thread> callers = new ArrayList<>();
         List<List<SimulationResult>> all = new ArrayList<>();
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+        try (Evaluator evaluator = new BatchEvaluator(FakeSimulator.execution(folder, PATIENCE))) {
             for (int i = 0; i < 8; i++) {
                 List<SimulationResult> own = new ArrayList<>();
                 all.add(own);

@@ -16,9 +16,9 @@ import org.slf4j.LoggerFactory;
  * Native processes that stay alive, as many as evaluations were ever under way at once, each with one evaluation at a
  * time. A process that fails is replaced; its evaluation is tried once more in another one.
  */
-public final class ResidentSimulator extends WorkerPool {
+public final class ResidentEvaluator extends WorkerPool {
 
-    private static final Logger LOG = LoggerFactory.getLogger(ResidentSimulator.class);
+    private static final Logger LOG = LoggerFactory.getLogger(ResidentEvaluator.class);
 
     private final ExecutionSettings settings;
     private final ServeCommands commands;
@@ -30,7 +30,7 @@ public final class ResidentSimulator extends WorkerPool {
      *
      * @param settings with a time limit
      */
-    public ResidentSimulator(ExecutionSettings settings) {
+    public ResidentEvaluator(ExecutionSettings settings) {
         super(settings.workers());
         this.settings = settings;
         this.commands = new ServeCommands(settings);
@@ -42,14 +42,14 @@ public final class ResidentSimulator extends WorkerPool {
         return () -> {
             String reason = "";
             ServeCommands.Command tried = null;
-            for (int attempt = 1; attempt <= ProcessSimulator.ATTEMPTS; attempt++) {
+            for (int attempt = 1; attempt <= ProcessEvaluator.ATTEMPTS; attempt++) {
                 try {
                     ServeProcess process = take(tried, request);
                     tried = process.command();
                     return attempt(process, request, input);
                 } catch (SimulatorFailure e) {
                     reason = e.getMessage();
-                    LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
+                    LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessEvaluator.ATTEMPTS,
                             reason);
                 } finally {
                     group.failIfStopped();

@@ -12,5 +12,5 @@ import java.util.List;
  * @param score      its worth, as the run judges
  * @param runs       how many runs that rests on
  */
-public record JudgedGait(List<Double> genes, Swimmer swimmer, int generation, double score, int runs) {
+public record GaitScore(List<Double> genes, Swimmer swimmer, int generation, double score, int runs) {
 }
