@@ -51,7 +51,7 @@ public:
     /// starts anew.
     bool step();
     /// Sets the gait and advances by one time step. Throws InputError when the gait does not fit (set_gait).
-    bool step(const Gait& gait);
+    bool step(const Gait& next);
 
     /// Starts another scene. Throws InputError.
     void load(const SimulationSetup& setup);
