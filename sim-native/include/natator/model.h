@@ -29,7 +29,7 @@ struct WaterBox {
 
 /// The water on a grid of cubic cells, in the coordinates of its tank; values are by cell, x first, then y, then z.
 struct WaterField {
-    Eigen::Vector3i cells{0, 0, 0};
+    Eigen::Vector3i cells{0, 0, 0};   ///< along x, y, z
     double cell = 0;                  ///< edge of a cell, length
     Eigen::Vector3d corner{0, 0, 0};  ///< the grid's lowest, length
     /// length/s; 0 where there is no water, about the body's where that is, in scheme `lattice`
