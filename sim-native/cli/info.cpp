@@ -180,8 +180,7 @@ void run_info(const InfoOptions& options) {
     if (options.scene.empty() && !options.overrides.empty()) throw InputError("--overrides: needs a scene");
     if (options.scene.empty() && options.definition) throw InputError("--definition: needs a scene");
     if (options.scene.empty() && options.gait_template) throw InputError("--gait-template: needs a scene");
-    const auto overrides =
-        options.overrides.empty() ? nlohmann::json::object() : read_json_argument(options.overrides, "--overrides");
+    const nlohmann::json overrides = read_overrides_argument(options.overrides);
     if (options.definition) {
         load_scene(options.scene, overrides);  // refuses what is wrong
         print(scene_definition(options.scene, overrides).dump(options.json ? -1 : 2) + "\n");

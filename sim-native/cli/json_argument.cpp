@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/field.h"
 #include "base/strict_json.h"
 
 namespace natator::cli {
@@ -29,6 +30,14 @@ std::string json_argument_name(const std::string& argument, const std::string& o
 
 nlohmann::json read_json_argument(const std::string& argument, const std::string& name) {
     return is_text(argument) ? parse_json(argument, name) : read_json_file(argument);
+}
+
+nlohmann::json read_overrides_argument(const std::string& argument) {
+    if (argument.empty()) return nlohmann::json::object();
+    nlohmann::json overrides = read_json_argument(argument, "--overrides");
+    const fields::Place place{"command line", json_argument_name(argument, "--overrides")};
+    if (!overrides.is_object()) fields::refuse(place, overrides, "an object");
+    return overrides;
 }
 
 std::string request_name(const std::string& argument) {

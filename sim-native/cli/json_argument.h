@@ -9,6 +9,10 @@ namespace natator::cli {
 /// Throws InputError.
 nlohmann::json read_json_argument(const std::string& argument, const std::string& name);
 
+/// --overrides, from a file or as JSON text; without an argument an empty object. Throws InputError for what is no
+/// object.
+nlohmann::json read_overrides_argument(const std::string& argument);
+
 /// A request, from a file or as JSON text; without an argument, or with "-", from standard input. Throws InputError.
 nlohmann::json read_request(const std::string& argument);
 

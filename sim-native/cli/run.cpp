@@ -48,8 +48,7 @@ bool run_on_gpu(const RunOptions& options, const Scene& scene) {
 }
 
 Scene load(const RunOptions& options) {
-    json overrides = json::object();
-    if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
+    json overrides = read_overrides_argument(options.overrides);
     if (options.duration) overrides["duration"] = *options.duration;
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     return load_scene(options.scene, overrides);

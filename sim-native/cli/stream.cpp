@@ -30,8 +30,7 @@ constexpr std::size_t max_waiting = 64;  // commands, beside as many that were t
 SimulationSetup read_setup(const StreamOptions& options) {
     SimulationSetup setup;
     setup.scene = options.scene;
-    nlohmann::json overrides = nlohmann::json::object();
-    if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
+    nlohmann::json overrides = read_overrides_argument(options.overrides);
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     setup.start = options.start;

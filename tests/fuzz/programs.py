@@ -289,6 +289,8 @@ class Stream(Resident):
                 body, self.buffer = self.buffer[8:8 + length], self.buffer[8 + length:]
                 if name == b"FRAM":
                     check_frame(body)
+                elif name == b"WATR":
+                    check_water(body)
                 elif name in (b"SCEN", b"SENS", b"STOP"):
                     parse(body.decode("utf-8", "strict"), ("mass", "skin"))
                 elif name == b"ANSW":
@@ -307,8 +309,18 @@ class Stream(Resident):
 
 def check_frame(body):
     """All numbers of a frame are finite."""
-    doubles = struct.unpack_from("<3d", body, 16)
-    floats = struct.unpack_from(f"<{(len(body) - 40) // 4}f", body, 40)
-    for value in (*doubles, sum(floats)):
+    check_finite("a frame", struct.unpack_from("<3d", body, 16), body[40:])
+
+
+def check_water(body):
+    """As many cells as it says; all numbers are finite."""
+    x, y, z = struct.unpack_from("<3I", body, 8)
+    if len(body) != 64 + 16 * x * y * z:
+        raise Fault(f"{len(body)} bytes of {x} x {y} x {z} cells")
+    check_finite("the water", struct.unpack_from("<5d", body, 24), body[64:])
+
+
+def check_finite(what, doubles, floats):
+    for value in (*doubles, sum(struct.unpack(f"<{len(floats) // 4}f", floats))):
         if value - value != 0:
-            raise Fault("a number in a frame that is not finite")
+            raise Fault(f"a number in {what} that is not finite")

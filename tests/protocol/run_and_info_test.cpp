@@ -179,9 +179,17 @@ TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     const Outcome refused =
         run_simulator({"info", "thesis/creature-1", "--definition", "--overrides", R"({"planes":1})"});
     EXPECT_EQ(refused.exit_code, 2);
-    const Outcome list = run_simulator({"info", "thesis/creature-1", "--overrides", "[1]"});
-    EXPECT_EQ(list.exit_code, 2);
-    EXPECT_NE(list.err.find("overrides = [1]: must be an object"), std::string::npos) << list.err;
+    // Also where an option is merged into them.
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"info"},
+                                                    {"run", "--duration", "1"},
+                                                    {"run", "--scheme", "flex"},
+                                                    {"stream", "--scheme", "flex"}}) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), {"thesis/creature-1", "--overrides", "[1]"});
+        const Outcome list = run_simulator(arguments);
+        EXPECT_EQ(list.exit_code, 2);
+        EXPECT_NE(list.err.find("overrides = [1]: must be an object"), std::string::npos) << list.err;
+    }
 }
 
 TEST(InfoTest, WritesAGaitToBeginWith) {
