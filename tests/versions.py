@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The version is that of project() in CMakeLists.txt; every other place must agree with it.
 
+    tests/versions.py --show                 prints it
     tests/versions.py                        the check; exit code 1, and a line for each place that disagrees
     tests/versions.py v0.2.0                 the same, of the commit that this tag names: a release, dated in CHANGELOG.md
     tests/versions.py --set 0.2.0            writes a release into all places, dated today
@@ -19,6 +20,7 @@ HEADS = ("CHANGELOG.md", r"(?m)^## \[([^]]+)\](?: - (\d{4}-\d\d-\d\d))?$")
 MODULE = r"(?:<groupId>io\.natator</groupId>\s*<artifactId>[^<]+</artifactId>\s*<version>|<revision>)([^<$]+)</(?:version|revision)>"
 CLIENT = ("sim-native/python/natator/__init__.py", r'(?m)^__version__ = "(.*)"$')
 CITATION = ("CITATION.cff", r"(?m)^version: (.*)$")
+RECIPE = (".github/packaging/conda/recipe.yaml", r"(?m)^  version: (\S+)$")
 
 
 def modules(root):
@@ -27,9 +29,14 @@ def modules(root):
     return [(str(file.relative_to(root)), MODULE) for file in [root / "pom.xml", *files, root / "ga-java/docs/embedding.md"]]
 
 
+def source(root):
+    version, = re.findall(SOURCE[1], (root / SOURCE[0]).read_text())
+    return version
+
+
 def check(root, tag=None):
     """Yields a line for each disagreement."""
-    version, = re.findall(SOURCE[1], (root / SOURCE[0]).read_text())
+    version = source(root)
     heads = re.findall(HEADS[1], (root / HEADS[0]).read_text())
     coming = heads[0][0] == "Unreleased"
     released, date = heads[1 if coming else 0]
@@ -41,7 +48,7 @@ def check(root, tag=None):
         yield f"{HEADS[0]}: {released} has no date; must be [{released}] - YYYY-MM-DD"
     if tag and (coming or tag != f"v{version}"):
         yield f"tag {tag}: {SOURCE[0]} has {version}, {HEADS[0]} begins with [{heads[0][0]}]; must be a release of the tag's version"
-    for places, expected in ((modules(root), version + "-SNAPSHOT" * coming), ([CLIENT], version), ([CITATION], released)):
+    for places, expected in ((modules(root), version + "-SNAPSHOT" * coming), ([CLIENT, RECIPE], version), ([CITATION], released)):
         for file, pattern in places:
             found = re.findall(pattern, (root / file).read_text())
             if found != [expected]:
@@ -54,7 +61,7 @@ def number(version):
 
 def write(root, version):
     plain, coming = version.removesuffix("-SNAPSHOT"), version.endswith("-SNAPSHOT")
-    changes = [(SOURCE, plain), (CLIENT, plain)] + [(place, version) for place in modules(root)] + [(CITATION, plain)] * (not coming)
+    changes = [(SOURCE, plain), (CLIENT, plain), (RECIPE, plain)] + [(place, version) for place in modules(root)] + [(CITATION, plain)] * (not coming)
     for (file, pattern), new in changes:
         text = (root / file).read_text()
         begin, end = re.search(pattern, text).span(1)
@@ -73,8 +80,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tag", nargs="?")
     parser.add_argument("--set", metavar="VERSION")
+    parser.add_argument("--show", action="store_true")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[1])
     given = parser.parse_args()
+    if given.show:
+        print(source(given.root))
+        return 0
     if given.set:
         if not re.fullmatch(r"\d+\.\d+\.\d+(-SNAPSHOT)?", given.set):
             parser.exit(2, f"versions.py: --set {given.set}: must be as 1.2.3 or 1.2.3-SNAPSHOT\n")

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . tests/install/system.sh
-version=$(sed -nE 's/^project\(natator VERSION ([0-9.]+) .*/\1/p' CMakeLists.txt)
+version=$(tests/versions.py --show)
 readonly package=build/deb/natator_${version}_amd64.deb
 [[ -f $package ]] || { echo "deb.sh: no $package: make it by mvn package -DskipTests && cpack --preset deb" >&2; exit 1; }
 printf '%s: %d bytes\n' "$package" "$(stat -c %s "$package")"

@@ -10,7 +10,7 @@ command -v gpg >/dev/null || { echo "maven.sh: gpg is missing: apt-get install g
 work=$(mktemp -d)
 trap 'gpgconf --kill gpg-agent; rm -rf "$work"' EXIT
 export GNUPGHOME=$work/gnupg NATATOR_SIM=$PWD/build/release/bin/natator-sim
-version=$(sed -nE 's/^project\(natator VERSION ([0-9.]+) .*/\1/p' CMakeLists.txt)
+version=$(tests/versions.py --show)
 readonly bundle=ga-java/target/natator-core-$version-bundle.zip
 seconds() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f s", b - a }'; }
 

@@ -38,7 +38,7 @@ ln -s "$readers" .readers
 export PATH=$readers/bin:$PATH SOURCE_DATE_EPOCH
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 python3 tests/versions.py ${tag:+"$tag"} || fail "the versions of ${tag:-$named} do not agree"
-version=$(sed -n 's/^project(natator VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
+version=$(tests/versions.py --show)
 printf '%s of %s, %s\n' "$([[ -n $tag ]] && echo release || echo rehearsal)" "$version" "${commit:0:12}"
 
 # What other scripts make needs these.

@@ -22,7 +22,7 @@ class VersionsTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        self.places = [place for place, _ in [versions.SOURCE, versions.CLIENT, versions.HEADS, versions.CITATION, *versions.modules(ROOT)]]
+        self.places = [place for place, _ in [versions.SOURCE, versions.CLIENT, versions.RECIPE, versions.HEADS, versions.CITATION, *versions.modules(ROOT)]]
         for place in self.places:
             (self.root / place).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / place, self.root / place)

@@ -16,7 +16,7 @@ from natator.source import merged
 from natator.stream import Stream
 from natator.swimming import scene_of, swim
 
-LEAST_DISTANCE, SURE, MOST_CHANGE = 0.05, 2, 0.5  # body lengths, standard errors, share: as `natator evolve` has them
+MIN_DISTANCE, SURE, MAX_CHANGE = 0.05, 2, 0.5  # body lengths, standard errors, share: as `natator evolve` has them
 BEST = 5  # gaits that run again before one is chosen
 
 
@@ -92,9 +92,9 @@ class Evolved:
         lengths = self.body_length * self.duration
         mean, error, half = _fitness(self.distances), _error(self.distances), _fitness(self.half_step)
         told = f"{mean / lengths:.3f} ± {error / lengths:.3f} body lengths/s, {half / lengths:.2f} at half the time step"
-        if not mean - SURE * error >= LEAST_DISTANCE * self.body_length:
+        if not mean - SURE * error >= MIN_DISTANCE * self.body_length:
             return f"does not swim, or the runs differ too much to tell: {told}"
-        doubt = ("a run was unstable" if None in self.half_step else "the time step makes it" if abs(half - mean) > MOST_CHANGE * mean
+        doubt = ("a run was unstable" if None in self.half_step else "the time step makes it" if abs(half - mean) > MAX_CHANGE * mean
                  else "scheme flex does not keep momentum" if self.scheme == "flex" else None)
         return f"may swim: {told}; {doubt}" if doubt else f"swims: {told}"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
+#include "model/water_volumes.h"
 #include "natator/error.h"
 #include "natator/measure.h"
 #include "physics/dfsph.h"
@@ -47,8 +47,7 @@ WaterField water_field(const Model& model, const State<Real>& state) {
     field.velocity.assign(size, Eigen::Vector3f::Zero());
     field.density.assign(size, 0);
     const double radius = kernel_cells * field.cell;
-    const physics::WendlandKernel<double> kernel =
-        physics::wendland_kernel(radius, 21 / (2 * std::numbers::pi * std::pow(radius, 3)));
+    const physics::WendlandKernel<double> kernel = physics::wendland_kernel(radius, wendland(0, radius));
     const double volume = std::pow(field.cell, 3);
     bool periodic[3] = {};
     for (const PeriodicAxis& axis : model.periodic) periodic[axis.axis] = true;
