@@ -35,7 +35,8 @@ class ExternalCommandTest extends CommandTest {
     }
 
     private Process start(String line, String... more) throws IOException {
-        List<String> words = new ArrayList<>(List.of(words(line, more)));
+        List<String> words = new ArrayList<>(List.of(line.split(" ")));
+        words.addAll(List.of(more));
         words.addAll(List.of("--simulator-path", path("fake-simulator.sh"), "--no-cache", "--simulator", "resident"));
         return new ProcessBuilder(JavaCommand.of(Main.class, words.toArray(String[]::new))).redirectError(log.toFile())
                 .start();
