@@ -105,12 +105,16 @@ class ExternalTest(unittest.TestCase):
     def test_it_goes_on_with_what_is_recorded(self):
         """Genes that it did not ask for this time are told as shares of their ranges."""
         self.run_folder.mkdir()
-        (self.run_folder / "config.json").write_text("{}")
+        settings = {"scene": "pool/eel", "optimizer": "external", "population": 4, "starts": 1, "duration": 0.5, "seed": 7}
+        (self.run_folder / "config.json").write_text(json.dumps(settings))
         self.play(begin(recorded=1), ask(0), None, tell(0, ([0.5, 0.75, 1.0], 0.25, {})), ask(1), None, tell(1, ([1.25, 0.3, 0.25], 0.5, {})), {"do": "end"})
         optimizer = Given([[0.9, 0.5, 1]], [[0.5, 0.3, 0.25]])
         self.evolve(optimizer)
         self.assertEqual(optimizer.told[0], ([[0.0, 0.75, 1.0]], [-0.25]))
-        self.assertEqual([self.lines("calls.jsonl")[0][k] for k in (0, 3)], ["resume", str(self.run_folder)])
+        self.assertEqual([self.lines("calls.jsonl")[0][k] for k in (0, 3, 4, 5)], ["resume", str(self.run_folder), "--generations", "1"])
+        (self.run_folder / "config.json").write_text(json.dumps(settings))
+        with self.assertRaisesRegex(natator.InputError, "run was begun with seed 7, not 8: must be the same, or another folder$"):
+            self.evolve(Given(), seed=8)
 
     def test_measures_are_told_to_who_wants_them(self):
         self.play(begin(), ask(0), None, tell(0, ([1.0, 0.5, 1.0], 0.25, {"measures": {"beatsPerLength": 4.0, "costOfTransport": 2.5}}), ([2.0, 0.1, 0.0], 0.1, {})), {"do": "end"})
@@ -129,7 +133,7 @@ class ExternalTest(unittest.TestCase):
                 ((begin(), ask(0), None), 0, "", Given([[0, 0, float("nan")]]), natator.InputError, r"must be 3 numbers in \[0, 1\]$")]:
             self.play(*say, code=code, last=last)
             with self.subTest(message), self.assertRaisesRegex(kind, message) as raised:
-                self.evolve(optimizer, run=self.folder / "other")
+                self.evolve(optimizer, run=self.folder / f"other-{len(message)}")
             self.assertNotIn("\n", str(raised.exception))
         with self.assertRaisesRegex(natator.InputError, "^start and run: expected one of them$"):
             self.evolve(None, start=3)

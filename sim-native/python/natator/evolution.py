@@ -33,8 +33,8 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
     each gait beats for a body length and cost of transport, or None. workers, program, arguments: as of Simulator. request: more fields of a request. The same seed,
     program and optimizer give the same gait for any number of workers. Returns an Evolved. Raises InputError and ProgramError.
 
-    run: a run folder, which the program natator then makes and judges as that of `natator evolve --optimizer external`, or goes on with if it is there.
-    Genes are those of its encoding; arguments are more of its options. Returns an EvolvedRun (natator.external).
+    run: a run folder, which the program natator then makes and judges as that of `natator evolve --optimizer external`, or goes on with, also to more
+    generations, if it is there. Genes are those of its encoding; arguments are more of its options. Returns an EvolvedRun (natator.external).
     """
     for name, value, least in (("generations", generations, 1), ("population", population, 2), ("starts", starts, 1), ("seed", seed, 1)):
         whole(name, value, least)

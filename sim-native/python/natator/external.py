@@ -21,7 +21,7 @@ PROTOCOL = 1
 
 def evolve(run, scene, generations, seed, population, starts, duration, make, workers=None, program=None, arguments=(), scheme=None, overrides=None,
            shown=lambda generations, _: iter(generations)):
-    """Evolves into a run folder, new or that of an interrupted run, by the program natator. Returns an EvolvedRun.
+    """Evolves into a run folder, new or that of an interrupted or shorter run, by the program natator. Returns an EvolvedRun.
 
     make: gives the optimizer for a number of genes; it asks and is told as one of natator.evolve, with genes in [0, 1], which are those of the run's
     encoding. shown: as evolution._shown. The rest is as of natator.evolve. Raises InputError and ProgramError.
@@ -29,7 +29,9 @@ def evolve(run, scene, generations, seed, population, starts, duration, make, wo
     run = Path(run)
     command = [natator_path(), "resume" if (run / "config.json").is_file() else "evolve", "--simulator-path", simulator_path(program)]
     if command[1] == "resume":
-        command.append(run)
+        _require_same(run, {"optimizer": "external", "population": population, "starts": starts, "seed": seed, "duration": duration, "scheme": scheme,
+                            "overrides": overrides, **({} if scene.endswith(".json") else {"scene": scene})})
+        command += [run, "--generations", generations - 1]
     else:
         command += ["--optimizer", "external", "--scene", scene, "--output-dir", run, "--generations", generations - 1, "--population", population, "--starts",
                     starts, "--seed", seed, "--duration", duration]
@@ -45,6 +47,14 @@ def evolve(run, scene, generations, seed, population, starts, duration, make, wo
             last = (errors.read().decode(errors="replace").strip().splitlines() or [f"natator has ended, exit code {code}"])[-1]
             raise (InputError if code == 2 else ProgramError)(last.removeprefix(f"natator {command[1]}: "))
     return EvolvedRun.read(run)
+
+
+def _require_same(run, settings):
+    """Raises InputError unless a run folder was begun with these; its generations may be others."""
+    config = read_json(run / "config.json")
+    for name, value in settings.items():
+        if config.get(name) != value:
+            raise InputError(f"{run} was begun with {name} {json.dumps(config.get(name))}, not {json.dumps(value)}: must be the same, or another folder")
 
 
 @contextlib.contextmanager

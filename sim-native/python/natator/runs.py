@@ -55,7 +55,7 @@ class Run:
     """A run folder, also of a run that is under way. Raises InputError where a file is missing or damaged.
 
     Attributes: `folder`; `config`, a dict; `best`, best.json as a dict or None; `generations`, the rows of generations.csv as dicts of numbers;
-    `seconds`, of each the time it took, None where that is not known; `names`, of the genes, and `ranges` or None where they are not known.
+    `seconds`, of each the time it took, None where that is not known; `judge`, what gives a gait's worth from that of its runs.
     """
 
     def __init__(self, folder):
@@ -92,9 +92,12 @@ class Run:
             raise InputError(f"{self.folder} has no evaluations.jsonl: nothing is evaluated yet, or natator resume --compact dropped them") from None
 
     def course(self):
-        """After each generation its number, and all gaits up to then as a dict by their genes; always the same dict."""
+        """After each finished generation its number, and all gaits up to then as a dict by their genes; always the same dict."""
         tried, generation = {}, None
+        last = self.generations[-1]["generation"] if self.generations else -1
         for one in self.evaluations():
+            if one["generation"] > last:
+                break
             if generation not in (None, one["generation"]):
                 yield generation, tried
             generation = one["generation"]
@@ -105,7 +108,7 @@ class Run:
             yield generation, tried
 
     def tried(self):
-        """All gaits, in the order in which they came."""
+        """All gaits of finished generations, in the order in which they came."""
         gaits = {}
         for _, gaits in self.course():
             pass
@@ -151,7 +154,7 @@ class Run:
         return dict(sorted(best.items()))
 
     def genes(self):
-        """Names and ranges of the genes of gaits; ranges are None where bodies are evolved, which have others."""
+        """Ranges of the genes of gaits by their names; None where bodies are evolved, which have others."""
         if "evolve" in self.config:
             return None
         unit, count, encoding = (0.0, 1.0), self.config["actuators"], self.config["encoding"]
