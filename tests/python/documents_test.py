@@ -30,6 +30,8 @@ class DocumentsTest(unittest.TestCase):
         self.assertEqual({Path(command.split()[0]).name for command in commands},
                          {path.name for path in (PACKAGE / "examples").glob("*.py")})
         for command in commands:
+            if "ask_tell.py" in command:
+                continue  # needs the program natator: outside_again.py
             done = subprocess.run([sys.executable, *command.split()], cwd=PACKAGE.parents[1], capture_output=True, text=True,
                                   env=dict(os.environ))
             self.assertEqual(done.returncode, 0, command + done.stderr)

@@ -67,7 +67,7 @@ final class SearchOptions {
 
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
             description = "jgap (the thesis' genetic algorithm), cma-es, random, map-elites (the best of every kind of gait), "
-                    + "or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
+                    + "external (another program, which speaks on standard input and output), or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
     @Option(names = "--seed", paramLabel = "N", defaultValue = "1",
