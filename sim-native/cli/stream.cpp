@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "base/text.h"
@@ -21,6 +23,7 @@ struct StreamOptions {
     std::string precision = "float";
     std::vector<std::string> fields{"position"};
     std::optional<int> start;
+    std::string state;  ///< file
     StreamSettings settings;
     ExecutionOptions execution;
 };
@@ -52,10 +55,21 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
     return fields;
 }
 
+std::string read_state(const std::string& name) {
+    std::ifstream file(name, std::ios::binary);
+    std::ostringstream content;
+    if (!file || !(content << file.rdbuf())) throw InputError("--state: " + quoted(name) + " cannot be read");
+    return std::move(content).str();
+}
+
 template <class Real>
 void run_stream(StreamOptions& options) {
     StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
-    LineQueue commands({.lines = max_waiting, .bytes = stream::max_command});
+    if (!options.state.empty()) session.restore(read_state(options.state));
+    LineQueue commands({.lines = max_waiting,
+                        .bytes = stream::max_command,
+                        .message_bytes = stream::max_message,
+                        .letters = {std::string(stream::state_letters)}});
     session.run(commands);
 }
 
@@ -88,6 +102,7 @@ void add_stream(CLI::App& app, int& status) {
     command
         ->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
         ->check(whole_number_in(0, 2147483647));
+    command->add_option("--state", options->state, "File of a saved moment of this scene, to begin at.");
     command
         ->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
         ->delimiter(',')

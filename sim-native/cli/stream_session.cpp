@@ -49,6 +49,10 @@ void StreamSession<Real>::run(LineQueue& commands) {
 /// What a command causes comes before its answer.
 template <class Real>
 void StreamSession<Real>::carry_out(const std::string& line) {
+    if (line.starts_with(stream::state_letters)) {
+        held_ = line.substr(stream::message_head);
+        return;
+    }
     if (line.size() <= stream::max_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
     answer_ = {{"id", nullptr}};
     try {
@@ -147,6 +151,25 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::Water&) {
     refuse_if_unstable();
     print(stream_water(simulation_, scene_));
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Save&) {
+    held_ = simulation_.save();
+    print(stream_state(held_));
+}
+
+/// The frame of that moment comes before the answer, as of a step.
+template <class Real>
+void StreamSession<Real>::apply(const stream::Restore& restore) {
+    if (held_.empty()) throw InputError("restore: there is no state; must come behind a STAT, or a save");
+    if (held_.size() > stream::max_message) throw InputError("state: is larger than 1 GiB");
+    if (restore.sense) check_sensing(sensing_, simulation_.model());
+    if (simulation_.restore(held_)) scene_changed(false);
+    pace_.restart();
+    due_ = true;
+    offer_frame();
+    if (restore.sense) answer_["senses"] = senses();
 }
 
 template <class Real>

@@ -27,6 +27,9 @@ public:
     /// Settles the scene. Throws InputError.
     StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings);
 
+    /// Begins at a saved moment instead of the settled start. Throws InputError.
+    void restore(const std::string& saved) { simulation_.restore(saved); }
+
     /// Returns at the end of the commands, or when the time asked for is reached. Throws std::runtime_error when
     /// standard output can't be written.
     void run(LineQueue& commands);
@@ -38,6 +41,8 @@ private:
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
     void apply(const stream::Water&);
+    void apply(const stream::Save&);
+    void apply(const stream::Restore& restore);
     void apply(const stream::Rate& rate);
     void apply(const stream::Reset& reset);
     void apply(const stream::NewGait& gait);
@@ -67,6 +72,7 @@ private:
     Sensing sensing_;
     bool sense_each_ = false;            ///< a SENS before every frame
     nlohmann::ordered_json answer_;      ///< of the command that is carried out
+    std::string held_;                   ///< the last STAT, of either direction
     int credit_ = 0;                     ///< frames that may be sent
     bool ended_ = false;                 ///< the last STOP is out: no command does anything more
     bool due_ = false;                   ///< the present frame is still to be offered

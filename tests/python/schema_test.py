@@ -19,6 +19,7 @@ TAKEN = [
     {"do": "sense", "target": None, "flow": [], "each": False}, {"do": "water"}, {"do": "rate", "value": 0}, {"do": "rate", "value": 0.001},
     {"do": "gait", "gait": GAIT}, {"do": "overrides", "overrides": {"duration": 3}},
     {"do": "scene", "scene": "bench/small-tank", "overrides": {}, "gait": GAIT, "start": 3},
+    {"do": "save"}, {"do": "restore"}, {"do": "restore", "sense": True},
 ]
 REFUSED = [
     {}, {"do": "swim"}, {"do": "run", "now": True}, {"do": "pause", "id": -1}, {"do": "credit", "frames": 1001},
@@ -31,6 +32,7 @@ REFUSED = [
     {"do": "sense", "flow": [{"slice": 1, "side": "port"}]}, {"do": "sense", "target": [1, 2]}, {"do": "sense", "each": 1},
     {"do": "sense", "target": [1, 2, 2e6]}, {"do": "rate"}, {"do": "rate", "value": 2000}, {"do": "gait"},
     {"do": "gait", "gait": GAIT | {"frequency": 61}}, {"do": "overrides"}, {"do": "scene"}, {"do": "scene", "scene": 3},
+    {"do": "save", "sense": True}, {"do": "restore", "sense": 1},
 ]
 
 

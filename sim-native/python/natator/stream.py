@@ -125,7 +125,7 @@ class Stream:
             options.append(f"--scheme={scheme}")
         if start is not None:
             options.append(f"--start={whole('start', start, 0)}")
-        self.scene, self.frame, self.last_water = {}, None, None
+        self.scene, self.frame, self.last_water, self._state = {}, None, None, None
         self._framed = bool(fields)
         self._unstable, self._torn = None, False
         self._ids, self._unanswered = itertools.count(1), collections.deque()
@@ -180,6 +180,31 @@ class Stream:
             self.receive()
         return self._senses(self.receive())
 
+    def save(self):
+        """The present moment as bytes, which any process may go on from: all that what follows depends on. Raises InputError when the
+        simulation has become unstable."""
+        self.ask({"do": "save"})
+        return self._state
+
+    def restore(self, state):
+        """Goes to a moment that `save` gave, of the same scene; its overrides, start and gait come with it, and what is sensed
+        stays. Returns the senses. Raises InputError for bytes that are damaged, or of another scene, scheme, precision or version."""
+        if not isinstance(state, (bytes, bytearray, memoryview)):
+            raise InputError(f"state = {state!r}: must be bytes, as save gives them")
+        self.require_idle()
+        if state is not self._state:  # which the simulator has
+            self._send_message(b"STAT", bytes(state))
+            self._state = state if isinstance(state, bytes) else None
+        senses = len(self.scene["body"]) > 0
+        if self._framed:
+            self.send({"do": "credit"})
+        self.send({"do": "restore", "sense": senses})
+        if self._framed:
+            self.receive()
+        answer = self.receive()
+        self._unstable = None
+        return self._senses(answer) if senses else None
+
     def water(self):
         """The Water as it is now. Raises InputError, also when the simulation has become unstable."""
         self.ask({"do": "water"})
@@ -220,6 +245,15 @@ class Stream:
         others."""
         if self._torn or self._unanswered:
             raise ProgramError("a call was interrupted before its answer was read: close the stream and open another")
+
+    def _send_message(self, letters, body):
+        """Sends bytes among the commands."""
+        self._program.require_open()
+        if len(body) > LARGEST[letters]:
+            raise InputError(f"{len(body)} bytes: must be at most {LARGEST[letters]}")
+        self._torn = True
+        self._program.send(struct.pack("<4sI", letters, len(body)) + body)
+        self._torn = False
 
     def send(self, command):
         """Sends a command without waiting for its answer."""
@@ -300,6 +334,8 @@ class Stream:
                 self.last_water = Water.from_message(body)
             except ValueError:
                 raise self._program.no_simulator() from None
+        elif letters == b"STAT":
+            self._state = body
         elif letters == b"SCEN":
             self._take_scene(self._program.json(body))
         elif letters == b"STOP":
@@ -372,4 +408,4 @@ def _is_scene(scene):
 PROTOCOL = 2
 WIDTHS = {"position": 3, "velocity": 3, "density": 1}
 #: bytes of a message's body
-LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"STAT": 1 << 30, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

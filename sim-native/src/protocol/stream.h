@@ -39,6 +39,10 @@ struct Sense {
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
 struct Water {};  ///< a WATR of the present state
+struct Save {};   ///< a STAT of the present moment
+struct Restore {  ///< to the last STAT, of either direction
+    bool sense = false;  ///< the answer has the senses
+};
 struct Rate {
     double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
 };
@@ -58,6 +62,11 @@ struct NewScene {
 inline constexpr int max_credit = 1000;              ///< frames
 inline constexpr int max_step = 1000;                ///< frames
 inline constexpr std::size_t max_command = 1 << 20;  ///< bytes
+inline constexpr std::size_t max_message = 1 << 30;  ///< bytes of the body of one that comes in
+
+// Messages that come in stand among the commands. They have the form of those that go out: letters, length, body.
+inline constexpr std::size_t message_head = 8;  ///< bytes before the body
+inline constexpr std::string_view state_letters = "STAT";
 
 /// Whether simulated seconds per second of wall time may be limited to this: 0 (no limit) or in [0.001, 1000].
 bool is_rate(double value);
@@ -87,7 +96,8 @@ struct FrameHead {
 
 using StreamCommand =
     std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate, stream::Reset, stream::NewGait,
-                 stream::Steer, stream::Sense, stream::Water, stream::Overrides, stream::NewScene>;
+                 stream::Steer, stream::Sense, stream::Water, stream::Save, stream::Restore, stream::Overrides,
+                 stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -111,6 +121,9 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
 /// The WATR of the present state, as bytes. `scene`: number of its SCEN. Throws InputError as Simulation::water.
 template <class Real>
 std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene);
+
+/// A saved moment as a STAT, as bytes.
+std::string stream_state(std::string_view saved);
 
 /// What a swimmer senses, in SENS and in answers.
 template <class Real>

@@ -49,10 +49,16 @@ bool is_for_each_frame(const json& value) {
            value.at("drive")[0].is_array();
 }
 
+bool read_sense_flag(const json& value) {
+    bool sense = false;
+    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, sense);
+    return sense;
+}
+
 stream::Step read_step(const json& value) {
     stream::Step step;
     step.frames = read_frames(value, stream::max_step);
-    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, step.sense);
+    step.sense = read_sense_flag(value);
     json other = value;
     if (is_for_each_frame(value)) {
         const json& rows = value.at("drive");
@@ -146,6 +152,8 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "steer") return only({"scale", "offset"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
     if (name == "water") return only({}), stream::Water{};
+    if (name == "save") return only({}), stream::Save{};
+    if (name == "restore") return only({"sense"}), stream::Restore{read_sense_flag(value)};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
@@ -153,7 +161,8 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
     fields::refuse(place.key("do"), name,
-                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
+                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, save, restore, overrides or "
+                   "scene");
 }
 
 }  // namespace natator

@@ -33,7 +33,7 @@ public:
     void add(T value) {
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
-    void add_text(const std::string& text) { bytes_ += text; }
+    void add_text(std::string_view text) { bytes_ += text; }
     template <class Vectors>
     void add_vectors(const Vectors& vectors) {
         for (const auto& vector : vectors)
@@ -285,6 +285,13 @@ std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene
     for (const double component : field.corner) message.add(component);
     message.add_vectors(field.velocity);
     message.add_numbers(field.density);
+    return message.finish();
+}
+
+std::string stream_state(std::string_view saved) {
+    MessageWriter message("STAT");
+    message.reserve(saved.size() + 16);
+    message.add_text(saved);
     return message.finish();
 }
 
