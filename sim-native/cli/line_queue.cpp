@@ -26,6 +26,7 @@ void LineQueue::read() {
         const std::size_t count = input_.read(buffer.data(), buffer.size());
         if (count == 0) break;
         open = take_bytes({buffer.data(), count});
+        changed_.notify_one();  // lines that came together are taken together
     }
     if (open && !line_.empty()) add_line(std::move(line_));
     const std::lock_guard lock(mutex_);
@@ -72,11 +73,11 @@ bool LineQueue::take_bytes(std::string_view bytes) {
 /// False when the queue is being destroyed.
 bool LineQueue::add_line(std::string line) {
     std::unique_lock lock(mutex_);
+    if (full()) changed_.notify_one();
     room_.wait(lock, [this] { return closing_ || !full(); });
     if (closing_) return false;
     bytes_ += line.size();
     lines_.push_back(std::move(line));
-    changed_.notify_one();
     return true;
 }
 
