@@ -63,8 +63,8 @@ void expect_to_go_on(const Swim& swim) {
     Simulation<Real> first(setup), second(setup);
     const int actuators = first.model().actuators;
     first.set_gait(beat(actuators));
-    for (int frame = 0; frame < 7; ++frame) {
-        if (frame == 5) first.drive(std::vector<double>(actuators, 0.3));
+    for (int frame = 0; frame < 5; ++frame) {
+        if (frame == 4) first.drive(std::vector<double>(actuators, 0.3));
         ASSERT_TRUE(first.step());
     }
     const std::string saved = first.save();
@@ -73,7 +73,7 @@ void expect_to_go_on(const Swim& swim) {
     expect_same(first, second);
     EXPECT_EQ(first.save(), saved);
     EXPECT_EQ(second.save(), saved);
-    for (int frame = 0; frame < 10; ++frame) {
+    for (int frame = 0; frame < 6; ++frame) {
         ASSERT_EQ(first.step(), second.step());
         ASSERT_EQ(state_hash(first.state()), state_hash(second.state())) << frame;
     }
@@ -84,7 +84,7 @@ void expect_to_go_on(const Swim& swim) {
     // Back, by the one that has gone on; a new start, too, is as it would have been.
     EXPECT_FALSE(first.restore(saved));
     EXPECT_EQ(first.save(), saved);
-    for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(first.step());
+    for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(first.step());
     EXPECT_EQ(first.save(), later);
     first.reset();
     Simulation<Real> anew(setup);
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SavedSimulation, ATankHasMovedInTheseTests) {
     const json overrides = merged(hardly_settled, {{"movingTank", {{"step", 0.002}, {"current", {0, 0, 0}}}}});
     Simulation<float> simulation({"goals/hold", overrides.dump(), beat(8)});
-    while (simulation.frames() < 17) ASSERT_TRUE(simulation.step());
+    while (simulation.frames() < 11) ASSERT_TRUE(simulation.step());
     EXPECT_NE(simulation.state().origin.norm(), 0);
 }
 

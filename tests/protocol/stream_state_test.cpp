@@ -90,6 +90,21 @@ TEST(StreamStateTest, AStreamBranchesFromItsOwnLastState) {
     EXPECT_NE(seen[0], seen[1]);
 }
 
+TEST(StreamStateTest, AStartComesAndGoesWithAState) {
+    StreamClient client(paused_in(small_tank, all_fields("flex")));
+    client.expect("SCEN");
+    const std::string of_its_own = save(client);
+    client.ask({{"do", "reset"}, {"start", 3}});
+    const std::string of_another = save(client);
+    for (const auto& [state, start] : {std::pair<std::string, json>{of_its_own, nullptr}, {of_another, 3}}) {
+        client.send_bytes(message("STAT", state));
+        EXPECT_EQ(client.ask({{"do", "restore"}})["ok"], true);
+        EXPECT_EQ(client.scene()["restarted"], false);
+        EXPECT_EQ(client.scene()["start"], start);
+        EXPECT_EQ(save(client), state);
+    }
+}
+
 TEST(StreamStateTest, AFileIsTheStartOfAStream) {
     StreamClient first(paused_in(small_tank, all_fields("flex")));
     first.expect("SCEN");

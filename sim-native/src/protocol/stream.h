@@ -132,8 +132,8 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 template <class Real>
 nlohmann::ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head);
 
-/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of
-/// `stream_scene`.
+/// The body of a SCEN that goes on: its number, and what differs from the one before; null where
+/// there is none any more. Both are bodies of `stream_scene`.
 nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 /// The FRAM of the present state, as bytes.
