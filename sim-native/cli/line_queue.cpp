@@ -60,7 +60,8 @@ bool LineQueue::take_bytes(std::string_view bytes) {
             line_.pop_back();
         } else {
             const std::size_t end = bytes.find('\n'), size = std::min(end, bytes.size());
-            if (line_.size() <= limits_.bytes) line_ += bytes.substr(0, std::min(size, limits_.bytes + 1 - line_.size()));
+            if (line_.size() <= limits_.bytes)
+                line_ += bytes.substr(0, std::min(size, limits_.bytes + 1 - line_.size()));
             bytes.remove_prefix(size);
             if (bytes.empty()) return true;
             bytes.remove_prefix(1);

@@ -25,8 +25,8 @@ json parse_command(const std::string& line) {
 }  // namespace
 
 template <class Real>
-StreamBatch<Real>::StreamBatch(const SimulationSetup& setup, const Execution& execution,
-                               const StreamSettings& settings, BatchSize size)
+StreamBatch<Real>::StreamBatch(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings,
+                               BatchSize size)
     : size_(size), swims_(static_cast<std::size_t>(size.swims)), waiting_(swims_.size()) {
     const auto make = [&](std::size_t i) {
         swims_[i] = std::make_unique<StreamSession<Real>>(setup, execution, settings);
@@ -41,8 +41,7 @@ template <class Real>
 template <class Work>
 void StreamBatch<Real>::at_once(const Swims& swims, const Work& work) {
     if (swims.size() == 1) return work(swims.front());
-    side_by_side(
-        swims.size(), [&](std::size_t k) { work(swims[k]); }, static_cast<std::size_t>(size_.threads));
+    side_by_side(swims.size(), [&](std::size_t k) { work(swims[k]); }, static_cast<std::size_t>(size_.threads));
 }
 
 template <class Real>
@@ -91,8 +90,8 @@ template <class Real>
 void StreamBatch<Real>::take(const std::string& line) {
     if (line.starts_with(stream::state_letters)) {
         carry_out_waiting();
-        const auto state = std::make_shared<const std::string>(
-            line.substr(std::min(line.size(), stream::message_head)));
+        const auto state =
+            std::make_shared<const std::string>(line.substr(std::min(line.size(), stream::message_head)));
         for (auto& swim : swims_) swim->hold(state);
         return;
     }

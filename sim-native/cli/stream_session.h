@@ -88,17 +88,17 @@ private:
     Pace pace_;
     bool running_;
     Sensing sensing_;
-    bool sense_each_ = false;            ///< a SENS before every frame
-    nlohmann::ordered_json answer_;      ///< of the command that is carried out
+    bool sense_each_ = false;                  ///< a SENS before every frame
+    nlohmann::ordered_json answer_;            ///< of the command that is carried out
     std::shared_ptr<const std::string> held_;  ///< the last STAT, of either direction; null before it
     std::string messages_;                     ///< that nobody has taken
-    int credit_ = 0;                     ///< frames that may be sent
-    bool ended_ = false;                 ///< the last STOP is out: no command does anything more
-    bool due_ = false;                   ///< the present frame is still to be offered
-    std::uint32_t scene_ = 0;            ///< number of the last SCEN
-    nlohmann::ordered_json last_scene_;  ///< the whole of it, also where only changes were sent
-    std::uint32_t dropped_ = 0;          ///< frames since the start
-    double wall_seconds_ = 0;            ///< of the frames since the last one sent
+    int credit_ = 0;                           ///< frames that may be sent
+    bool ended_ = false;                       ///< the last STOP is out: no command does anything more
+    bool due_ = false;                         ///< the present frame is still to be offered
+    std::uint32_t scene_ = 0;                  ///< number of the last SCEN
+    nlohmann::ordered_json last_scene_;        ///< the whole of it, also where only changes were sent
+    std::uint32_t dropped_ = 0;                ///< frames since the start
+    double wall_seconds_ = 0;                  ///< of the frames since the last one sent
     int wall_frames_ = 0;
 };
 

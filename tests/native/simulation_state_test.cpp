@@ -113,18 +113,20 @@ json merged(json all, const json& more) {
 
 INSTANTIATE_TEST_SUITE_P(
     Schemes, SavedSwim,
-    testing::Values(
-        Swim{"flex", "bench/small-tank", merged(hardly_settled, {{"scheme", "flex"}})},
-        Swim{"conserving", "bench/small-tank", merged(hardly_settled, {{"scheme", "conserving"}})},
-        Swim{"vacuum", "thesis/creature-1-vacuum", json::object()},
-        Swim{"effects", "bench/small-tank",
-             merged(hardly_settled, {{"scheme", "conserving"}, {"solver", {{"cohesion", 0.02}, {"surfaceTension", 0.1}}}})},
-        Swim{"lattice", "lake/creature-2", coarse},
-        Swim{"lattice_in_a_moving_tank", "lake/creature-2",
-             merged(coarse, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
-        Swim{"companions", "company/school", hardly_settled},
-        Swim{"goal_in_a_current", "goals/hold", merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
-        Swim{"goal", "goals/reach", hardly_settled}, Swim{"periodic", "open-water/periodic", hardly_settled}),
+    testing::Values(Swim{"flex", "bench/small-tank", merged(hardly_settled, {{"scheme", "flex"}})},
+                    Swim{"conserving", "bench/small-tank", merged(hardly_settled, {{"scheme", "conserving"}})},
+                    Swim{"vacuum", "thesis/creature-1-vacuum", json::object()},
+                    Swim{"effects", "bench/small-tank",
+                         merged(hardly_settled,
+                                {{"scheme", "conserving"}, {"solver", {{"cohesion", 0.02}, {"surfaceTension", 0.1}}}})},
+                    Swim{"lattice", "lake/creature-2", coarse},
+                    Swim{"lattice_in_a_moving_tank", "lake/creature-2",
+                         merged(coarse, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
+                    Swim{"companions", "company/school", hardly_settled},
+                    Swim{"goal_in_a_current", "goals/hold",
+                         merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
+                    Swim{"goal", "goals/reach", hardly_settled},
+                    Swim{"periodic", "open-water/periodic", hardly_settled}),
     [](const auto& swim) { return swim.param.name; });
 
 /// That a step of the tank lies between, and one after, is worth saying.
@@ -188,8 +190,7 @@ TEST(SavedSimulation, RefusesInOneLineAndChangesNothing) {
     EXPECT_EQ(refusal(""), "state: is no saved state");
     EXPECT_EQ(refusal("natator-sim"), "state: is no saved state");
     EXPECT_EQ(refusal(saved.substr(0, 20)), "state: is cut off: has 20 bytes");
-    EXPECT_EQ(refusal(saved.substr(0, 100)),
-              "state: is cut off: has 100 bytes of " + std::to_string(saved.size()));
+    EXPECT_EQ(refusal(saved.substr(0, 100)), "state: is cut off: has 100 bytes of " + std::to_string(saved.size()));
     EXPECT_EQ(refusal(saved + "more"), "state: is damaged: its checksum is another");
     for (const std::size_t at : {std::size_t{30}, saved.size() / 2, saved.size() - 1}) {
         std::string damaged = saved;

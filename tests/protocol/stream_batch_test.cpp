@@ -103,8 +103,10 @@ public:
             for (double& value : outcome.senses) value = at<double>(body, from), from += sizeof value;
         }
         const json told = json::parse(body.substr(from));
-        if (refusals) *refusals = told;
-        else EXPECT_EQ(told, json::object());
+        if (refusals)
+            *refusals = told;
+        else
+            EXPECT_EQ(told, json::object());
         return outcomes;
     }
     StreamClient& client() { return client_; }
@@ -136,8 +138,9 @@ std::string swim_of(int k, int swims, int place, const std::vector<std::string>&
         const int start = i == place ? 3 + k : 50 + i;
         EXPECT_EQ(client.ask(i, {{"do", "reset"}, {"start", start}})["ok"], true);
         if (i == place && k == 1)
-            EXPECT_EQ(client.ask(i, {{"do", "overrides"}, {"overrides", {{"solver", {{"dynamicFriction", 0.3}}}}}})["ok"],
-                      true);
+            EXPECT_EQ(
+                client.ask(i, {{"do", "overrides"}, {"overrides", {{"solver", {{"dynamicFriction", 0.3}}}}}})["ok"],
+                true);
     }
     for (int turn = 0; turn < 3; ++turn) {
         std::vector<std::string> all;
@@ -168,9 +171,10 @@ TEST(StreamBatchTest, EachHasTheBitsOfOneAloneInAnyPlaceAndOnAnyNumberOfThreads)
 
 TEST(StreamBatchTest, OutcomesAreTheSensesOfAnswers) {
     BatchClient client(2, {"--scheme", "conserving", "--overrides", R"({"settling":{"updates":2}})"});
-    const json senses_of = client.ask(1, {{"do", "sense"},
-                                          {"flow", {{{"slice", 1}, {"side", "left"}}, {{"slice", 4}, {"side", "above"}}}},
-                                          {"target", {1, 0.5, 0.4}}});
+    const json senses_of =
+        client.ask(1, {{"do", "sense"},
+                       {"flow", {{{"slice", 1}, {"side", "left"}}, {{"slice", 4}, {"side", "above"}}}},
+                       {"target", {1, 0.5, 0.4}}});
     EXPECT_EQ(senses_of["ok"], true);
     const auto outcomes = client.act({action(0), action(3, 3, {{0.5, 1, 0.25, -0.125}})});
     EXPECT_EQ(outcomes[0].status, 0u);
@@ -197,9 +201,9 @@ TEST(StreamBatchTest, WhatIsWrongWithOneIsToldByItsNumberAndTheOthersGoOn) {
     BatchClient client(4, {"--scheme", "flex", "--overrides", R"({"settling":{"updates":2}})", "--threads", "2"});
     json refusals;
     const double nan = std::nan("");
-    auto outcomes = client.act({action(2, 1, {{0.5, 0.5}}), action(2, 1, {{0.5, nan}}), action(2, 3, {{1, 1}, {0, 0}}),
-                                action(2, 1, {{0.5}})},
-                               &refusals);
+    auto outcomes = client.act(
+        {action(2, 1, {{0.5, 0.5}}), action(2, 1, {{0.5, nan}}), action(2, 3, {{1, 1}, {0, 0}}), action(2, 1, {{0.5}})},
+        &refusals);
     EXPECT_EQ(refusals["1"], "drive[1] = NaN: must be a number in [-2, 2]");
     EXPECT_EQ(refusals["2"], "2 rows: must be 1, or one for each of the 3 frames");
     EXPECT_EQ(refusals["3"], "drive has length 1: must have length 2, one value per actuator of the creature");
@@ -238,8 +242,12 @@ TEST(StreamBatchTest, MessagesThatAreNoneAreAnsweredInOneLine) {
              {message("ACTS", ""), "ACTS: ends too early"},
              {message("ACTS", actions(1, {action(0), action(2, 1, {{0, 0}})}).substr(8, 50)), "ACTS: ends too early"},
              {message("ACTS", actions(1, {action(0), action(0)}).substr(8) + "more"), "ACTS: has more than its swims"},
-             {R"({"do":"run","swim":2})" "\n", "command: swim = 2: must be a whole number in [0, 1]"},
-             {R"({"do":"run","swim":-1})" "\n", "command: swim = -1: must be"},
+             {R"({"do":"run","swim":2})"
+              "\n",
+              "command: swim = 2: must be a whole number in [0, 1]"},
+             {R"({"do":"run","swim":-1})"
+              "\n",
+              "command: swim = -1: must be"},
              {"{\n", "command: not valid JSON"}}) {
         client.client().send_bytes(wrong);
         const std::string said = client.next(nobody).value()["error"];
@@ -262,7 +270,8 @@ TEST(StreamBatchTest, OneMayHaveAnotherSceneAndAStateGoesFromOneToAll) {
     client.client().send_bytes(message("STAT", state));
     client.client().send({{"do", "restore"}});
     EXPECT_EQ(client.answer(0)["ok"], true);
-    EXPECT_NE(client.answer(1)["error"].get<std::string>().find("state: of scene \"bench/small-tank\""), std::string::npos);
+    EXPECT_NE(client.answer(1)["error"].get<std::string>().find("state: of scene \"bench/small-tank\""),
+              std::string::npos);
     EXPECT_EQ(client.answer(2)["ok"], true);
     client.act({action(1, 2), action(0), action(1, 2)});
     EXPECT_EQ(saved(client, 2), saved(client, 0));

@@ -53,8 +53,8 @@ TEST(StreamStateTest, AnotherProcessGoesOnWithTheSameBits) {
         const std::string saved = save(first);
         const StreamFrame expected = take_step(first, 3);
 
-        StreamClient second({scene, "--paused", "--scheme", scheme, "--fields", "position,velocity,density", "--threads",
-                             "2", "--overrides", overrides});
+        StreamClient second({scene, "--paused", "--scheme", scheme, "--fields", "position,velocity,density",
+                             "--threads", "2", "--overrides", overrides});
         second.expect("SCEN");
         second.send_bytes(message("STAT", saved));
         EXPECT_EQ(second.ask({{"do", "restore"}, {"sense", true}})["senses"]["frame"], 4) << scheme;
@@ -73,7 +73,8 @@ TEST(StreamStateTest, AnotherProcessGoesOnWithTheSameBits) {
 TEST(StreamStateTest, AStreamBranchesFromItsOwnLastState) {
     StreamClient client(paused_in(small_tank, all_fields("flex")));
     client.expect("SCEN");
-    EXPECT_EQ(client.ask({{"do", "restore"}})["error"], "restore: there is no state; must come behind a STAT, or a save");
+    EXPECT_EQ(client.ask({{"do", "restore"}})["error"],
+              "restore: there is no state; must come behind a STAT, or a save");
     take_step(client, 3);
     save(client);
     std::vector<std::string> seen;
@@ -118,9 +119,11 @@ TEST(StreamStateTest, AFileIsTheStartOfAStream) {
     EXPECT_EQ(second.scene()["gait"], first.scene()["gait"]);
     EXPECT_EQ(hash_of(take_step(second, 2)), hash_of(expected));
 
-    const Outcome other = run_simulator({"stream", "thesis/creature-1", "--scheme", "flex", "--state", file.string()}, "");
+    const Outcome other =
+        run_simulator({"stream", "thesis/creature-1", "--scheme", "flex", "--state", file.string()}, "");
     EXPECT_EQ(other.exit_code, 2);
-    EXPECT_NE(other.err.find("state: of scene \"bench/small-tank\"; must be of the scene that runs"), std::string::npos);
+    EXPECT_NE(other.err.find("state: of scene \"bench/small-tank\"; must be of the scene that runs"),
+              std::string::npos);
     const Outcome none = run_simulator({"stream", small_tank, "--state", "/no/such"}, "");
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_NE(none.err.find("--state: \"/no/such\" cannot be read"), std::string::npos) << none.err;

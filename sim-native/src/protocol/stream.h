@@ -37,9 +37,9 @@ struct Sense {
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
-struct Water {};  ///< a WATR of the present state
-struct Save {};   ///< a STAT of the present moment
-struct Restore {  ///< to the last STAT, of either direction
+struct Water {};         ///< a WATR of the present state
+struct Save {};          ///< a STAT of the present moment
+struct Restore {         ///< to the last STAT, of either direction
     bool sense = false;  ///< the answer has the senses
 };
 struct Rate {
@@ -116,10 +116,9 @@ struct FrameHead {
 
 }  // namespace stream
 
-using StreamCommand =
-    std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate, stream::Reset, stream::NewGait,
-                 stream::Steer, stream::Sense, stream::Water, stream::Save, stream::Restore, stream::Overrides,
-                 stream::NewScene>;
+using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
+                                   stream::Reset, stream::NewGait, stream::Steer, stream::Sense, stream::Water,
+                                   stream::Save, stream::Restore, stream::Overrides, stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -155,8 +154,8 @@ nlohmann::ordered_json stream_senses(const Simulation<Real>& simulation, const S
 template <class Real>
 std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const Sensing& sensing);
 
-/// Reads an ACTS, header and all. Throws InputError where it is not one of so many swims; what is wrong with one of them
-/// is in its Action.
+/// Reads an ACTS, header and all. Throws InputError where it is not one of so many swims; what is wrong with one of
+/// them is in its Action.
 stream::Actions parse_stream_actions(std::string_view message, std::size_t swims);
 
 /// The OBSV of these, and the SWIM before messages of one swim, as bytes.

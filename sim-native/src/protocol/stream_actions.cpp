@@ -57,8 +57,8 @@ stream::Action read_action(ActionReader& from) {
     else if (frames < 1 || frames > stream::max_step)
         action.refusal = "frames = " + std::to_string(frames) + ": must be a whole number in [1, 1000]";
     else if (steers && rows != 1 && rows != frames)
-        action.refusal = std::to_string(rows) + " rows: must be 1, or one for each of the " + std::to_string(frames) +
-                         " frames";
+        action.refusal =
+            std::to_string(rows) + " rows: must be 1, or one for each of the " + std::to_string(frames) + " frames";
     else if (kind == take_steering && columns % 2 != 0)
         action.refusal = std::to_string(columns) + " values: must be a scale and an offset for each actuator";
     if (!action.refusal.empty()) return action;

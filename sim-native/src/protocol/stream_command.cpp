@@ -71,7 +71,8 @@ stream::Step read_step(const json& value) {
     if (!value.contains("frames")) step.frames = static_cast<int>(value.at(given[0]).size());
     step.steer.resize(std::min(step.frames, stream::max_step));
     for (const char* key : given) {
-        if (!has_rows(value, key)) fields::refuse(place.key(key), value.at(key), "a list for each frame, as the other is");
+        if (!has_rows(value, key))
+            fields::refuse(place.key(key), value.at(key), "a list for each frame, as the other is");
         const json& rows = value.at(key);
         const std::string has = "has " + std::to_string(rows.size()) + " lists: must have ";
         if (rows.size() > stream::max_step)
@@ -169,9 +170,10 @@ StreamCommand parse_stream_command(const json& value) {
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name,
-                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, save, restore, overrides or "
-                   "scene");
+    fields::refuse(
+        place.key("do"), name,
+        "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, save, restore, overrides or "
+        "scene");
 }
 
 }  // namespace natator

@@ -200,7 +200,8 @@ ordered_json stream_scene(const Simulation<Real>& simulation, const stream::Scen
 ordered_json stream_scene_change(const ordered_json& before, const ordered_json& now) {
     ordered_json body;
     for (const auto& [key, value] : now.items())
-        if (key == "number" || key == "restarted" || !before.contains(key) || before.at(key) != value) body[key] = value;
+        if (key == "number" || key == "restarted" || !before.contains(key) || before.at(key) != value)
+            body[key] = value;
     for (const auto& [key, value] : before.items())
         if (!now.contains(key)) body[key] = nullptr;
     return body;

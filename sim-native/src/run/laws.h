@@ -58,8 +58,8 @@ public:
 
     /// What it has come to, besides what its model says.
     void save(ByteWriter& to) const;
-    /// Takes what `save` of a watch of the same model wrote. Throws InputError where there is none, and then nothing has
-    /// changed.
+    /// Takes what `save` of a watch of the same model wrote. Throws InputError where there is none, and then nothing
+    /// has changed.
     void restore(ByteReader& from);
 
     /// The limits that hold now, without what they grow by with time.

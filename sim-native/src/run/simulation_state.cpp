@@ -72,7 +72,7 @@ std::string_view content_of(std::string_view saved) {
     if (saved.size() >= head_size) std::memcpy(&size, saved.data() + letters.size(), sizeof size);
     if (saved.size() < head_size + tail_size || saved.size() < size)
         refuse_saved("is cut off: has " + std::to_string(saved.size()) + " bytes" +
-               (size > 0 ? " of " + std::to_string(size) : ""));
+                     (size > 0 ? " of " + std::to_string(size) : ""));
     const std::string_view covered = saved.substr(0, saved.size() - tail_size);
     std::memcpy(&sum, saved.data() + covered.size(), sizeof sum);
     if (saved.size() != size || sum != checksum(covered)) refuse_saved("is damaged: its checksum is another");
@@ -149,11 +149,12 @@ auto Simulation<Real>::read(std::string_view saved) const -> Moment {
     std::string version, scheme;
     std::uint32_t real_bytes = 0;
     from.read(version);
-    if (version != NATATOR_VERSION) refuse_saved("of version " + natator::quoted(version) + "; must be of " + NATATOR_VERSION);
+    if (version != NATATOR_VERSION)
+        refuse_saved("of version " + natator::quoted(version) + "; must be of " + NATATOR_VERSION);
     from.read(real_bytes);
     if (real_bytes != sizeof(Real))
         refuse_saved(std::string("in precision ") + (real_bytes == sizeof(double) ? "double" : "float") +
-               "; must be that which runs, " + (sizeof(Real) == sizeof(double) ? "double" : "float"));
+                     "; must be that which runs, " + (sizeof(Real) == sizeof(double) ? "double" : "float"));
     from.read(scheme);
     if (scheme != to_string(model().scheme))
         refuse_saved("of scheme " + scheme + "; must be that which runs, " + to_string(model().scheme));
@@ -186,8 +187,9 @@ bool Simulation<Real>::restore(std::string_view saved) {
     next.start = moment.setup.start;
     next.gait = moment.setup.gait;
     const bool same_scene = same_overrides(next.overrides, setup_.overrides) && next.start == setup_.start;
-    const std::string of_another = "of scene " + natator::quoted(moment.setup.scene) + "; must be of the scene that runs, " +
-                                   natator::quoted(setup_.scene) + ", with the same content";
+    const std::string of_another = "of scene " + natator::quoted(moment.setup.scene) +
+                                   "; must be of the scene that runs, " + natator::quoted(setup_.scene) +
+                                   ", with the same content";
     std::unique_ptr<Run> made;
     if (!same_scene) {
         try {
@@ -200,7 +202,8 @@ bool Simulation<Real>::restore(std::string_view saved) {
     if (digest(run) != moment.digest) refuse_saved(of_another);
     const int actuators = run.model.actuators, particles = run.model.particles();
     check_gait(*next.gait, actuators);
-    for (const Steering* steering : {&moment.steering, &moment.applied}) check_steering(*steering, *next.gait, actuators);
+    for (const Steering* steering : {&moment.steering, &moment.applied})
+        check_steering(*steering, *next.gait, actuators);
     check_state(run.model, moment.state);
     if (moment.densities && moment.densities->size() != static_cast<std::size_t>(particles)) refuse_saved(of_another);
     if (moment.base_frame < 0 || moment.frames < moment.base_frame) refuse_saved("its frames are not from 0 on");

@@ -541,8 +541,7 @@ void GpuWater::restore(ByteReader from) {
     }
     std::vector<float> populations(static_cast<std::size_t>(lattice_populations) * lattice_.count);
     std::vector<Owners> owners(lattice_.count);
-    const std::size_t of_populations = populations.size() * sizeof(float),
-                      of_owners = owners.size() * sizeof(Owners);
+    const std::size_t of_populations = populations.size() * sizeof(float), of_owners = owners.size() * sizeof(Owners);
     if (from.left().size() != of_populations + of_owners) refuse_saved();
     std::memcpy(populations.data(), from.take(of_populations).data(), of_populations);
     std::memcpy(owners.data(), from.take(of_owners).data(), of_owners);

@@ -55,8 +55,8 @@ public:
 
     /// All that goes from one step to the next.
     virtual void save(ByteWriter& to) const = 0;
-    /// Takes what `save` wrote, the last that there is to read. Throws InputError when it is not of such water in such a
-    /// box, and then nothing has changed.
+    /// Takes what `save` wrote, the last that there is to read. Throws InputError when it is not of such water in such
+    /// a box, and then nothing has changed.
     virtual void restore(ByteReader from) = 0;
 
 protected:
