@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Steps a second of vector environments, and what a step costs in processor time, by environments and threads. Runs take turns, since
-others use the machine; each figure is the median over rounds."""
+"""Steps a second of vector environments, what a step costs in processor time, and the program's memory, by environments and threads.
+Runs take turns, since others use the machine; figures are medians over rounds."""
 
 import argparse
+import re
 import statistics
 import time
 from pathlib import Path
@@ -24,6 +25,12 @@ def processor_time(env):
     return (int(fields[11]) + int(fields[12])) / 100
 
 
+def memory(env):
+    """MB of its program."""
+    status = Path(f"/proc/{env._batch._program._process.pid}/status").read_text()
+    return int(re.search(r"VmRSS:\s*(\d+) kB", status)[1]) / 1000
+
+
 def measure(options):
     pairs = list(zip(options.sizes[::2], options.sizes[1::2]))
     envs = [natator.gym.SwimmerVectorEnv(count, threads=threads, scene=options.scene, duration=1e9) for count, threads in pairs]
@@ -40,10 +47,10 @@ def measure(options):
             count = options.steps * env.num_envs
             own.append((count / (time.perf_counter() - begun), 1e3 * (processor_time(env) - used) / count,
                         1e3 * (time.process_time() - here) / count))
-    print("| environments | threads | steps/s | program, ms a step | Python, ms a step |\n|---:|---:|---:|---:|---:|")
-    for (count, threads), own in zip(pairs, seen):
+    print("| environments | threads | steps/s | program, ms a step | Python, ms a step | MB |\n|---:|---:|---:|---:|---:|---:|")
+    for (count, threads), own, env in zip(pairs, seen, envs):
         rate, program, python = np.apply_along_axis(statistics.median, 0, own)
-        print(f"| {count} | {threads} | {rate:.1f} | {program:.1f} | {python:.2f} |")
+        print(f"| {count} | {threads} | {rate:.1f} | {program:.1f} | {python:.2f} | {memory(env):.0f} |")
 
 
 script.run(parser, measure)

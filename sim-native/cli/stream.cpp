@@ -72,6 +72,7 @@ void run_stream(StreamOptions& options) {
     if (!options.state.empty()) batch.restore(read_state(options.state));
     LineQueue commands({.lines = std::max(max_waiting, static_cast<std::size_t>(2 * options.swims)),
                         .bytes = stream::max_command,
+                        .waiting_bytes = max_waiting * stream::max_command,
                         .message_bytes = stream::max_message,
                         .letters = {std::string(stream::state_letters), std::string(stream::action_letters)}});
     batch.run(commands);

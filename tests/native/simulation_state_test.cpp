@@ -11,7 +11,7 @@
 #include "refusal_of.h"
 #include "scene/scene_json.h"
 
-namespace natator {
+namespace natator::saving {
 namespace {
 
 using nlohmann::json;
@@ -225,4 +225,4 @@ TEST(SavedSimulation, AnUnstableOneIsNotSavedButCanGoBack) {
 }
 
 }  // namespace
-}  // namespace natator
+}  // namespace natator::saving

@@ -13,7 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string small_tank = "bench/small-tank";
 constexpr std::uint32_t nobody = 0xffffffff;
 
 template <class T>
@@ -34,10 +33,6 @@ std::string action(std::uint32_t what, std::uint32_t frames = 0, const std::vect
     for (const auto& row : rows)
         for (const double value : row) bytes += bytes_of(value);
     return bytes;
-}
-
-std::string message(const std::string& letters, const std::string& body) {
-    return letters + bytes_of(static_cast<std::uint32_t>(body.size())) + body;
 }
 
 std::string actions(std::uint32_t id, const std::vector<std::string>& all) {

@@ -13,13 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string small_tank = "bench/small-tank";
-
-std::string message(const std::string& letters, const std::string& body) {
-    const auto length = static_cast<std::uint32_t>(body.size());
-    return letters + std::string(reinterpret_cast<const char*>(&length), sizeof length) + body;
-}
-
 /// The body of the STAT that `save` sends.
 std::string save(StreamClient& client) {
     client.passed();

@@ -41,10 +41,10 @@ public:
     void read(Eigen::Quaternion<Real>& rotation) {
         read(rotation.coeffs());
     }
-    void read(std::string& text) { text = take(size()); }
+    void read(std::string& text) { text = take(count(1)); }
     template <class T>
     void read(std::vector<T>& values) {
-        values.resize(size());
+        values.resize(count(sizeof(T)));
         for (T& value : values) read(value);
     }
     /// What there is, of no other length.
@@ -54,12 +54,12 @@ public:
     }
 
 private:
-    /// A count of values, each of at least a byte.
-    std::size_t size() {
-        std::size_t size = 0;
-        read(size);
-        if (size > left_.size()) refuse();
-        return size;
+    /// How many values follow, each of so many bytes; no more than there are.
+    std::size_t count(std::size_t bytes) {
+        std::size_t count = 0;
+        read(count);
+        if (count > left_.size() / bytes) refuse();
+        return count;
     }
     [[noreturn]] static void refuse() { throw InputError("state: is not of this scene: other numbers of values"); }
 
