@@ -33,7 +33,7 @@ REFUSED = [
     {"do": "sense", "flow": [{"slice": 1, "side": "port"}]}, {"do": "sense", "target": [1, 2]}, {"do": "sense", "each": 1},
     {"do": "sense", "target": [1, 2, 2e6]}, {"do": "rate"}, {"do": "rate", "value": 2000}, {"do": "gait"},
     {"do": "gait", "gait": GAIT | {"frequency": 61}}, {"do": "overrides"}, {"do": "scene"}, {"do": "scene", "scene": 3},
-    {"do": "save", "sense": True}, {"do": "restore", "sense": "yes"}, {"do": "pause", "swim": 1},
+    {"do": "save", "sense": True}, {"do": "restore", "sense": "yes"}, {"do": "pause", "swim": -1}, {"do": "pause", "swim": 4096},
     {"do": "step", "scale": [[1, 1]], "offset": [0, 0]}, {"do": "step", "scale": [[1, 5]]},
 ]
 
