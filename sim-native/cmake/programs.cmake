@@ -33,6 +33,7 @@ natator_program(natator-sim
     serve.cpp
     start_bench.cpp
     stream.cpp
+    stream_batch.cpp
     stream_session.cpp)
 
 # What natator-sim bench starts; who only evolves does without it.

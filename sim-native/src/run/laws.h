@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/byte_reader.h"
+#include "base/byte_writer.h"
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
@@ -53,6 +55,12 @@ public:
     void go_on(const physics::LawMeasures& measures);
     /// The tank has moved: energy counts anew, from the end of the next frame.
     void restart();
+
+    /// What it has come to, besides what its model says.
+    void save(ByteWriter& to) const;
+    /// Takes what `save` of a watch of the same model wrote. Throws InputError where there is none, and then nothing
+    /// has changed.
+    void restore(ByteReader& from);
 
     /// The limits that hold now, without what they grow by with time.
     const physics::LawLimits& limits() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -280,6 +281,24 @@ std::optional<Instability> broken_by_compression(double mean_excess, double time
 
 void LawWatch::restart() {
     parts_->begun = false;
+}
+
+void LawWatch::save(ByteWriter& to) const {
+    const Parts& p = *parts_;
+    for (const double value : {p.muscle_speed, p.highest, p.first, p.work}) to.add(value);
+    to.add(p.begun);
+    const auto& [particle_energy, energy, depth, reach, compression] = p.margins;
+    for (const double value : {particle_energy, energy, depth, reach, compression}) to.add(value);
+}
+
+void LawWatch::restore(ByteReader& from) {
+    Parts next = *parts_;
+    for (double* value : {&next.muscle_speed, &next.highest, &next.first, &next.work}) from.read(*value);
+    from.read(next.begun);
+    auto& [particle_energy, energy, depth, reach, compression] = next.margins;
+    for (double* value : {&particle_energy, &energy, &depth, &reach, &compression})
+        std::memcpy(value, from.take(sizeof *value).data(), sizeof *value);  // may be infinite
+    *parts_ = next;
 }
 
 const LawLimits& LawWatch::limits() const {

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace natator {
@@ -34,7 +36,14 @@ public:
         for (const T& value : values) add(value);
     }
 
+    /// Numbers as they are, without their count.
+    template <class T>
+    void add_all(std::span<const T> values) {
+        bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    }
+
     const std::string& bytes() const { return bytes_; }
+    std::string take() { return std::move(bytes_); }
 
 private:
     std::string bytes_;
