@@ -16,7 +16,6 @@ apt() {
         { cat "$root.apt.log" >&2; exit 1; }
 }
 user() { inside setpriv --reuid=65534 --regid=65534 --clear-groups /usr/bin/env -C /tried/elsewhere "$@"; }
-clock() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.1f s", b - a }'; }
 
 (( $# )) || set -- bookworm noble
 for suite in "$@"; do

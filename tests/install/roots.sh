@@ -1,5 +1,5 @@
 # Systems of their own to install in: the smallest of Debian and Ubuntu, as chroots. To be sourced, in the folder of the checkout. They are kept in
-# $NATATOR_ROOTS, else in build/roots.
+# $NATATOR_ROOTS, else in build/roots. With NATATOR_CCACHE=DIR they share that cache of compiled code, and times no longer tell how long one compiles.
 readonly roots=${NATATOR_ROOTS:-$PWD/build/roots}
 (( EUID == 0 )) || { echo "${0##*/}: must run as root: it makes systems of its own" >&2; exit 1; }
 command -v debootstrap >/dev/null || { echo "${0##*/}: debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
@@ -12,7 +12,8 @@ make_root() {
     if [[ ! -e $root/complete ]]; then
         rm -rf "$root"
         mkdir -p "$(dirname "$root")"
-        debootstrap --variant=minbase ${packages:+--include="$packages"} "$suite" "$root" "${mirror[@]}" >"$root.log"
+        mkdir -p "$roots/packages"
+        debootstrap --variant=minbase --cache-dir="$(realpath "$roots/packages")" ${packages:+--include="$packages"} "$suite" "$root" "${mirror[@]}" >"$root.log"
         touch "$root/complete"
     fi
     # The network's name servers and certificates.
@@ -22,7 +23,22 @@ make_root() {
     cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
 }
 
+# The host's ccache, with the libraries that it needs, in a folder that a system sees at /mnt while a command runs, and never after.
+readonly cache=${NATATOR_CCACHE:+$roots/ccache}
+cache_variables=()
+if [[ -n $cache ]]; then
+    command -v ccache >/dev/null || { echo "${0##*/}: NATATOR_CCACHE: ccache is missing: apt-get install ccache" >&2; exit 1; }
+    mkdir -p "$NATATOR_CCACHE" "$cache/bin" "$cache/cache"
+    ldd "$(command -v ccache)" | grep -o '/[^ ]*' | xargs cp --dereference --target-directory "$cache/bin" "$(command -v ccache)"
+    printf '#!/bin/sh\nexec /mnt/bin/ld-linux-x86-64.so.2 --library-path /mnt/bin /mnt/bin/ccache "$@"\n' >"$cache/ccache"
+    chmod +x "$cache/ccache"
+    cache_variables=(CCACHE_DIR=/mnt/cache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1 CCACHE_TEMPDIR=/tmp CMAKE_CXX_COMPILER_LAUNCHER=/mnt/ccache)
+fi
+
 # Runs a command in it, after variables of its environment, with /proc, by which the program finds its scenes.
 in_root() {
-    unshare --mount sh -c 'mount -t proc none "$0/proc" && exec chroot "$0" "$@"' "$root" /usr/bin/env -i PATH=/usr/bin:/bin "$@"
+    # shellcheck disable=SC2016
+    unshare --mount sh -c 'mount -t proc none "$0/proc"
+        [ -z "$1" ] || { mount --bind "$1" "$0/mnt" && mount --bind "$2" "$0/mnt/cache"; } || exit
+        shift 2; exec chroot "$0" "$@"' "$root" "$cache" "${NATATOR_CCACHE-}" /usr/bin/env -i PATH=/usr/bin:/bin "${cache_variables[@]}" "$@"
 }
