@@ -7,13 +7,18 @@ command -v debootstrap >/dev/null || { echo "${0##*/}: debootstrap is missing: a
 # Makes system NAME of SUITE, with these PACKAGES (a,b,…) besides its smallest, unless it is there, and `root` the folder of it.
 make_root() {
     local name=$1 suite=$2 packages=${3:-} mirror=(http://deb.debian.org/debian)
-    [[ $suite != noble ]] || mirror=(http://archive.ubuntu.com/ubuntu gutsy)  # the script of all later ones
+    local components=main
+    if [[ $suite == noble ]]; then
+        mirror=(http://archive.ubuntu.com/ubuntu gutsy)  # the script of all later ones
+        components=main,universe  # as Ubuntu's own sources.list
+    fi
     root=$roots/$name
     if [[ ! -e $root/complete ]]; then
         rm -rf "$root"
-        mkdir -p "$(dirname "$root")"
-        mkdir -p "$roots/packages"
-        debootstrap --variant=minbase --cache-dir="$(realpath "$roots/packages")" ${packages:+--include="$packages"} "$suite" "$root" "${mirror[@]}" >"$root.log"
+        mkdir -p "$root/etc/dpkg/dpkg.cfg.d" "$roots/packages"
+        echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # as in container images: does not wait for the disk
+        debootstrap --variant=minbase --cache-dir="$(realpath "$roots/packages")" --components="$components" \
+            ${packages:+--include="$packages"} "$suite" "$root" "${mirror[@]}" >"$root.log"
         touch "$root/complete"
     fi
     # The network's name servers and certificates.
