@@ -33,13 +33,14 @@ def channel(parts, folder):
 
 
 def build(recipe, variants, needed, folder):
-    from rattler_build import Stage0Recipe, ToolConfiguration, VariantConfig
+    from rattler_build import Package, Stage0Recipe, ToolConfiguration, VariantConfig
 
     for variant in Stage0Recipe.from_file(recipe).render(VariantConfig.from_file(variants)):
-        built = variant.run_build(ToolConfiguration(test_strategy="native", error_prefix_in_binary=True), folder, [url(needed)],
-                                  no_build_id=True)
-        for package in built.packages:
-            print(f"{Path(package).name}: {Path(package).stat().st_size} bytes")
+        for file in variant.run_build(ToolConfiguration(error_prefix_in_binary=True), folder, [url(needed)], no_build_id=True).packages:
+            tests = Package.from_file(file).run_tests(channel=[url(folder), url(needed)])
+            print(f"{Path(file).name}: {Path(file).stat().st_size} bytes, {len(tests)} test")
+            if not tests or not all(test.success for test in tests):
+                sys.exit("\n".join(line for test in tests for line in test.output))
     index(folder)
 
 

@@ -22,7 +22,7 @@ plain() { sed 's/^[0-9]*://; s/[-+].*//' <<<"$1"; }  # the version without what 
 
 headers() {  # PACKAGE OF DEBIAN, NAME OF CONDA-FORGE
     local file
-    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin /usr/bin/env -C /tried apt-get -qq download "$1"
+    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin /usr/bin/env -C /tried apt-get -qq -o APT::Sandbox::User=root download "$1"
     file=$(echo "$root/tried/$1"_*.deb)
     begin_part "$2" "$(plain "$(dpkg-deb --field "$file" Version)")"
     dpkg-deb --extract "$file" "$root/tried/unpacked"
@@ -67,7 +67,7 @@ git ls-files -z | tar --create --null --files-from - | tar --extract --directory
 venv "${rattler[@]}"
 channel=$given variants=${recipe%/*}/variants.yaml
 if [[ -z $given ]]; then
-    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin apt-get -qq update
+    apt_get update
     headers libeigen3-dev eigen
     headers nlohmann-json3-dev nlohmann_json
     headers libcli11-dev cli11

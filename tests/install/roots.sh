@@ -6,26 +6,49 @@ command -v debootstrap >/dev/null || { echo "${0##*/}: debootstrap is missing: a
 
 # Makes system NAME of SUITE, with these PACKAGES (a,b,…) besides its smallest, unless it is there, and `root` the folder of it.
 make_root() {
-    local name=$1 suite=$2 packages=${3:-} mirror=(http://deb.debian.org/debian)
-    local components=main
+    local name=$1 suite=$2 packages=${3:-} base=$roots/base/$2 mirror=(http://deb.debian.org/debian) components=main
     if [[ $suite == noble ]]; then
         mirror=(http://archive.ubuntu.com/ubuntu gutsy)  # the script of all later ones
         components=main,universe  # as Ubuntu's own sources.list
     fi
     root=$roots/$name
-    if [[ ! -e $root/complete ]]; then
-        rm -rf "$root"
-        mkdir -p "$root/etc/dpkg/dpkg.cfg.d" "$roots/packages"
-        echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # as in container images: does not wait for the disk
-        debootstrap --variant=minbase --cache-dir="$(realpath "$roots/packages")" --components="$components" \
-            ${packages:+--include="$packages"} "$suite" "$root" "${mirror[@]}" >"$root.log"
-        touch "$root/complete"
+    if [[ -e $root/complete ]]; then
+        give_network
+        return
     fi
-    # The network's name servers and certificates.
+    if [[ ! -e $base/complete ]]; then
+        rm -rf --one-file-system "$base"
+        mkdir -p "$base/etc/dpkg/dpkg.cfg.d"
+        echo force-unsafe-io >"$base/etc/dpkg/dpkg.cfg.d/unsafe-io"  # as in container images: does not wait for the disk
+        # In a namespace, where its /proc is gone with it, even if it is killed.
+        unshare --mount debootstrap --variant=minbase --components="$components" "$suite" "$base" "${mirror[@]}" >"$base.log"
+        touch "$base/complete"
+    fi
+    rm -rf --one-file-system "$root"
+    mkdir -p "$(dirname "$root")"
+    cp --archive --reflink=auto "$base" "$root"
+    rm "$root/complete"
+    give_network
+    if [[ -n $packages ]]; then
+        apt_get update
+        # shellcheck disable=SC2086
+        apt_get install --no-install-recommends ${packages//,/ }
+        give_network
+    fi
+    touch "$root/complete"
+}
+
+# This machine's name servers and certificates, to $root.
+give_network() {
     cp /etc/resolv.conf "$root/etc/"
     mkdir -p "$root/etc/ssl/certs"
     cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
     cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
+}
+
+apt_get() {  # in $root; what it says is shown if it fails
+    in_root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@" >"$root.apt.log" 2>&1 ||
+        { cat "$root.apt.log" >&2; exit 1; }
 }
 
 # The host's ccache, with the libraries that it needs, in a folder that a system sees at /mnt while a command runs, and never after.
