@@ -4,8 +4,9 @@ set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
+usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy]]
   --check   only report what is missing (exit 1 if anything is), install nothing
+  --python  only what the Python package is built with, and build/python to install it into
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there; and
             node and npm, with what its scripts are checked with from the npm registry (50 MB)
@@ -19,6 +20,7 @@ TEXT
 }
 
 check_only=false
+python_only=false
 with_cuda=false
 with_browser=false
 with_readers=false
@@ -26,6 +28,7 @@ with_tidy=false
 for argument in "$@"; do
     case $argument in
         --check) check_only=true ;;
+        --python) python_only=true ;;
         --cuda) with_cuda=true ;;
         --browser) with_browser=true ;;
         --readers) with_readers=true ;;
@@ -35,6 +38,11 @@ for argument in "$@"; do
     esac
 done
 
+if $python_only && { $with_cuda || $with_browser || $with_readers || $with_tidy; }; then
+    echo 'setup.sh: --python: goes with --check alone' >&2
+    exit 2
+fi
+
 fail() {
     printf 'setup.sh: %s\n' "$1" >&2
     exit 1
@@ -42,7 +50,9 @@ fail() {
 
 # --- what is needed: tools are probed, so that they may come from anywhere; libraries are Debian packages -------------
 
-readonly libraries=(libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev)
+libraries=(libeigen3-dev=3.4 nlohmann-json3-dev=3.11 libcli11-dev=2.1)  # or later
+$python_only || libraries+=(libgtest-dev)
+readonly libraries
 readonly minimum_cmake=3.25 minimum_java=17 minimum_node=18.18
 
 compiler_works() {
@@ -111,6 +121,8 @@ install_page_tools() {
     npm ci --silent --ignore-scripts --no-audit --no-fund --prefix "$page_folder"
 }
 
+readonly python_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/build/python
+
 readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
 readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
 
@@ -136,21 +148,25 @@ install_readers() {
         npm install --silent --no-fund --prefix "$readers_folder" "gltf-validator@$validator_version"
 }
 
-installed() {
-    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+installed() {  # PACKAGE[=OLDEST VERSION]
+    local status version
+    read -r status version < <(dpkg-query --show --showformat='${db:Status-Status} ${Version}\n' "${1%=*}" 2>/dev/null) &&
+        [[ $status == installed ]] && { [[ $1 != *=* ]] || is_at_least "${version#*:}" "${1#*=}"; }
 }
 
 # Sets `missing` to the packages that would bring what is not there.
 find_missing() {
     missing=()
     compiler_works || missing+=(g++)
-    cmake_works || missing+=(cmake)
-    command -v ninja >/dev/null || missing+=(ninja-build)
-    java_works || missing+=("$(java_package)")
-    command -v mvn >/dev/null || missing+=(maven)
+    if ! $python_only; then  # pip brings these two
+        cmake_works || missing+=(cmake)
+        command -v ninja >/dev/null || missing+=(ninja-build)
+        java_works || missing+=("$(java_package)")
+        command -v mvn >/dev/null || missing+=(maven)
+    fi
     local library
     for library in "${libraries[@]}"; do
-        installed "$library" || missing+=("$library")
+        installed "$library" || missing+=("${library%=*}")
     done
     $with_browser && ! browser_works && missing+=(chromium)
     $with_browser && ! node_works && missing+=(nodejs)
@@ -176,7 +192,11 @@ find_missing() {
     if $with_readers && ! readers_work; then
         readers_missing=true
     fi
-    if $nvcc_missing || $readers_missing; then
+    python_missing=false
+    if $python_only && [[ ! -x $python_folder/bin/pip ]]; then
+        python_missing=true
+    fi
+    if $nvcc_missing || $readers_missing || $python_missing; then
         python3 -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
     fi
 }
@@ -210,15 +230,19 @@ finish() {
         printf 'setup: installing the packages of %s into %s\n' "$readers_list" "$readers_folder"
         install_readers && readers_work || fail "could not install $readers_list from PyPI into $readers_folder"
     fi
+    if $python_missing; then
+        python3 -m venv "$python_folder" || fail "could not make the virtual environment $python_folder"
+    fi
     echo "$1"
     exit 0
 }
 
 find_missing
-if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing || $page_tools_missing || $readers_missing; }; then
+if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing || $page_tools_missing || $readers_missing || $python_missing; }; then
     $nvcc_missing && missing+=('nvcc 13')
     $page_tools_missing && missing+=('ga-java/view/node_modules')
     $readers_missing && missing+=('.readers')
+    $python_missing && missing+=('build/python')
     printf 'setup: missing: %s\n' "${missing[*]}"
     exit 1
 fi
@@ -259,6 +283,6 @@ install || { apt update && install; } || fail "could not install; needed: $(need
 requested=("${missing[@]}")
 find_missing
 if (( ${#missing[@]} > 0 )); then
-    fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java, node >= $minimum_node)"
+    fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java, node >= $minimum_node, ${libraries[*]} or later)"
 fi
 finish 'setup: done'

@@ -11,23 +11,18 @@ readonly package=build/deb/natator_${version}_amd64.deb
 [[ -f $package ]] || { echo "deb.sh: no $package: make it by mvn package -DskipTests && cpack --preset deb" >&2; exit 1; }
 printf '%s: %d bytes\n' "$package" "$(stat -c %s "$package")"
 
-apt() {
-    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@" >"$root.apt.log" 2>&1 ||
-        { cat "$root.apt.log" >&2; exit 1; }
-}
 user() { inside setpriv --reuid=65534 --regid=65534 --clear-groups /usr/bin/env -C /tried/elsewhere "$@"; }
-clock() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.1f s", b - a }'; }
 
 (( $# )) || set -- bookworm noble
 for suite in "$@"; do
     system "deb-$suite" "$suite" ''
     inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge natator >/dev/null 2>&1  # of a run that was cut short
-    apt purge --auto-remove
-    apt update
+    apt_get purge --auto-remove
+    apt_get update
     chmod 777 "$root/tried/elsewhere"
     cp "$package" "$root/tried/"
     began=$EPOCHREALTIME
-    apt install "/tried/${package##*/}"
+    apt_get install "/tried/${package##*/}"
     installed=$EPOCHREALTIME
     user natator-sim run pool/eel --duration 1 >"$root.log"
     swum=$EPOCHREALTIME
@@ -39,7 +34,7 @@ for suite in "$@"; do
     user HOME=/tried/elsewhere natator page run >"$root.log" 2>&1 || { cat "$root.log" >&2; exit 1; }
     grep -q "<html" "$root/tried/elsewhere/swim.html"
     evolved=$EPOCHREALTIME
-    apt purge natator
+    apt_get purge natator
     removed=$EPOCHREALTIME
     left=$(find "$root" -xdev -path "$root/tried" -prune -o -name '*natator*' -print)
     [[ -z $left ]] || { printf 'deb.sh: left on %s: %s\n' "$suite" "$left" >&2; exit 1; }

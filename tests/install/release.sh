@@ -93,6 +93,7 @@ fi
 
 if with trials; then
     tests/install/wheel.sh --source "$wheel"
+    tests/install/checkout.sh bookworm
     if with deb; then tests/install/deb.sh; fi
 fi
 awk '/^## \[/ && inside { exit } inside { print } /^## \[/ { inside = 1 }' CHANGELOG.md >"$out/NOTES.md"

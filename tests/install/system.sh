@@ -11,3 +11,5 @@ system() {
 inside() {
     in_root HOME=/tried PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_CERT=/etc/ssl/certs/ca-certificates.crt "$@"
 }
+
+clock() { awk -v a="$1" -v b="${2:-$EPOCHREALTIME}" 'BEGIN { printf "%.1f s", b - a }'; }  # BEGAN [ENDED]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The wheel on systems that have nothing but Python, with a clock: from pip install to the first swim, from another folder and with an empty
-# PATH; then where it can't work; with --source also the sdist and this checkout, on a system with a compiler. Needs root, debootstrap, a Debian
+# PATH; then where it can't work; with --source also the sdist, on a system with a compiler. Needs root, debootstrap, a Debian
 # mirror and PyPI; Python with tests/readers/requirements.txt makes and checks the wheel (./setup.sh --readers).
 #   sudo tests/install/wheel.sh [--source] [WHEEL]
 # Systems are kept in $NATATOR_ROOTS, else in build/roots: 0.3 GB each.
@@ -73,14 +73,13 @@ $with_source || exit 0
 "$python" -c 'from scikit_build_core.build import build_sdist; build_sdist("build/wheel")' >/dev/null
 sdist=$(echo build/wheel/natator-*.tar.gz)
 printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
-python_system source bookworm ,g++,cmake,ninja-build,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
+python_system source bookworm ,g++,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
 cp "$sdist" "$root/tried/"
 install_and_swim "${sdist##*/}" 'Debian 12, the sdist'
-python_system source bookworm ''
-mkdir "$root/tried/checkout"
-git ls-files -z | tar --create --null --files-from - | tar --extract --directory "$root/tried/checkout"
-install_and_swim checkout 'Debian 12, the checkout'
-inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends libcli11-dev >/dev/null 2>&1
-said=$(inside /tried/venv/bin/pip install --force-reinstall --no-deps /tried/checkout 2>&1) && exit 1  # one library is missing
 rm "$root/complete"
-grep -A2 'Eigen 3.4' <<<"$said"
+for lacking in libcli11-dev g++; do
+    inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends "$lacking" >/dev/null 2>&1
+    said=$(inside /tried/venv/bin/pip install --force-reinstall --no-deps "/tried/${sdist##*/}" 2>&1) && exit 1
+    printf 'without %s: ' "$lacking"
+    grep -A1 -E 'Eigen 3.4|compiler is needed' <<<"$said"
+done

@@ -134,6 +134,15 @@ class WheelTest(unittest.TestCase):
 
         self.refused(newer, "version `GLIBC_9.99' not found .*: this system's C library is too old for it; build it here: pip install")
 
+    def test_a_system_without_glibc(self):
+        def to_another(program):
+            data = program.read_bytes()
+            loader = re.search(rb"/lib[\w/]*/ld-linux[\w.-]*(?=\0)", data)[0]
+            program.write_bytes(data.replace(loader, loader.replace(b"ld-linux", b"ld-other"), 1))
+
+        self.refused(to_another, r"cannot be started: No such file or directory, as where there is no glibc \(musl\); build it here: pip install",
+                     "^natator-sim: .*No such file or directory: .*pip install")
+
     def test_a_program_of_another_version(self):
         def other(program):
             program.write_text("#!/bin/sh\necho natator-sim 0.0.1, commit unknown, instruction set portable\n")
