@@ -51,7 +51,8 @@ public:
     std::optional<Instability> look_at_compression(double mean_excess, double time);
     /// The run goes on from what it has come to in another model: that is allowed, and energy counts from here.
     void go_on(const physics::LawMeasures& measures);
-    /// The tank has moved: energy counts anew, from the end of the next frame.
+    /// The tank has moved: energy counts anew, from the end of the next frame; not that of a weightless body on a
+    /// lattice, which no water takes along.
     void restart();
 
     /// The limits that hold now, without what they grow by with time.
