@@ -53,7 +53,8 @@ public:
     std::optional<Instability> look_at_compression(double mean_excess, double time);
     /// The run goes on from what it has come to in another model: that is allowed, and energy counts from here.
     void go_on(const physics::LawMeasures& measures);
-    /// The tank has moved: energy counts anew, from the end of the next frame.
+    /// The tank has moved: energy counts anew, from the end of the next frame; not that of a weightless body on a
+    /// lattice, which no water takes along.
     void restart();
 
     /// What it has come to, besides what its model says.

@@ -11,7 +11,7 @@ Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu
       threads_(threads),
       gpu_(gpu),
       immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing, 1.75, surface_offset),
-      displaced_(model.water_box->density * std::pow(model.body.spacing, 3)) {}
+      displaced_(model.water_box->displaced_mass(model.body.spacing)) {}
 
 template <class Real>
 std::unique_ptr<Water> Coupling<Real>::make_water() const {
@@ -28,8 +28,10 @@ void Coupling<Real>::begin(const State<Real>& state) {
 template <class Real>
 void Coupling<Real>::push(State<Real>& state, double h) {
     if (!water_ || std::abs(state.time - time_) > h / 2) begin(state);
+    const bool plane = model_.water_box->is_plane();
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
-        const Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        if (plane) given.y() = 0;  // not even rounding
         state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
     }
 }

@@ -152,7 +152,7 @@ final class EvolveCommand implements Callable<Integer> {
         return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
                 sceneOptions.overrides(), execution.simulator())
                 .withScene(sceneOptions.scheme(),
-                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(sceneName),
                         sceneOptions.overrides());
     }
 
