@@ -40,7 +40,7 @@ SimulationSetup read_setup(const StreamOptions& options) {
 }
 
 stream::Fields read_fields(const std::vector<std::string>& names) {
-    if (names.size() > 1 && std::ranges::find(names, "none") != names.end())
+    if (names.size() > 1 && std::find(names.begin(), names.end(), "none") != names.end())
         throw InputError(
             "--fields: none stands beside others; must be none alone, or some of position, velocity, density");
     stream::Fields fields{.position = false};
@@ -54,7 +54,7 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 
 template <class Real>
 void run_stream(StreamOptions& options) {
-    StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
+    StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings, print);
     LineQueue commands({.lines = max_waiting, .bytes = stream::max_command});
     session.run(commands);
 }

@@ -5,7 +5,6 @@
 
 #include "base/strict_json.h"
 #include "base/text.h"
-#include "commands.h"
 #include "natator/error.h"
 #include "protocol/protocol.h"
 
@@ -24,26 +23,46 @@ json parse_command(const std::string& line) {
 
 template <class Real>
 StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
-                                   const StreamSettings& settings)
-    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
+                                   const StreamSettings& settings, Output output)
+    : settings_(settings), output_(std::move(output)), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
 
 template <class Real>
 void StreamSession<Real>::run(LineQueue& commands) {
-    scene_changed(true);
+    begin();
     for (;;) {
         for (const std::string& line : commands.take_waiting()) carry_out(line);
-        offer_frame();
-        end_if_reached();
-        if (ended_ || commands.exhausted()) return;
-        if (!running() || due_) {
+        if (!offer() || commands.exhausted()) return;
+        const auto next = next_frame();
+        if (!next)
             commands.wait();
-        } else if (LineQueue::Clock::now() < pace_.next()) {
-            commands.wait_until(pace_.next());
-        } else {
-            pace_.begin_frame(simulation_.scene().time_step);
-            if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
-        }
+        else if (LineQueue::Clock::now() < *next)
+            commands.wait_until(*next);
+        else
+            simulate_frame();
     }
+}
+
+template <class Real>
+void StreamSession<Real>::begin() {
+    scene_changed(true);
+}
+
+template <class Real>
+bool StreamSession<Real>::offer() {
+    offer_frame();
+    end_if_reached();
+    return !ended_;
+}
+
+template <class Real>
+std::optional<Pace::Clock::time_point> StreamSession<Real>::next_frame() const {
+    return running() && !due_ ? std::optional(pace_.next()) : std::nullopt;
+}
+
+template <class Real>
+void StreamSession<Real>::simulate_frame() {
+    pace_.begin_frame(simulation_.scene().time_step);
+    if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
 }
 
 /// What a command causes comes before its answer.
@@ -62,7 +81,7 @@ void StreamSession<Real>::carry_out(const std::string& line) {
     } catch (const std::bad_alloc& error) {
         answer_ = {{"id", answer_["id"]}, {"error", message_of(error)}};
     }
-    print(stream_message("ANSW", answer_));
+    output_(stream_message("ANSW", answer_));
 }
 
 template <class Real>
@@ -146,7 +165,7 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Water&) {
     refuse_if_unstable();
-    print(stream_water(simulation_, scene_));
+    output_(stream_water(simulation_, scene_));
 }
 
 template <class Real>
@@ -196,7 +215,7 @@ template <class Real>
 void StreamSession<Real>::scene_changed(bool restarted) {
     const stream::SceneHead head{.number = ++scene_, .restarted = restarted, .fields = settings_.fields};
     ordered_json body = stream_scene(simulation_, head);
-    print(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
+    output_(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
     last_scene_ = std::move(body);
     if (!restarted) return;
     due_ = !simulation_.instability();
@@ -204,7 +223,7 @@ void StreamSession<Real>::scene_changed(bool restarted) {
     wall_seconds_ = 0;
     wall_frames_ = 0;
     pace_.restart();
-    if (simulation_.instability()) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+    if (simulation_.instability()) output_(stream_message("STOP", stream_stop(*simulation_.instability())));
 }
 
 /// One frame; false if the simulation became unstable.
@@ -214,7 +233,7 @@ bool StreamSession<Real>::simulate() {
     const bool stable = simulation_.step();
     wall_seconds_ += std::chrono::duration<double>(Pace::Clock::now() - begin).count();
     ++wall_frames_;
-    if (!stable) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+    if (!stable) output_(stream_message("STOP", stream_stop(*simulation_.instability())));
     return stable;
 }
 
@@ -232,8 +251,8 @@ void StreamSession<Real>::offer_frame() {
                                  .running = running(),
                                  .wall_seconds = wall_frames_ > 0 ? wall_seconds_ / wall_frames_ : 0,
                                  .fields = settings_.fields};
-    if (sense_each_) print(stream_message("SENS", senses()));
-    print(stream_frame(simulation_, head));
+    if (sense_each_) output_(stream_message("SENS", senses()));
+    output_(stream_frame(simulation_, head));
     --credit_;
     due_ = false;
     wall_seconds_ = 0;
@@ -258,7 +277,7 @@ template <class Real>
 void StreamSession<Real>::end_if_reached() {
     if (ended_ || !at_end() || due_) return;
     ended_ = true;
-    print(stream_message("STOP", stream_stop()));
+    output_(stream_message("STOP", stream_stop()));
 }
 
 template <class Real>

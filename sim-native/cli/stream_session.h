@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,19 +21,34 @@ struct StreamSettings {
     bool paused = false;          ///< at first
 };
 
-/// Runs a scene, carries out commands and writes messages on standard output (sim-native/protocol/stream.md).
+/// Runs a scene, carries out commands and gives out messages (sim-native/protocol/stream.md).
 template <class Real>
 class StreamSession {
 public:
-    /// Settles the scene. Throws InputError.
-    StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings);
+    /// Takes a message, as bytes. What it throws ends the call that gave it out.
+    using Output = std::function<void(const std::string&)>;
 
-    /// Returns at the end of the commands, or when the time asked for is reached. Throws std::runtime_error when
-    /// standard output can't be written.
+    /// Settles the scene. Throws InputError.
+    StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings,
+                  Output output);
+
+    /// Returns at the end of the commands, or when the time asked for is reached.
     void run(LineQueue& commands);
 
-private:
+    // The parts of `run`, for who has no thread to wait with.
+
+    /// Gives out the first SCEN; to be called first.
+    void begin();
+    /// Carries out one command, a line of JSON, and answers it.
     void carry_out(const std::string& line);
+    /// Gives out the present frame if it is due and there is credit. False once the time asked for is reached.
+    bool offer();
+    /// When the next frame may be simulated; none before another command.
+    std::optional<Pace::Clock::time_point> next_frame() const;
+    /// Simulates one frame.
+    void simulate_frame();
+
+private:
     void apply(const stream::Credit& credit);
     void apply(const stream::Run&);
     void apply(const stream::Pause&);
@@ -61,6 +77,7 @@ private:
     bool at_end() const;
 
     StreamSettings settings_;
+    Output output_;
     Simulation<Real> simulation_;
     Pace pace_;
     bool running_;
