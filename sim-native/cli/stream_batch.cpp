@@ -105,6 +105,7 @@ void StreamBatch<Real>::take(const std::string& line) {
         json command = parse_command(line);
         id = request_id(command);
         hand_over(std::move(command));
+        if (single()) carry_out_waiting();  // each answer at once; several swims go on at the same time
     } catch (const InputError& error) {
         refuse(id, error.what());
     }

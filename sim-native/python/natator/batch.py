@@ -26,7 +26,7 @@ class Batch:
     count: how many. threads: how many go on at a time, by default as many as there are processors. Other arguments are those of
     Stream. A context manager; what nobody closes or refers to is closed too. Raises InputError and ProgramError.
 
-    Attribute: `swims`, a list of Swim, each of which does what a Stream does. Steps that are begun by `begin_step` of several
+    Attribute: `swims`, a list of BatchStream, each of which does what a Stream does. Steps that are begun by `begin_step` of several
     swims are simulated together when the first of them is ended by `end_step`.
     """
 
@@ -38,7 +38,7 @@ class Batch:
         self._program, framed = start_program(scene, arguments=[*arguments, f"--batch={count}", f"--threads={threads}"], **options)
         self._turns, self._heard, self._speaker = itertools.count(1), collections.deque(), NOBODY if count > 1 else 0
         self._asked, self._torn = {}, False
-        self.swims = [Swim(self, index, framed) for index in range(count)]
+        self.swims = [BatchStream(self, index, framed) for index in range(count)]
         try:
             for swim in self.swims:
                 swim.meet()
@@ -106,7 +106,7 @@ class Batch:
             raise self._program.no_simulator() from None
 
 
-class Swim(Stream):
+class BatchStream(Stream):
     """One of a Batch. Closing it does nothing: that is the batch's."""
 
     _alone = False

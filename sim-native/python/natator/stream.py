@@ -430,4 +430,5 @@ PROTOCOL = 2
 MAX_COMMAND = 1 << 20  # bytes of a line
 WIDTHS = {"position": 3, "velocity": 3, "density": 1}
 #: bytes of a message's body
-LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"STAT": 1 << 30, b"ACTS": 1 << 30, b"OBSV": 1 << 30, b"SWIM": 4, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"STAT": 1 << 30,
+           b"ACTS": 1 << 30, b"OBSV": 1 << 30, b"SWIM": 4, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
