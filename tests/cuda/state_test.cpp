@@ -1,10 +1,10 @@
 // Simulations on a GPU, saved and gone on from.
 #include <cmath>
 
+#include "../native/refusal_of.h"
 #include "gpu_test.h"
 #include "natator/measure.h"
 #include "natator/simulation.h"
-#include "../native/refusal_of.h"
 
 namespace natator {
 namespace {
