@@ -9,6 +9,8 @@ import io.natator.file.ShellWord;
 import io.natator.process.Evaluator;
 import io.natator.process.OptimizerPipe;
 import io.natator.run.EvolutionRun;
+import java.io.FileDescriptor;
+import java.io.FileOutputStream;
 import java.io.PrintWriter;
 import picocli.CommandLine;
 
@@ -45,7 +47,8 @@ final class RunLauncher {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             boolean isOutside = folder.settings().search().optimizer().isOutside();
-            try (OptimizerPipe pipe = isOutside ? new OptimizerPipe(System.in, System.out) : null;
+            try (OptimizerPipe pipe = isOutside ? new OptimizerPipe(System.in, new FileOutputStream(FileDescriptor.out))
+                    : null;
                     Evaluator evaluator = EvolutionRun.open(limited);
                     ShutdownHandler shutdown = new ShutdownHandler(() -> stop(evaluator, pipe), stopAfter,
                             () -> say("interrupted; " + how))) {

@@ -11,9 +11,13 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.process.FakePool;
+import io.natator.process.OptimizerPipe;
 import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
 import java.io.IOException;
+import java.io.InputStream;
+import java.io.PipedInputStream;
+import java.io.PipedOutputStream;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -197,6 +201,19 @@ class ExternalOptimizerTest {
 
         assertThatThrownBy(() -> run(SETTINGS, new ToySimulator(), waiting, null, List.of()))
                 .isInstanceOf(EvolutionStoppedException.class).hasMessage("stopped before generation 0");
+    }
+
+    /** Nor does this program wait for what it says to be read. */
+    @Test
+    @Timeout(value = 1, unit = TimeUnit.MINUTES)
+    void nobodyIsBlockedByOneThatDoesNotRead() throws IOException {
+        OptimizerPipe pipe = new OptimizerPipe(InputStream.nullInputStream(),
+                new PipedOutputStream(new PipedInputStream(1)));
+
+        pipe.send("more than a pipe of one byte takes");
+        pipe.close();
+
+        assertThatThrownBy(pipe::receive).isInstanceOf(InterruptedException.class);
     }
 
     @Test
