@@ -24,7 +24,11 @@ json parse_command(const std::string& line) {
 template <class Real>
 StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
                                    const StreamSettings& settings, Output output)
-    : settings_(settings), output_(std::move(output)), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
+    : settings_(settings),
+      output_(std::move(output)),
+      simulation_(setup, execution),
+      pace_(settings.rate),
+      running_(!settings.paused) {}
 
 template <class Real>
 void StreamSession<Real>::run(LineQueue& commands) {
