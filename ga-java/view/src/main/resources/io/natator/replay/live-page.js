@@ -176,7 +176,7 @@ class LivePage {
       return;
     }
     const speed = history.last('beatSpeed');
-    byId('speed').textContent = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
+    byId('swim-speed').textContent = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
     byId('swum').textContent = (frame.distance / scene.bodyLength).toFixed(1).replace('-', '−');
     this.#chart.draw([history]);
   }

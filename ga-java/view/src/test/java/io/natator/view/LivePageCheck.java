@@ -51,16 +51,15 @@ class LivePageCheck extends BrowserTest {
         get("frequency").focus();
         page.keyboard().press("ArrowRight");
         await("Math.abs(natator.scene().gait.frequency - 1.55) < 1e-9");
+        await("natator.time() > 1 && natator.distance() > " + (distance + 0.05));
+        assertThat((List<?>) page.evaluate("() => natator.position()")).isNotEqualTo(before);
+        assertThat(get("speed").innerText()).matches("\\d\\.\\d\\d");
         get("viscosity-number").fill("10");
         get("viscosity-number").press("Enter");
         await("Math.abs(natator.scene().definition.solver.kinematicViscosity - 0.02) < 1e-9");
         get("stiffness-number").fill("0.5");
         get("stiffness-number").press("Enter");
         await("Math.abs(natator.scene().definition.creature.springStiffness - 0.2) < 1e-9");
-
-        await("natator.time() > 1.5 && natator.distance() > " + (distance + 0.05));
-        assertThat((List<?>) page.evaluate("() => natator.position()")).isNotEqualTo(before);
-        assertThat(Double.parseDouble(get("speed").innerText().replace('−', '-'))).isPositive();
         assertThat(cutMenus()).isEmpty();
     }
 
@@ -92,7 +91,8 @@ class LivePageCheck extends BrowserTest {
 
     @Test
     void aTelephoneInTheDark() {
-        useBrowser(new NewContextOptions().setViewportSize(390, 844).setColorScheme(ColorScheme.DARK).setHasTouch(true));
+        useBrowser(
+                new NewContextOptions().setViewportSize(390, 844).setColorScheme(ColorScheme.DARK).setHasTouch(true));
         open("");
 
         assertThat(page.locator("html").getAttribute("data-theme")).isEqualTo("dark");
