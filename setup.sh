@@ -4,7 +4,7 @@ set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy]]
+usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy] [--wasm]]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --python  only what the Python package is built with, and build/python to install it into
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
@@ -16,6 +16,7 @@ usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy
             is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; doxygen; and
             dpkg-dev and gpg, which packages are made with
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
+  --wasm    also what makes the simulator of natator page --live: emscripten, and node (cmake --preset wasm)
 TEXT
 }
 
@@ -25,6 +26,7 @@ with_cuda=false
 with_browser=false
 with_readers=false
 with_tidy=false
+with_wasm=false
 for argument in "$@"; do
     case $argument in
         --check) check_only=true ;;
@@ -33,6 +35,7 @@ for argument in "$@"; do
         --browser) with_browser=true ;;
         --readers) with_readers=true ;;
         --tidy) with_tidy=true ;;
+        --wasm) with_wasm=true ;;
         -h|--help) usage; exit 0 ;;
         *) printf 'setup.sh: unknown option %s\n' "$argument" >&2; usage >&2; exit 2 ;;
     esac
@@ -180,6 +183,8 @@ find_missing() {
     done
     $with_tidy && ! command -v clang-tidy >/dev/null && missing+=(clang-tidy)
     $with_tidy && ! command -v clang++ >/dev/null && missing+=(clang)
+    $with_wasm && ! command -v em++ >/dev/null && missing+=(emscripten)
+    $with_wasm && ! node_works && missing+=(nodejs)
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true

@@ -1,4 +1,4 @@
-/** Elements of the page that are more than any element, by their id: index.html and replay.html. */
+/** Elements of the page that are more than any element, by their id: index.html, replay.html and live-page.html. */
 interface PageElements {
   'front-other': HTMLSelectElement;
   'gait-file': HTMLInputElement;
@@ -13,6 +13,7 @@ interface PageElements {
   'scene': HTMLSelectElement;
   'scheme': HTMLSelectElement;
   'scrub': HTMLInputElement;
+  'shown': HTMLInputElement;
   'speed': HTMLSelectElement;
   'swim': HTMLSelectElement;
   'theme': HTMLSelectElement;
@@ -23,6 +24,10 @@ interface Window {
   /** Figures of what is shown, to be read by tests. */
   natator: object;
 }
+
+/** What the script that emscripten makes defines: the simulator, see solver-worker.js. */
+declare function natatorLive(options: object): Promise<any>;
+declare const WorkerGlobalScope: unknown;
 
 /** What drives muscles: `gait` of a scene's request. */
 interface Gait {

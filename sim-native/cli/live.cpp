@@ -1,5 +1,6 @@
-// The simulator inside a web page: what `natator-sim stream` is to a program, without a process and without threads. The script that
-// loads this module gets the messages of sim-native/protocol/stream.md by its function `message(bytes)`.
+// The simulator inside a web page: what `natator-sim stream` is to a program, without a process and without threads.
+// The script that loads this module gets the messages of sim-native/protocol/stream.md by its function
+// `message(bytes)`.
 #include <emscripten.h>
 
 #include <algorithm>

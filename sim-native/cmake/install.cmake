@@ -25,6 +25,10 @@ if(NATATOR_PROGRAMS)
     install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
     install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator COMPONENT evolution)
     install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} COMPONENT evolution OPTIONAL)
+    foreach(part js wasm)  # of cmake --preset wasm
+        install(FILES ${PROJECT_SOURCE_DIR}/build/wasm/bin/natator-live.${part}
+            DESTINATION ${NATATOR_DATA_DIR}/live COMPONENT evolution OPTIONAL)
+    endforeach()
 endif()
 install(DIRECTORY scenes creatures examples/gaits DESTINATION ${NATATOR_DATA_DIR} COMPONENT program)
 install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} COMPONENT program FILES_MATCHING PATTERN "*.schema.json")

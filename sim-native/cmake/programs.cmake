@@ -8,7 +8,7 @@ function(natator_program program)
     target_link_options(${program} PRIVATE ${NATATOR_BUILD_ID})
     target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)
     if(EMSCRIPTEN)  # run by node, with the files of the machine
-        target_link_options(${program} PRIVATE -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1)
+        target_link_options(${program} PRIVATE -O1 -sNODERAWFS=1 -sSINGLE_FILE=1 -sENVIRONMENT=node -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1)
     endif()
     set_target_properties(${program} PROPERTIES UNITY_BUILD ${NATATOR_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 0)
     if(CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT NATATOR_SANITIZE)

@@ -8,6 +8,6 @@ foreach(part include/eigen3 include/nlohmann include/CLI share/eigen3 share/cmak
 endforeach()
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 list(APPEND CMAKE_FIND_ROOT_PATH ${CMAKE_BINARY_DIR}/headers)
-string(APPEND CMAKE_CXX_FLAGS_INIT " -msimd128 -fwasm-exceptions")
+set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fwasm-exceptions")
 # Where Debian's emscripten has its JavaScript packages; a node from elsewhere does not look there.
 set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")

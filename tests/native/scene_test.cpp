@@ -52,6 +52,7 @@ TEST(SceneTest, AllNamedScenesAreThere) {
                                                "endless/creature-2",
                                                "endless/eel",
                                                "endless/evolved-eel",
+                                               "endless/small",
                                                "endless/water",
                                                "endless/wide-water",
                                                "goals/cruise",

@@ -35,8 +35,8 @@ double range_between(const std::vector<double>& path, double begin, double end) 
 }  // namespace
 
 double water_across(const Model& model) {
-    const bool water = model.water_box ||
-                       std::any_of(model.phase.begin(), model.phase.end(), [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
+    const bool water = model.water_box || std::any_of(model.phase.begin(), model.phase.end(),
+                                                      [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
     if (!water) return 0;
     const bool plane = model.water_box && model.water_box->is_plane();
     double across = 0;

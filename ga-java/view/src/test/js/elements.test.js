@@ -11,7 +11,8 @@ function text(path) {
 }
 
 test('elements have the types that page.d.ts gives them', () => {
-  const pages = ['view/app/index.html', 'replay/replay.html'].map(page => text(`src/main/resources/io/natator/${page}`)).join('');
+  const pages = ['view/app/index.html', 'replay/replay.html', 'replay/live-page.html']
+      .map(page => text(`src/main/resources/io/natator/${page}`)).join('');
   const said = [...text('page.d.ts').matchAll(/^ {2}'(.+)': (\w+);$/gm)];
   const found = [...pages.matchAll(/<(\w+)\s[^>]*?\bid="([^"]+)"/g)];
 

@@ -78,6 +78,9 @@ class PageCommandTest extends CommandTest {
         refused(natator("page", "thesis/creature-1", "--best", "0")).contains("--best is 0; expected");
         refused(natator("page", "thesis/creature-1", "--best", "2"))
                 .contains("--best is 2; expected 1 with thesis/creature-1, which is no run folder\n");
+        refused(natator("page")).contains("no RUN or SCENE is named; expected at least one, or --live");
+        refused(natator("page", "--live", "--best", "2")).contains("--live with --best; expected --output");
+        refused(natator("page", "pool/eel", "--live")).contains("--live with pool/eel; expected --output");
         refused(natator("page", "thesis/creature-1", "--max-size", "0")).contains("--max-size is 0.0; expected");
         refused(natator("page", "no/such", "--duration", "0.1")).contains("no/such");
         refused(natator("page", "thesis/creature-1", "--output", folder.toString()))

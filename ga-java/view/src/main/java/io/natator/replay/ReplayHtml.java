@@ -91,7 +91,8 @@ public final class ReplayHtml {
 
     private String html(int every) {
         String swimText = swims.stream().map(swim -> "<script type=\"text/plain\" class=\"swim\" data-title=\""
-                + PageHtml.escaped(swim.title()) + "\">" + PageHtml.base64(new SwimCode(swim, water).compressed(every)) + "</script>")
+                + PageHtml.escaped(swim.title()) + "\">" + PageHtml.base64(new SwimCode(swim, water).compressed(every))
+                + "</script>")
                 .collect(Collectors.joining("\n"));
         return PageHtml.of("natator/replay.html", "natator/replay.js", title, Map.of("swims", swimText));
     }

@@ -5,11 +5,13 @@ import {byId, choose, fillSegments} from './element.js';
 import {Figures} from './figures.js';
 import {CAMERAS} from './cameras.js';
 import {listen} from './keys.js';
+import {Legend} from './legend.js';
 import {errorOf} from './live.js';
 import {listenToBanner, showBanner, showStatus} from './notices.js';
 import {figures} from './probe.js';
 import {expanded} from './recording.js';
 import {sliderRow} from './sliders.js';
+import {contents} from './scene.js';
 import {SolverSocket} from './solver-socket.js';
 import {firstLook} from './stage.js';
 import {SWIMMERS, WAVE, stiffened, waveGait} from './swimmers.js';
@@ -22,9 +24,9 @@ const USUAL = {stiffness: 1, viscosity: 1};
 
 const SLIDERS = [
   {group: 'gait', id: 'frequency', label: 'Beats per second', min: 0.2, max: 3, step: 0.05},
-  {group: 'gait', id: 'tail', label: 'Tail bends', title: 'how far its muscles shorten at the tail; 0: not at all', min: 0, max: 1.2, step: 0.02},
-  {group: 'gait', id: 'head', label: 'Head bends', title: 'the same at the head', min: 0, max: 1.2, step: 0.02},
-  {group: 'gait', id: 'waves', label: 'Waves on body', title: 'that go from head to tail at a time; below 0 they go to the head', min: -1.5, max: 1.5, step: 0.05},
+  {group: 'gait', id: 'tail', label: 'Bend of the tail', title: 'how far its muscles shorten there; 0: not at all', min: 0, max: 1.2, step: 0.02},
+  {group: 'gait', id: 'head', label: 'Bend of the head', title: 'how far its muscles shorten there; 0: not at all', min: 0, max: 1.2, step: 0.02},
+  {group: 'gait', id: 'waves', label: 'Waves along it', title: 'from head to tail, at a time; below 0 they run from tail to head', min: -1.5, max: 1.5, step: 0.05},
   {group: 'body', id: 'stiffness', label: 'Stiffness ×', title: 'of the body, times its own', min: 0.2, max: 1.6, step: 0.05},
   {group: 'water', id: 'viscosity', label: 'Viscosity ×', title: 'of the water, times that of the scene: 1 flows easily, 50 like syrup', min: 1, max: 50, step: 1},
 ];
@@ -37,6 +39,8 @@ class LivePage {
   #sliders = new Map();
   #figures = new Figures(byId('stage-a'));
   #chart = new TimeChart(byId('chart-speed'), ['beatSpeed'], 0.2);
+  #legend = new Legend();
+  #look = {...firstLook(), opacity: 0.25, trace: false};
   #theme;
   #lastSlow = 0;
 
@@ -47,16 +51,19 @@ class LivePage {
       scene: () => this.#sceneChanged(),
       status: (state, text) => showStatus(state, state === 'open' ? 'computed here' : text),
       notice: showBanner,
-      range: () => {},
+      range: range => {
+        this.#legend.range = range;
+        this.#showLegend();
+      },
     }, openSocket);
     this.#view.stage.setTheme(this.#theme.colours);
-    this.#view.stage.setLook({...firstLook(), muscles: true, trace: true});
+    this.#setLook(this.#look);
     this.#view.stage.rig.onMode = mode => choose(byId('cameras'), mode);
     SLIDERS.forEach(setting => this.#addSlider(setting));
-    fillSegments(byId('swimmers'), 'swimmer', SWIMMERS.map(({creature, title}) => [creature, title]), creature => this.#choose(creature));
+    fillSegments(byId('swimmers'), 'swimmer', SWIMMERS.map(({title}) => [title, title]), title => this.#choose(title));
     fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.#setCamera(mode));
     this.#show();
-    this.#setCamera('follow');
+    this.#setCamera('top');
     this.#listen();
     requestAnimationFrame(now => this.#tick(now));
   }
@@ -96,11 +103,11 @@ class LivePage {
   }
 
   /** Another swimmer from its start, with its own gait and stiffness, in water as it is set. */
-  async #choose(creature) {
-    this.#swimmer = SWIMMERS.find(one => one.creature === creature);
+  async #choose(title) {
+    this.#swimmer = SWIMMERS.find(one => one.title === title);
     this.#settings = {...this.#settings, ...this.#swimmer.wave, stiffness: 1};
     this.#own = null;
-    const overrides = {creature: {name: creature}, ...this.#patch('viscosity')};
+    const overrides = {creature: this.#swimmer.creature, ...this.#patch('viscosity')};
     const error = await this.#view.setScene(SCENE, overrides, null) ?? errorOf(await this.#view.setGait(this.#gait));
     this.#report(error);
     this.#show();
@@ -109,7 +116,7 @@ class LivePage {
   /** All as it was at first, but for the swimmer. */
   async #restore() {
     this.#settings = {...this.#settings, ...USUAL};
-    await this.#choose(this.#swimmer.creature);
+    await this.#choose(this.#swimmer.title);
     byId('restore').focus();
   }
 
@@ -120,7 +127,7 @@ class LivePage {
   }
 
   #show() {
-    choose(byId('swimmers'), this.#swimmer.creature);
+    choose(byId('swimmers'), this.#swimmer.title);
     for (const [id, slider] of this.#sliders) {
       slider.show(this.#settings[id]);
     }
@@ -137,6 +144,19 @@ class LivePage {
       this.#own = {clusterStiffness, springStiffness};
     }
     this.#showRun();
+    this.#showLegend();
+  }
+
+  #setLook(change) {
+    this.#look = {...this.#look, ...change};
+    this.#view.stage.setLook(this.#look);
+    this.#showLegend();
+  }
+
+  #showLegend() {
+    if (this.#view?.scene) {
+      this.#legend.show(this.#look, contents([this.#view.scene]));
+    }
   }
 
   #tick(now) {
@@ -156,7 +176,7 @@ class LivePage {
       return;
     }
     const speed = history.last('beatSpeed');
-    byId('speed').textContent = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
+    byId('swim-speed').textContent = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
     byId('swum').textContent = (frame.distance / scene.bodyLength).toFixed(1).replace('-', '−');
     this.#chart.draw([history]);
   }
@@ -188,6 +208,7 @@ class LivePage {
     byId('run').addEventListener('click', () => this.#toggleRun());
     byId('reset').addEventListener('click', reset);
     byId('restore').addEventListener('click', () => this.#restore());
+    byId('shown').addEventListener('change', () => this.#setLook({water: byId('shown').checked ? firstLook().water : 'none'}));
     byId('theme').addEventListener('change', () => this.#theme.choose(byId('theme').value));
     listen([
       [' ', 'swim or pause', () => this.#toggleRun()],

@@ -1,5 +1,7 @@
 /** A simulator inside the page, in place of a socket to one: in a worker, or where there can be none in the page's own thread. */
 
+/* global serveSolver */
+
 /** Runs a script in the page itself, a frame of the simulation at a time. */
 async function portInPage(script) {
   await new Promise((resolve, reject) => {
@@ -17,10 +19,13 @@ async function portInPage(script) {
 /** As much of a WebSocket as `Connection` uses. */
 export class SolverSocket {
   #port = null;
+  /** @type {number} */
   readyState = WebSocket.CONNECTING;
   onopen = () => {};
-  onmessage = _event => {};
-  onclose = _event => {};
+  /** @type {(event: {data: string|ArrayBuffer}) => void} */
+  onmessage = () => {};
+  /** @type {(event: {reason: string}) => void} */
+  onclose = () => {};
 
   /**
    * @param {string} script address of the simulator's script: what emscripten makes, and solver-worker.js behind it
@@ -50,22 +55,20 @@ export class SolverSocket {
     if (this.readyState === WebSocket.CONNECTING) {
       this.#openInPage(script, module);
     } else {
-      this.readyState = WebSocket.CLOSED;
-      this.onclose({reason: reason || 'the simulator ended'});
+      this.#close(reason || 'the simulator ended');
     }
   }
 
   #openInPage(script, module) {
-    portInPage(script).then(port => this.#use(port, module), error => {
-      this.readyState = WebSocket.CLOSED;
-      this.onclose({reason: error.message});
-    });
+    portInPage(script).then(port => this.#use(port, module), error => this.#close(error.message));
   }
 
   #use(port, module) {
     this.#port = port;
     port.onmessage = ({data}) => {
-      if (data === 'ready') {
+      if (data.error !== undefined) {
+        this.#close(data.error);
+      } else if (data === 'ready') {
         this.readyState = WebSocket.OPEN;
         this.onopen();
       } else {
@@ -80,8 +83,12 @@ export class SolverSocket {
   }
 
   close() {
-    this.readyState = WebSocket.CLOSED;
     this.#port?.terminate?.();
-    this.onclose({reason: ''});
+    this.#close('');
+  }
+
+  #close(reason) {
+    this.readyState = WebSocket.CLOSED;
+    this.onclose({reason});
   }
 }

@@ -1,3 +1,5 @@
+/* global natatorLive, WorkerGlobalScope */
+
 /**
  * Runs the simulator (sim-native/cli/live.cpp) for who holds the other end of a port. First comes the module (ArrayBuffer),
  * answered by 'ready'; then commands as text. Frames go back as ArrayBuffer, all else as text {type, body}: as the server
@@ -41,7 +43,7 @@ function serveSolver(port) {
     }
   }
 
-  port.onmessage = async ({data}) => {
+  async function receive(data) {
     if (data instanceof ArrayBuffer) {
       solver = await natatorLive({wasmBinary: data, thisProgram: '/bin/natator-live', message: give});
       port.postMessage('ready');
@@ -54,7 +56,9 @@ function serveSolver(port) {
       carryOut(command);
     }
     advance();
-  };
+  }
+
+  port.onmessage = ({data}) => receive(data).catch(error => port.postMessage({error: `the simulator ended: ${error.message}`}));
 }
 
 if (typeof WorkerGlobalScope !== 'undefined') {

@@ -1,14 +1,17 @@
 /** The swimmers of the page that simulates by itself, and how its sliders make gaits of them. */
 
-/** Name, what it is called, and the wave that it begins with: see `waveGait`. The scene has the first. */
+/**
+ * What each is called, its part of the scene, and the wave that it begins with: see `waveGait`. The first is the scene's own.
+ */
 export const SWIMMERS = [
-  {creature: 'eel', title: 'Eel', wave: {frequency: 1.5, head: 0.25, tail: 0.8, waves: 1}},
-  {creature: 'tadpole', title: 'Tadpole', wave: {frequency: 1.5, head: 0.4, tail: 0.9, waves: 0.8}},
-  {creature: 'tuna', title: 'Tuna', wave: {frequency: 1.5, head: 0.6, tail: 0.9, waves: 0.5}},
-  {creature: 'creature-2', title: 'Two joints', wave: {frequency: 1.5, head: 0.6, tail: 0.9, waves: 0.5}},
+  {title: 'Eel', creature: {name: 'eel'}, wave: {frequency: 1.5, head: 0.25, tail: 0.8, waves: 1}},
+  {title: 'Plank', creature: {name: 'creature-2', particleMass: 0.421875, clusterStiffness: 0.6, springStiffness: 0.4},
+    wave: {frequency: 1.5, head: 0.2, tail: 0.6, waves: 0.6}},
+  {title: 'Tadpole', creature: {name: 'tadpole'}, wave: {frequency: 1.5, head: 0.6, tail: 1, waves: 0.6}},
+  {title: 'Tuna', creature: {name: 'tuna'}, wave: {frequency: 2.5, head: 0.7, tail: 1.2, waves: 0.6}},
 ];
 
-/** Beside viscosity and stiffness all settings of a slider; the keys of a wave. */
+/** The settings that make a wave. */
 export const WAVE = ['frequency', 'tail', 'head', 'waves'];
 
 /**

@@ -39,7 +39,7 @@ class ReplayHtmlTest {
     private static final Pattern SWIM = Pattern
             .compile("<script type=\"text/plain\" class=\"swim\"[^>]*>([^<]*)</script>");
     private static final Pattern MODULES = Pattern
-            .compile("<script type=\"text/plain\" id=\"modules\">([^<]*)</script>");
+            .compile("<script type=\"text/plain\" id=\"modules\"[^>]*>([^<]*)</script>");
 
     @TempDir
     private Path folder;
