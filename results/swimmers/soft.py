@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Soft bodies in lakes under finer cells and steps: `soft.py requests` writes what `natator-sim serve` is to compute, `soft.py keep` what is kept of its
-answers, `soft.py table FILE` shows those. Each gait beats at f and is a wave of w lengths that runs to the tail, muscles driven from `first` at the head to `last` at the tail."""
+"""Soft bodies in lakes under finer cells and steps: `soft.py requests [BODY]...` writes what `natator-sim serve` is to compute, `soft.py keep` what is kept
+of its answers, `soft.py table FILE` shows those. Each gait beats at f and is a wave of w lengths that runs to the tail, muscles driven from `first` at the head to `last` at the tail."""
 import json
 import sys
 
 THICK = [(2, 0.07, 0.42, 0.35), (2, 0.07, 0.42, 0.56), (2, 0.07, 0.42, 1.0), (2, 0.1, 0.6, 0.35), (1.5, 0.1, 0.6, 0.7), (2.5, 0.07, 0.4, 0.35)]
 FISH = [(2, *drive, waves) for drive in ((0.3, 0.3), (0.03, 0.3), (0.05, 0.5), (0.15, 0.15), (0.1, 0.2)) for waves in (0.5, 0.65, 0.8)]
 FISH += [(3, 0.03, 0.3, waves) for waves in (0.5, 0.65, 0.8)]
-BODIES = {"creature-2": (8, 0.025, THICK), "eel": (8, 0.025, THICK), "fry": (7, 0.01875, FISH)}  # actuators, cells, gaits
+BODIES = {"creature-2": (8, 0.025, THICK), "eel": (8, 0.025, THICK), "fry": (7, 0.01875, FISH), "fry, fine": (7, 0.0125, FISH)}  # actuators, cells, gaits
 LEVELS = {"cells": (1, 1, 2), "half the step": (1, 2, 2), "cells / 2": (2, 2, 1)}  # cells and steps, of a cell, so many times as fine; starts
 BOX = (3.0, 1.35, 1.35)
 
@@ -29,12 +29,13 @@ def number(body, gait_number, name, start):
     return 1000 * list(BODIES).index(body) + 50 * gait_number + 10 * list(LEVELS).index(name) + start
 
 
-def requests():
-    for body, (actuators, cell, gaits) in BODIES.items():
+def requests(bodies):
+    for body in bodies:
+        actuators, cell, gaits = BODIES[body]
         for name, (finer, steps, starts) in LEVELS.items():
             for k, one in enumerate(gaits):
                 for start in range(1, starts + 1):
-                    yield {"id": number(body, k, name, start), "scene": f"lake/{body}", "overrides": lake(cell / finer, round(0.9 / cell) * steps),
+                    yield {"id": number(body, k, name, start), "scene": "lake/" + body.removesuffix(", fine"), "overrides": lake(cell / finer, round(0.9 / cell) * steps),
                            "gait": gait(actuators, *one), "start": start}
 
 
@@ -49,6 +50,8 @@ def table(path):
     results = {one["id"]: one for one in map(json.loads, open(path))}
     print("| body, f, first, last, waves | " + " | ".join(LEVELS) + " | change at half the cells, the step | Reynolds, Strouhal |\n|---" + "|---:" * (len(LEVELS) + 2) + "|")
     for body, (_, _, gaits) in BODIES.items():
+        if number(body, 0, "cells", 1) not in results:
+            continue
         changes = []
         for k, one in enumerate(gaits):
             means, cells = {}, []
@@ -67,12 +70,12 @@ def table(path):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["requests"]:
-        for one in sorted(requests(), key=lambda one: -one["overrides"]["fluid"]["count"][0]):
+    if sys.argv[1:2] == ["requests"]:
+        for one in sorted(requests(sys.argv[2:] or BODIES), key=lambda one: -one["overrides"]["fluid"]["count"][0]):
             print(json.dumps(one))
     elif sys.argv[1:] == ["keep"]:
         keep()
     elif len(sys.argv) == 3 and sys.argv[1] == "table":
         table(sys.argv[2])
     else:
-        sys.exit("usage: soft.py requests | soft.py keep | soft.py table FILE")
+        sys.exit("usage: soft.py requests [BODY]... | soft.py keep | soft.py table FILE")

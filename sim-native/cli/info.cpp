@@ -49,6 +49,7 @@ ordered_json describe_program() {
 /// Particles of the body that fit_to_water has made heavier than the scene has them.
 int particles_made_heavier(const Scene& scene, const Model& model) {
     int count = 0;
+    if (model.water_box) return count;
     for (const int i : model.body.particles)
         count += model.inverse_mass[i] < (1 - 1e-9) / scene.creature->particle_mass * scene.creature->parts();
     return count;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
+#include <utility>
 
 namespace natator::cli {
 LineQueue::LineQueue(Limits limits) : limits_(limits), reader_([this] { read(); }) {}
@@ -18,39 +21,64 @@ LineQueue::~LineQueue() {
 
 void LineQueue::read() {
     std::array<char, 65536> buffer;
-    std::string line;
     bool open = true;
     while (open) {
         const std::size_t count = input_.read(buffer.data(), buffer.size());
         if (count == 0) break;
-        const char* at = buffer.data();
-        const char* const end = at + count;
-        while (open && at != end) {
-            const char* const stop = std::find(at, end, '\n');
-            const auto more = static_cast<std::size_t>(stop - at);
-            if (line.size() <= limits_.bytes)
-                line.append(at, more > limits_.bytes - line.size() ? limits_.bytes - line.size() + 1 : more);
-            at = stop;
-            if (at == end) break;
-            ++at;
-            open = add_line(std::move(line));
-            line.clear();
-        }
+        open = take_bytes({buffer.data(), count});
+        changed_.notify_one();  // lines that came together are taken together
     }
-    if (open && !line.empty()) add_line(std::move(line));
+    if (open && !line_.empty()) add_line(std::move(line_));
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_one();
 }
 
 /// False when the queue is being destroyed.
+bool LineQueue::take_bytes(std::string_view bytes) {
+    constexpr std::size_t letters = 4, head = letters + sizeof(std::uint32_t);
+    while (!bytes.empty()) {
+        if (of_message_ > 0) {
+            const std::size_t size = std::min(of_message_, bytes.size());
+            if (line_.size() < head || line_.size() - head <= limits_.message_bytes) line_ += bytes.substr(0, size);
+            bytes.remove_prefix(size);
+            of_message_ -= size;
+            if (of_message_ > 0) return true;
+            if (line_.size() == head) {  // the head is there
+                std::uint32_t length = 0;
+                std::memcpy(&length, line_.data() + letters, sizeof length);
+                of_message_ = length;
+            }
+            if (of_message_ == 0 && !add_line(std::exchange(line_, {}))) return false;
+            continue;
+        }
+        if (line_.size() < letters && !limits_.letters.empty()) {  // byte by byte, for it may become a message
+            line_ += bytes.front();
+            bytes.remove_prefix(1);
+            if (std::ranges::find(limits_.letters, line_) != limits_.letters.end()) of_message_ = head - letters;
+            if (line_.back() != '\n') continue;
+            line_.pop_back();
+        } else {
+            const std::size_t end = bytes.find('\n'), size = std::min(end, bytes.size());
+            if (line_.size() <= limits_.bytes)
+                line_ += bytes.substr(0, std::min(size, limits_.bytes + 1 - line_.size()));
+            bytes.remove_prefix(size);
+            if (bytes.empty()) return true;
+            bytes.remove_prefix(1);
+        }
+        if (!add_line(std::exchange(line_, {}))) return false;
+    }
+    return true;
+}
+
+/// False when the queue is being destroyed.
 bool LineQueue::add_line(std::string line) {
     std::unique_lock lock(mutex_);
+    if (full()) changed_.notify_one();
     room_.wait(lock, [this] { return closing_ || !full(); });
     if (closing_) return false;
     bytes_ += line.size();
     lines_.push_back(std::move(line));
-    changed_.notify_one();
     return true;
 }
 

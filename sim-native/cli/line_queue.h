@@ -5,6 +5,7 @@
 #include <deque>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -21,6 +22,10 @@ public:
         std::size_t lines = SIZE_MAX;          ///< that wait; no more is read while they do
         std::size_t bytes = SIZE_MAX;          ///< of a line; a longer one is cut to one byte more
         std::size_t waiting_bytes = SIZE_MAX;  ///< of all lines that wait; the last one may go beyond
+        /// of a message: 4 of the letters below, 32 bits that are the number of bytes behind them, and these. It stands
+        /// in place of a line, and is cut as one.
+        std::size_t message_bytes = 0;
+        std::vector<std::string> letters{};  ///< that messages begin with; no line may
     };
 
     /// Throws std::system_error when there is no thread to be had.
@@ -43,12 +48,16 @@ public:
 
 private:
     void read();
+    bool take_bytes(std::string_view bytes);
     bool add_line(std::string line);
     bool full() const { return lines_.size() >= limits_.lines || bytes_ >= limits_.waiting_bytes; }
     std::vector<std::string> take_locked(std::size_t max_lines);
 
     system::Input input_;
     const Limits limits_;
+
+    std::string line_;            ///< that is being read
+    std::size_t of_message_ = 0;  ///< bytes that it still has to have, as a message
 
     std::mutex mutex_;
     std::condition_variable changed_, room_;

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "base/text.h"
@@ -11,7 +13,7 @@
 #include "json_argument.h"
 #include "natator/error.h"
 #include "options.h"
-#include "stream_session.h"
+#include "stream_batch.h"
 
 namespace natator::cli {
 namespace {
@@ -21,6 +23,8 @@ struct StreamOptions {
     std::string precision = "float";
     std::vector<std::string> fields{"position"};
     std::optional<int> start;
+    std::string state;  ///< file
+    int swims = 1;
     StreamSettings settings;
     ExecutionOptions execution;
 };
@@ -52,17 +56,33 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
     return fields;
 }
 
+std::string read_state(const std::string& name) {
+    std::ifstream file(name, std::ios::binary);
+    std::ostringstream content;
+    if (!file || !(content << file.rdbuf())) throw InputError("--state: " + quoted(name) + " cannot be read");
+    return std::move(content).str();
+}
+
 template <class Real>
 void run_stream(StreamOptions& options) {
-    StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
-    LineQueue commands({.lines = max_waiting, .bytes = stream::max_command});
-    session.run(commands);
+    Execution execution = options.execution.execution();
+    const BatchSize size{.swims = options.swims, .threads = execution.threads};
+    if (size.swims > 1) execution.threads = 1;
+    StreamBatch<Real> batch(read_setup(options), execution, options.settings, size);
+    if (!options.state.empty()) batch.restore(read_state(options.state));
+    LineQueue commands({.lines = std::max(max_waiting, static_cast<std::size_t>(2 * options.swims)),
+                        .bytes = stream::max_command,
+                        .waiting_bytes = max_waiting * stream::max_command,
+                        .message_bytes = stream::max_message,
+                        .letters = {std::string(stream::state_letters), std::string(stream::action_letters)}});
+    batch.run(commands);
 }
 
 int stream_scene(StreamOptions& options) {
     if (!stream::is_rate(options.settings.rate))
         throw InputError("--rate = " + number_text(options.settings.rate) + ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
+    options.settings.paused |= options.swims > 1;
     precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options)
                                                                       : run_stream<float>(options);
     return ok;
@@ -88,10 +108,16 @@ void add_stream(CLI::App& app, int& status) {
     command
         ->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
         ->check(whole_number_in(0, 2147483647));
+    command->add_option("--state", options->state, "File of a saved moment of this scene, to begin at.");
     command
         ->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
         ->delimiter(',')
         ->check(one_of({"position", "velocity", "density", "none"}))
+        ->capture_default_str();
+    command
+        ->add_option("--batch", options->swims,
+                     "This many swims side by side; --threads: of which so many at a time. They begin paused.")
+        ->check(whole_number_in(1, stream::max_swims))
         ->capture_default_str();
     command->add_option("--every", settings.every, "Offer every Nth frame only.")
         ->check(whole_number_in(1, 1'000'000))

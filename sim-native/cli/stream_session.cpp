@@ -15,11 +15,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-json parse_command(const std::string& line) {
-    if (line.size() > stream::max_command) throw InputError("command: longer than 1 MiB");
-    return parse_json(line, "command");
-}
-
 }  // namespace
 
 template <class Real>
@@ -28,41 +23,44 @@ StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution
     : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
 
 template <class Real>
-void StreamSession<Real>::run(LineQueue& commands) {
-    scene_changed(true);
-    for (;;) {
-        for (const std::string& line : commands.take_waiting()) carry_out(line);
-        offer_frame();
-        end_if_reached();
-        if (ended_ || commands.exhausted()) return;
-        if (!running() || due_) {
-            commands.wait();
-        } else if (LineQueue::Clock::now() < pace_.next()) {
-            commands.wait_until(pace_.next());
-        } else {
-            pace_.begin_frame(simulation_.scene().time_step);
-            if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
-        }
-    }
+void StreamSession<Real>::go_on() {
+    pace_.begin_frame(simulation_.scene().time_step);
+    if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
 }
 
 /// What a command causes comes before its answer.
 template <class Real>
-void StreamSession<Real>::carry_out(const std::string& line) {
-    if (line.size() <= stream::max_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
-    answer_ = {{"id", nullptr}};
+void StreamSession<Real>::carry_out(const json& command) {
+    answer_ = {{"id", request_id(command)}};
     try {
-        const json value = parse_command(line);
-        answer_["id"] = request_id(value);
         refuse_if(ended_);
         answer_["ok"] = true;
-        std::visit([this](const auto& command) { this->apply(command); }, parse_stream_command(value));
+        std::visit([this](const auto& one) { this->apply(one); }, parse_stream_command(command));
     } catch (const InputError& error) {
         answer_ = {{"id", answer_["id"]}, {"error", error.what()}};
     } catch (const std::bad_alloc& error) {
         answer_ = {{"id", answer_["id"]}, {"error", message_of(error)}};
     }
-    print(stream_message("ANSW", answer_));
+    say(stream_message("ANSW", answer_));
+}
+
+template <class Real>
+stream::Outcome StreamSession<Real>::act(const stream::Action& action) {
+    stream::Outcome outcome;
+    try {
+        if (!action.refusal.empty()) throw InputError(action.refusal);
+        if (action.step) {
+            refuse_if(ended_);
+            apply(*action.step);
+            outcome.status = simulation_.instability() ? stream::Outcome::unstable : stream::Outcome::stepped;
+        }
+    } catch (const InputError& error) {
+        outcome = {.status = stream::Outcome::refused, .refusal = error.what(), .senses = {}};
+    } catch (const std::bad_alloc& error) {
+        outcome = {.status = stream::Outcome::refused, .refusal = message_of(error), .senses = {}};
+    }
+    outcome.senses = stream_sense_numbers(simulation_, sensing_);
+    return outcome;
 }
 
 template <class Real>
@@ -91,10 +89,10 @@ void StreamSession<Real>::apply(const stream::Step& step) {
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
     if (due_) drop_frame();
     running_ = false;
-    if (step.steer) simulation_.steer(steering_of(*step.steer));
+    if (step.steer.size() == 1) simulation_.steer(steering_of(step.steer.front()));
     bool stable = true;
     for (std::size_t i = 0; stable && i < static_cast<std::size_t>(step.frames) && !at_end(); ++i) {
-        if (!step.drive.empty()) simulation_.drive(step.drive[i]);
+        if (step.steer.size() > 1) simulation_.steer(steering_of(step.steer[i]));
         stable = simulate();
     }
     due_ = stable;
@@ -107,9 +105,12 @@ void StreamSession<Real>::apply(const stream::Step& step) {
 template <class Real>
 void StreamSession<Real>::check(const stream::Step& step) const {
     const int actuators = simulation_.model().actuators;
-    if (step.steer) check_steering(steering_of(*step.steer), simulation_.gait(), actuators);
-    for (std::size_t i = 0; i < step.drive.size(); ++i)
-        check_drive(step.drive[i], actuators, ("drive[" + std::to_string(i) + "]").c_str());
+    for (std::size_t i = 0; i < step.steer.size(); ++i) {
+        const stream::Steer& steer = step.steer[i];
+        const std::string row = step.steer.size() > 1 ? "[" + std::to_string(i) + "]" : "";
+        if (steer.drive) check_drive(*steer.drive, actuators, ("drive" + row).c_str());
+        check_steering(steering_of(steer), simulation_.gait(), actuators);
+    }
     if (step.sense) check_sensing(sensing_, simulation_.model());
 }
 
@@ -146,7 +147,26 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Water&) {
     refuse_if_unstable();
-    print(stream_water(simulation_, scene_));
+    say(stream_water(simulation_, scene_));
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Save&) {
+    held_ = std::make_shared<const std::string>(simulation_.save());
+    say(stream_state(*held_));
+}
+
+/// The frame of that moment comes before the answer, as of a step.
+template <class Real>
+void StreamSession<Real>::apply(const stream::Restore& restore) {
+    if (!held_ || held_->empty()) throw InputError("restore: there is no state; must come behind a STAT, or a save");
+    if (held_->size() > stream::max_message) throw InputError("state: is larger than 1 GiB");
+    if (restore.sense) check_sensing(sensing_, simulation_.model());
+    if (simulation_.restore(*held_)) scene_changed(false);
+    pace_.restart();
+    due_ = true;
+    offer_frame();
+    if (restore.sense) answer_["senses"] = senses();
 }
 
 template <class Real>
@@ -196,7 +216,7 @@ template <class Real>
 void StreamSession<Real>::scene_changed(bool restarted) {
     const stream::SceneHead head{.number = ++scene_, .restarted = restarted, .fields = settings_.fields};
     ordered_json body = stream_scene(simulation_, head);
-    print(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
+    say(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
     last_scene_ = std::move(body);
     if (!restarted) return;
     due_ = !simulation_.instability();
@@ -204,7 +224,7 @@ void StreamSession<Real>::scene_changed(bool restarted) {
     wall_seconds_ = 0;
     wall_frames_ = 0;
     pace_.restart();
-    if (simulation_.instability()) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+    if (simulation_.instability()) say(stream_message("STOP", stream_stop(*simulation_.instability())));
 }
 
 /// One frame; false if the simulation became unstable.
@@ -214,7 +234,7 @@ bool StreamSession<Real>::simulate() {
     const bool stable = simulation_.step();
     wall_seconds_ += std::chrono::duration<double>(Pace::Clock::now() - begin).count();
     ++wall_frames_;
-    if (!stable) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+    if (!stable) say(stream_message("STOP", stream_stop(*simulation_.instability())));
     return stable;
 }
 
@@ -232,8 +252,8 @@ void StreamSession<Real>::offer_frame() {
                                  .running = running(),
                                  .wall_seconds = wall_frames_ > 0 ? wall_seconds_ / wall_frames_ : 0,
                                  .fields = settings_.fields};
-    if (sense_each_) print(stream_message("SENS", senses()));
-    print(stream_frame(simulation_, head));
+    if (sense_each_) say(stream_message("SENS", senses()));
+    say(stream_frame(simulation_, head));
     --credit_;
     due_ = false;
     wall_seconds_ = 0;
@@ -258,7 +278,7 @@ template <class Real>
 void StreamSession<Real>::end_if_reached() {
     if (ended_ || !at_end() || due_) return;
     ended_ = true;
-    print(stream_message("STOP", stream_stop()));
+    say(stream_message("STOP", stream_stop()));
 }
 
 template <class Real>

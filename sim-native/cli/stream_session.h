@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "line_queue.h"
 #include "natator/simulation.h"
 #include "pace.h"
 #include "protocol/stream.h"
@@ -20,24 +21,45 @@ struct StreamSettings {
     bool paused = false;          ///< at first
 };
 
-/// Runs a scene, carries out commands and writes messages on standard output (sim-native/protocol/stream.md).
+/// Runs a scene, carries out commands and says messages (sim-native/protocol/stream.md). One thread at a time.
 template <class Real>
 class StreamSession {
 public:
     /// Settles the scene. Throws InputError.
     StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings);
 
-    /// Returns at the end of the commands, or when the time asked for is reached. Throws std::runtime_error when
-    /// standard output can't be written.
-    void run(LineQueue& commands);
+    /// Goes to a saved moment, before it begins. Throws InputError.
+    void restore(const std::string& saved) { simulation_.restore(saved); }
+    /// Says what scene it is.
+    void begin() { scene_changed(true); }
+    /// A command, and its answer.
+    void carry_out(const nlohmann::json& command);
+    /// An action, and what came of it.
+    stream::Outcome act(const stream::Action& action);
+    /// What `restore` is to go to.
+    void hold(std::shared_ptr<const std::string> state) { held_ = std::move(state); }
+    /// Says the present frame if there is credit, and whether the end is reached.
+    void offer() {
+        offer_frame();
+        end_if_reached();
+    }
+    /// When it would go on by itself; none while it stands still.
+    std::optional<Pace::Clock::time_point> next_frame() const {
+        return running() && !due_ && !ended_ ? std::optional(pace_.next()) : std::nullopt;
+    }
+    /// Does so, by one frame.
+    void go_on();
+    bool ended() const { return ended_; }  ///< no command does anything more
+    std::string take_messages() { return std::exchange(messages_, {}); }
 
 private:
-    void carry_out(const std::string& line);
     void apply(const stream::Credit& credit);
     void apply(const stream::Run&);
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
     void apply(const stream::Water&);
+    void apply(const stream::Save&);
+    void apply(const stream::Restore& restore);
     void apply(const stream::Rate& rate);
     void apply(const stream::Reset& reset);
     void apply(const stream::NewGait& gait);
@@ -46,6 +68,7 @@ private:
     void apply(const stream::Overrides& overrides);
     void apply(const stream::NewScene& scene);
 
+    void say(const std::string& message) { messages_ += message; }
     Steering steering_of(const stream::Steer& steer) const;
     void check(const stream::Step& step) const;
     nlohmann::ordered_json senses() const { return stream_senses(simulation_, sensing_); }
@@ -65,15 +88,17 @@ private:
     Pace pace_;
     bool running_;
     Sensing sensing_;
-    bool sense_each_ = false;            ///< a SENS before every frame
-    nlohmann::ordered_json answer_;      ///< of the command that is carried out
-    int credit_ = 0;                     ///< frames that may be sent
-    bool ended_ = false;                 ///< the last STOP is out: no command does anything more
-    bool due_ = false;                   ///< the present frame is still to be offered
-    std::uint32_t scene_ = 0;            ///< number of the last SCEN
-    nlohmann::ordered_json last_scene_;  ///< the whole of it, also where only changes were sent
-    std::uint32_t dropped_ = 0;          ///< frames since the start
-    double wall_seconds_ = 0;            ///< of the frames since the last one sent
+    bool sense_each_ = false;                  ///< a SENS before every frame
+    nlohmann::ordered_json answer_;            ///< of the command that is carried out
+    std::shared_ptr<const std::string> held_;  ///< the last STAT, of either direction; null before it
+    std::string messages_;                     ///< that nobody has taken
+    int credit_ = 0;                           ///< frames that may be sent
+    bool ended_ = false;                       ///< the last STOP is out: no command does anything more
+    bool due_ = false;                         ///< the present frame is still to be offered
+    std::uint32_t scene_ = 0;                  ///< number of the last SCEN
+    nlohmann::ordered_json last_scene_;        ///< the whole of it, also where only changes were sent
+    std::uint32_t dropped_ = 0;                ///< frames since the start
+    double wall_seconds_ = 0;                  ///< of the frames since the last one sent
     int wall_frames_ = 0;
 };
 

@@ -7,6 +7,9 @@ function(natator_program program)
     target_compile_options(${program} PRIVATE ${NATATOR_WARNINGS} ${NATATOR_PROGRAM_OPTIMISATION})
     target_link_options(${program} PRIVATE ${NATATOR_BUILD_ID})
     target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)
+    if(EMSCRIPTEN)  # run by node, with the files of the machine
+        target_link_options(${program} PRIVATE -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1)
+    endif()
     set_target_properties(${program} PROPERTIES UNITY_BUILD ${NATATOR_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 0)
     if(CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT NATATOR_SANITIZE)
         # A wheel's program runs where libstdc++ is older or missing; what it does not use of it would need a newer C library.
@@ -33,7 +36,22 @@ natator_program(natator-sim
     serve.cpp
     start_bench.cpp
     stream.cpp
+    stream_batch.cpp
     stream_session.cpp)
+
+# The simulator of the page that natator page --live writes, with its data inside.
+if(EMSCRIPTEN)
+    add_executable(natator-live cli/live.cpp cli/stream_session.cpp)
+    target_link_libraries(natator-live PRIVATE natator nlohmann_json::nlohmann_json)
+    target_compile_options(natator-live PRIVATE ${NATATOR_WARNINGS} ${NATATOR_PROGRAM_OPTIMISATION})
+    target_include_directories(natator-live PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)
+    target_link_options(natator-live PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_NAME=natatorLive -sENVIRONMENT=web,worker,node
+        -sALLOW_MEMORY_GROWTH=1 -sEXPORTED_RUNTIME_METHODS=ccall -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0
+        "SHELL:--embed-file ${CMAKE_CURRENT_SOURCE_DIR}/scenes@/share/natator/scenes"
+        "SHELL:--embed-file ${CMAKE_CURRENT_SOURCE_DIR}/creatures@/share/natator/creatures")
+    file(GLOB_RECURSE NATATOR_LIVE_DATA CONFIGURE_DEPENDS scenes/*.json creatures/*)
+    set_target_properties(natator-live PROPERTIES LINK_DEPENDS "${NATATOR_LIVE_DATA}")
+endif()
 
 # What natator-sim bench starts; who only evolves does without it.
 if(NATATOR_SANITIZE)

@@ -70,6 +70,8 @@ def stream(random):
             {"do": "step", "drive": [[0.5, 1], [1, 0]], "sense": True},
             {"do": "sense", "flow": [{"slice": 2, "side": "left"}], "within": 0.3, "target": [1, 0.5, 0.5], "each": True},
             {"do": "reset", "start": 3},
+            {"do": "save"}, {"do": "restore"}, {"do": "restore", "sense": True}, {"do": "run", "swim": 0},
+            {"do": "step", "scale": [[1, 0.5], [0, 1]], "offset": [[0.1, 0], [0, 0.2]]},
             {"do": "overrides", "overrides": {"solver": dict(random.sample(SOLVER, 2))}},
             {"do": "overrides", "overrides": overrides(random)},
             {"do": "scene", "scene": "bench/small-tank", "overrides": overrides(random), "gait": GAIT}])

@@ -7,6 +7,7 @@ import struct
 import subprocess
 import tempfile
 import time
+from random import Random
 
 
 class Fault(Exception):
@@ -264,12 +265,14 @@ class Serve(Resident):
 
 
 class Stream(Resident):
-    """Commands of a stream, a few a case; the last is ours and marks the end of the answers."""
+    """Commands of a stream, a few a case; the last is ours and marks the end of the answers. The last state that it gave goes back to
+    it, whole or damaged, and with it actions that mean nothing."""
 
     def __init__(self, program, limit):
         command = [program, "stream", "bench/small-tank", "--overrides", '{"settling":{"updates":2}}', "--paused",
                    "--rate", "0", "--fields", "position,velocity,density"]
         super().__init__(command, limit, 100)
+        self.state = b""
 
     def run(self, text):
         self.start()
@@ -278,6 +281,8 @@ class Stream(Resident):
         mark = 9_000_000_000_000_000 + self.cases
         commands = [line for line in text.split("\n") if line.strip(" \t\r")]
         given = b"".join(encode(line) + b"\n" for line in text.split("\n"))
+        given += self.messages()
+        commands += [""] * 2
         given += b'{"do":"pause"}\n{"do":"credit","frames":1,"id":%d}\n' % mark
         answers = []
 
@@ -291,8 +296,13 @@ class Stream(Resident):
                     check_frame(body)
                 elif name == b"WATR":
                     check_water(body)
+                elif name == b"STAT":
+                    self.state = body
+                elif name == b"OBSV":
+                    check_outcomes(body)
+                    answers.append(None)
                 elif name in (b"SCEN", b"SENS", b"STOP"):
-                    parse(body.decode("utf-8", "strict"), ("mass", "skin"))
+                    parse(body.decode("utf-8", "strict"), ("mass", "skin", "start"))
                 elif name == b"ANSW":
                     answer = parse(body.decode("utf-8", "strict"), ("id",))
                     if answer["id"] == mark:
@@ -305,6 +315,28 @@ class Stream(Resident):
         self.exchange(given, finished)
         if len(answers) != len(commands) + 1:
             raise Fault(f"{len(answers) - 1} answers to {len(commands)} commands")
+
+
+    def messages(self):
+        """A state and an order to go to it; and actions, each of which has one message for an answer."""
+        random, bodies = Random(self.cases), []
+        for body in (self.state, struct.pack("<6I4d", self.cases, 1, random.randrange(5), random.randrange(3), 2, 2, 0.5, -1, 0, 1)):
+            body = bytearray(body)
+            if random.random() < 0.5 and body:
+                body[random.randrange(len(body))] ^= 1 << random.randrange(8)
+            bodies.append(bytes(body[:random.randrange(len(body) + 1)] if random.random() < 0.2 else body))
+        state, actions = (letters + struct.pack("<I", len(body)) + body for letters, body in zip((b"STAT", b"ACTS"), bodies))
+        return state + b'{"do":"restore"}\n' + actions
+
+
+def check_outcomes(body):
+    """One swim's; of its senses only what there may be none of is not finite: work, target."""
+    swims, status, count = struct.unpack_from("<III", body, 4)
+    if swims != 1 or status > 3:
+        raise Fault(f"{swims} swims, status {status}")
+    values = struct.unpack_from(f"<{count}d", body, 16)
+    check_finite("the senses", [value for k, value in enumerate(values) if k not in (4, 23, 24, 25, 26)], b"")
+    parse(body[16 + 8 * count:].decode("utf-8", "strict"), ())
 
 
 def check_frame(body):

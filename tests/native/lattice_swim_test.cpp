@@ -9,8 +9,11 @@
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
 #include "natator/model.h"
+#include "natator/simulation.h"
 #include "natator/solver.h"
 #include "refusal_of.h"
+#include "run/converge/level.h"
+#include "run/perturb.h"
 
 namespace natator {
 namespace {
@@ -174,6 +177,65 @@ TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
     const json tank = {{"movingTank", {{"step", 0.1}}}};
     const std::string refusal = test::refusal_of([&] { evaluate(lake(tank), wave()); });
     EXPECT_NE(refusal.find("step = 0.1: must be a multiple of the cells' 0.075"), std::string::npos) << refusal;
+}
+
+/// The loach with a wave to the tail, in plane flow.
+Gait loach_wave(double amplitude = 0.5) {
+    return {2, {amplitude, 0.8 * amplitude, 0.7 * amplitude, 0.5 * amplitude}, {0, 0.875, 0.75, 0.625}};
+}
+
+TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
+    EXPECT_TRUE(build_model(load_scene("plane/loach")).water_box->is_plane());
+    EXPECT_FALSE(build_model(load_scene("lake/creature-2")).water_box->is_plane());
+    const json floor = {{"creature", nullptr},
+                        {"movingTank", nullptr},
+                        {"planes", {{1, 0, 0, 0}, {-1, 0, 0, 3.2}, {0, 0, 1, 0}, {0, 0, -1, 1.6}, {0, 1, 0, 0}}}};
+    EXPECT_FALSE(build_model(load_scene("plane/water", floor)).water_box->is_plane());
+}
+
+/// In a quarter of the time, from rest, it goes further than three tenths of its length; its particles stay in the plane.
+TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
+    Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave()});
+    for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(swim.step());
+    EXPECT_GT(swim.distance(), 0.3);
+    for (const auto& place : swim.state().position) EXPECT_EQ(place.y(), 0.01F);
+}
+
+/// So it is as heavy as the water in its place at either.
+TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
+    const Scene scene = load_scene("plane/loach", {{"fluid", {{"disorder", 0}}}});
+    const Model coarse = build_model(scene);
+    const Model fine = build_model(
+        load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
+    EXPECT_EQ(fine.water_box->cells, Eigen::Vector3i(320, 1, 160));
+    EXPECT_EQ(fine.particles(), 4 * coarse.particles());
+    EXPECT_NEAR(fine.water_box->displaced_mass(fine.body.spacing), 0.25, 1e-12);
+    for (const Model* model : {&coarse, &fine}) {
+        EXPECT_TRUE(model->water_box->is_plane());
+        EXPECT_NEAR(model->particles() / model->inverse_mass[0], coarse.particles(), 1e-9);
+        EXPECT_NEAR(model->water_box->displaced_mass(model->body.spacing) * model->inverse_mass[0], 1, 1e-12);
+        for (const Eigen::Vector3d& place : model->position) EXPECT_EQ(place.y(), 0.01);
+    }
+}
+
+TEST(PlaneFlow, ShiftsNothingOutOfTheMiddle) {
+    Model model = build_model(load_scene("plane/loach"));
+    perturb({0.001, 1}, model);
+    for (const Eigen::Vector3d& place : model.position) EXPECT_EQ(place.y(), 0.01);
+}
+
+TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
+    const auto refusal = [](const json& creature) {
+        return refusal_of([&] { build_model(load_scene("plane/loach", {{"creature", creature}})); });
+    };
+    EXPECT_EQ(refusal({{"rearCentre", {1.8, 0.02, 0.8}}}),
+              "scene \"plane/loach\": scheme lattice: creature.rearCentre[1] = 0.02: must be 0.01, the middle "
+              "(fluid.origin) of water that is one cell deep");
+    EXPECT_EQ(refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}},
+                       {"joints", {10, 20}},
+                       {"spacing", 0.02}}),
+              "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
+              "cell deep");
 }
 
 TEST(LatticeSwim, RefusesWhatItHasNot) {

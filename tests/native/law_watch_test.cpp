@@ -66,6 +66,34 @@ TEST_F(LawWatchTest, NoParticleHasMoreEnergyThanGravityGives) {
     EXPECT_EQ(particle, 501);
 }
 
+/// Its muscles' least amplitude bends a slender body so far that its tail goes as fast as that of a beat of its length.
+TEST(LawsOfABodyOnALattice, LetASlenderTailWhip) {
+    const Model loach = build_model(load_scene("plane/loach", json{}));
+    LawWatch laws(loach);
+    laws.drive_by({2, {0.1, 0.1, 0.1, 0.1}, {0, 0, 0, 0}});
+    physics::LawMeasures measures;
+    measures.most_energetic = 0;
+    const double beat = 2 * 3.14159 * 2 * loach.body.length;
+    measures.particle_energy = std::pow(0.9 * beat, 2) / 2;
+    EXPECT_FALSE(laws.look(measures, 0, 0.5));
+    measures.particle_energy = std::pow(1.1 * beat, 2) / 2;
+    EXPECT_TRUE(laws.look(measures, 0, 0.5));
+}
+
+/// It may have what its muscles gave it before the tank moved, and no more.
+TEST(LawsOfABodyOnALattice, KeepItsWorkWhereItsTankMoves) {
+    LawWatch laws(build_model(load_scene("plane/loach", json{})));
+    physics::LawMeasures measures;
+    laws.start(measures);
+    laws.restart();
+    measures.energy = 0.1;
+    EXPECT_FALSE(laws.look(measures, 2, 0.2));
+    measures.energy = 1;
+    EXPECT_FALSE(laws.look(measures, 1.9, 0.3));
+    measures.energy = 3;
+    EXPECT_TRUE(laws.look(measures, 2, 0.4));
+}
+
 /// All the water at a speed that one particle may have.
 TEST_F(LawWatchTest, AllTogetherHaveNoMoreThanAtTheStartAndByTheMuscles) {
     for (auto& v : state.velocity) v.x() = 5;

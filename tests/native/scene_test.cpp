@@ -78,6 +78,8 @@ TEST(SceneTest, AllNamedScenesAreThere) {
                                                "open-water/tadpole",
                                                "open-water/tuna",
                                                "open-water/water",
+                                               "plane/loach",
+                                               "plane/water",
                                                "pool/creature-1",
                                                "pool/creature-2",
                                                "pool/creature-3",

@@ -193,6 +193,7 @@ TEST(Swimmer, FilesThatAreWrongAreRefused) {
         {R"({"source": null})", "eel: source"},
         {R"({"viscosity": null})", "eel: viscosity"},
         {R"({"viscosity": 0})", "eel: viscosity = 0: must be"},
+        {R"({"endless": true})", "eel: endless: is for a slab with a midline by axial displacement"},
         {R"({"outline": null})", "eel: outline"},
         {R"({"outline": [[0, 0.1, 0.1]]})", "eel: outline = [[0,0.1,0.1]]: must be an array of two rows or more"},
         {R"({"outline": [[0, 0.1], [1, 0.1]]})", "eel: outline[0] = [0,0.1]: must be an array of 3 numbers"},
@@ -366,6 +367,17 @@ TEST(LatticeSwim, PressureAndFrictionAreToldApart) {
     EXPECT_GT(coarse, 0.35);
     EXPECT_GT(fine, coarse + 0.05);
     EXPECT_LT(fine, 0.8);
+}
+
+/// Taylor's sheet with sections that turn: its speed is known (references/swimmers/endless-sheet.json), a wave the
+/// other way reverses it, and it neither drifts nor turns.
+TEST(LatticeSwim, EndlessSheetGoesAsTheoryHas) {
+    Swimmer sheet = swimmer("endless-sheet", "kd 0.2");
+    const LatticeBeat one = last_beat(sheet, 2, 0.15, 48);
+    EXPECT_NEAR(one.speed, 0.00884, 0.1 * 0.00884);
+    EXPECT_NEAR(one.lateral, 0, 1e-5);
+    sheet.waves = -2;
+    EXPECT_NEAR(last_beat(sheet, 2, 0.15, 48).speed, -one.speed, 1e-5);
 }
 
 /// It goes where it is led, the water holds it back, and all that it gives the water is what that takes.

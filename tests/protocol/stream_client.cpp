@@ -103,8 +103,7 @@ StreamClient::~StreamClient() {
     ::waitpid(pid_, nullptr, 0);
 }
 
-void StreamClient::send_line(const std::string& line) {
-    const std::string text = line + "\n";
+void StreamClient::send_bytes(const std::string& text) {
     for (std::size_t sent = 0; sent < text.size();) {
         const ssize_t count = ::write(input_, text.data() + sent, text.size() - sent);
         if (count < 0) throw std::runtime_error("the simulator takes no more commands");

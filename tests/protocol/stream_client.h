@@ -39,7 +39,8 @@ public:
     StreamClient& operator=(const StreamClient&) = delete;
 
     void send(const nlohmann::json& command) { send_line(command.dump()); }
-    void send_line(const std::string& line);
+    void send_line(const std::string& line) { send_bytes(line + "\n"); }
+    void send_bytes(const std::string& bytes);
     /// Writes as much of the text as the pipe takes without waiting; the number of bytes.
     std::size_t try_send(const std::string& text);
 

@@ -11,7 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string small_tank = "bench/small-tank";
 const json skin_places = {
     {{"slice", 1}, {"side", "left"}}, {{"slice", 1}, {"side", "right"}}, {{"slice", 4}, {"side", "above"}}};
 const json all_senses{{"do", "sense"}, {"flow", skin_places}, {"target", {3, 0.5, 0.4}}};

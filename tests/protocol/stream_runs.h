@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@
 /// Streams that tests begin with, and what they take from them.
 namespace natator::test {
 
-inline const std::string vacuum = "thesis/creature-1-vacuum", water = "thesis/creature-1";
+inline const std::string vacuum = "thesis/creature-1-vacuum", water = "thesis/creature-1",
+                         small_tank = "bench/small-tank";
 inline const nlohmann::json step{{"do", "step"}};
 
 inline std::vector<std::string> paused_in(const std::string& scene, const std::vector<std::string>& more = {}) {
@@ -24,6 +26,12 @@ inline std::vector<std::string> paused_in(const std::string& scene, const std::v
 
 inline nlohmann::json credit(int frames) {
     return {{"do", "credit"}, {"frames", frames}};
+}
+
+/// A message as it stands among commands.
+inline std::string message(const std::string& letters, const std::string& body) {
+    const auto length = static_cast<std::uint32_t>(body.size());
+    return letters + std::string(reinterpret_cast<const char*>(&length), sizeof length) + body;
 }
 
 /// Grants credit for the settled start, which a paused stream sends then.

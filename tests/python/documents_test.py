@@ -30,6 +30,8 @@ class DocumentsTest(unittest.TestCase):
         self.assertEqual({Path(command.split()[0]).name for command in commands},
                          {path.name for path in (PACKAGE / "examples").glob("*.py")})
         for command in commands:
+            if "ask_tell.py" in command:
+                continue  # needs the program natator: outside_again.py
             done = subprocess.run([sys.executable, *command.split()], cwd=PACKAGE.parents[1], capture_output=True, text=True,
                                   env=dict(os.environ))
             self.assertEqual(done.returncode, 0, command + done.stderr)
@@ -49,11 +51,14 @@ class DocumentsTest(unittest.TestCase):
         for command, message in [
                 ("steer.py --duration -1", "duration = -1.0: must be a number above 0 (s)"),
                 ("steer.py --duration nan", "duration = nan: must be a number above 0 (s)"),
+                ("plan.py --duration 0", "duration = 0.0, ahead = 30: must be above 0 (s), and at least 5"),
+                ("plan.py --scene bench/small-tank --keep CONTRIBUTING.md", "state: is no saved state"),
                 ("steer.py --target 1 1 nan", "target[2] = nan: must be a finite number"),
                 ("steer.py --scene no/such", 'unknown scene "no/such": must be one of')]:
             with self.subTest(command):
                 program, *options = command.split()
-                done = subprocess.run([sys.executable, PACKAGE / "examples" / program, *options], capture_output=True, text=True)
+                done = subprocess.run([sys.executable, PACKAGE / "examples" / program, *options], capture_output=True, text=True,
+                                      cwd=PACKAGE.parents[1])
                 self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
                 self.assertTrue(done.stderr.startswith(f"{program}: "), done.stderr)
                 self.assertIn(message, done.stderr)

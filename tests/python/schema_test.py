@@ -19,6 +19,8 @@ TAKEN = [
     {"do": "sense", "target": None, "flow": [], "each": False}, {"do": "water"}, {"do": "rate", "value": 0}, {"do": "rate", "value": 0.001},
     {"do": "gait", "gait": GAIT}, {"do": "overrides", "overrides": {"duration": 3}},
     {"do": "scene", "scene": "bench/small-tank", "overrides": {}, "gait": GAIT, "start": 3},
+    {"do": "save"}, {"do": "restore"}, {"do": "restore", "sense": True}, {"do": "pause", "swim": 0},
+    {"do": "step", "scale": [[1, 0.5], [1, 1]], "offset": [[0, 0.1], [0.1, 0]]}, {"do": "step", "offset": [[0.1, 0]]},
 ]
 REFUSED = [
     {}, {"do": "swim"}, {"do": "run", "now": True}, {"do": "pause", "id": -1}, {"do": "credit", "frames": 1001},
@@ -31,6 +33,8 @@ REFUSED = [
     {"do": "sense", "flow": [{"slice": 1, "side": "port"}]}, {"do": "sense", "target": [1, 2]}, {"do": "sense", "each": 1},
     {"do": "sense", "target": [1, 2, 2e6]}, {"do": "rate"}, {"do": "rate", "value": 2000}, {"do": "gait"},
     {"do": "gait", "gait": GAIT | {"frequency": 61}}, {"do": "overrides"}, {"do": "scene"}, {"do": "scene", "scene": 3},
+    {"do": "save", "sense": True}, {"do": "restore", "sense": "yes"}, {"do": "pause", "swim": -1}, {"do": "pause", "swim": 4096},
+    {"do": "step", "scale": [[1, 1]], "offset": [0, 0]}, {"do": "step", "scale": [[1, 5]]},
 ]
 
 

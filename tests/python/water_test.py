@@ -36,9 +36,14 @@ class DerivativesTest(unittest.TestCase):
         np.testing.assert_allclose(water.q_criterion(), 0, atol=1e-12)
         np.testing.assert_allclose(water.vorticity(), np.broadcast_to([0, 0, -2], (4, 5, 4, 3)), atol=1e-12)
 
-    def test_a_plane_of_cells_has_no_derivatives(self):
-        water, _ = turning((4, 1, 4), lambda places: places)
-        with self.assertRaisesRegex(natator.InputError, "4 x 1 x 4 cells: must have 2 along each axis"):
+    def test_plane_flow_does_not_change_along_y(self):
+        water, _ = turning((4, 1, 5), lambda places: np.cross([0, 1.5, 0], places))
+        np.testing.assert_allclose(water.vorticity(), np.broadcast_to([0, 3, 0], (4, 1, 5, 3)), atol=1e-12)
+        np.testing.assert_allclose(water.q_criterion(), 2.25, rtol=1e-12)
+
+    def test_a_row_of_cells_has_no_derivatives(self):
+        water, _ = turning((1, 4, 4), lambda places: places)
+        with self.assertRaisesRegex(natator.InputError, "1 x 4 x 4 cells: must have 2 along each axis"):
             water.vorticity()
 
 

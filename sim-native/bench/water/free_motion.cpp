@@ -11,7 +11,8 @@ Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& of) {
 
 }  // namespace
 
-FreeMotion::FreeMotion(std::vector<Eigen::Vector3d> places, double kept) : places_(std::move(places)), kept_(kept) {}
+FreeMotion::FreeMotion(std::vector<Eigen::Vector3d> places, double kept, bool turns)
+    : places_(std::move(places)), kept_(kept), turns_(turns) {}
 
 Eigen::Vector3d FreeMotion::centre() const {
     return mean(places_);
@@ -29,7 +30,7 @@ std::vector<Eigen::Vector3d> FreeMotion::set_off(const std::vector<Eigen::Vector
         of_bending += arm.cross(then - arm).y() / time;
         inertia += arm.x() * arm.x() + arm.z() * arm.z();
     }
-    angle_ += time * (steering_ + (angular_momentum_ - of_bending) / inertia);
+    if (turns_) angle_ += time * (steering_ + (angular_momentum_ - of_bending) / inertia);
     const Eigen::Matrix3d next = turned(angle_);
     std::vector<Eigen::Vector3d> to;
     for (const Eigen::Vector3d& x : shape) to.push_back(here + time * velocity_ + next * (x - middle));

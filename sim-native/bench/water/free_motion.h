@@ -20,7 +20,8 @@ inline constexpr double kept_on_lattice = 0;
 class FreeMotion {
 public:
     /// At rest, at these places. Of each force it takes 1 / (1 + kept), and keeps the rest of what it took last.
-    explicit FreeMotion(std::vector<Eigen::Vector3d> places, double kept);
+    /// Without `turns` no moment turns it.
+    explicit FreeMotion(std::vector<Eigen::Vector3d> places, double kept, bool turns = true);
 
     /// Where its particles are, and with what velocities they go to where they will be in so long, s, if its shape is
     /// `shape` then, in any frame. The same frame must serve all calls.
@@ -46,6 +47,7 @@ private:
     double angular_momentum_ = 0, moment_ = 0;  ///< about the centre, along y
     double steering_ = 0;
     double kept_;
+    bool turns_;
 };
 
 }  // namespace natator::bench

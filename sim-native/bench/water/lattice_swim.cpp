@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace natator::bench {
@@ -22,14 +23,15 @@ LatticeSwim::LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int res
     const auto odd = [&](double lengths) {
         return 2 * static_cast<int>(lengths * resolution / 2) + 1;
     };  // the midline is on centres
-    box_.cells = {static_cast<int>(std::lround(scene.box.x() * resolution)), swimmer.slab ? 1 : odd(scene.box.y()),
-                  odd(scene.box.z())};
+    box_.cells = {swimmer.endless ? resolution : static_cast<int>(std::lround(scene.box.x() * resolution)),
+                  swimmer.slab ? 1 : odd(scene.box.y()), odd(scene.box.z())};
     box_.cell = cell;
     box_.density = 1 / (cell * cell * cell);
     box_.viscosity = swimmer.viscosity * scene.length * scene.length / scene.beat;
     for (const int axis : {0, 1, 2})
         for (lattice::Face& face : box_.faces[axis])
-            face = swimmer.slab && axis == 1 ? lattice::Face::periodic : lattice::Face::free_slip;
+            face = (swimmer.slab && axis == 1) || (swimmer.endless && axis == 0) ? lattice::Face::periodic
+                                                                                 : lattice::Face::free_slip;
     const double by_speed = mach / std::numbers::sqrt3 * cell / (tail_speed * scene.length / scene.beat);
     step_ = scene.beat / std::ceil(scene.beat / std::min(by_speed, max_viscosity * cell * cell / box_.viscosity));
     water_ = gpu ? lattice::Water::on_gpu(box_, *gpu) : lattice::Water::on_cpu(box_, 1);
@@ -75,7 +77,8 @@ bool LatticeSwim::frame() {
         pressure_ += normal.dot(forces[i]) * normal.x();
     }
     body_->arrive(forces, step_);
-    if (const double by = body_->end_frame(box_.cell, far); by != 0)
+    const bool stays = box_.faces[0][0] == lattice::Face::periodic;
+    if (const double by = body_->end_frame(box_.cell, stays ? std::numeric_limits<double>::infinity() : far); by != 0)
         water_->shift({static_cast<int>(std::lround(by / box_.cell)), 0, 0});
     run_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return true;

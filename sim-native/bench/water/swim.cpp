@@ -41,7 +41,7 @@ SwimBody::SwimBody(const Swimmer& swimmer, const SwimScene& scene, const Eigen::
       start_(nose),
       frame_(frame),
       frames_per_beat_(std::lround(scene.beat / frame)),
-      motion_(std::move(places), kept),
+      motion_(std::move(places), kept, !swimmer.endless),
       helm_(frames_per_beat_) {
     for (const Eigen::Vector3d& place : motion_.places()) {
         straight_.push_back(place - start_);

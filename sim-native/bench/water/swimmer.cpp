@@ -157,7 +157,7 @@ Eigen::Vector2d Swimmer::half_axes(double s, double length, double wider) const 
 
 bool Swimmer::holds(const Eigen::Vector3d& x, double length, double thinnest, double wider) const {
     const double s = -x.x() / length;
-    if (s < 0 || s > 1) return false;
+    if (s < 0 || (endless ? s >= 1 : s > 1)) return false;
     const Eigen::Vector2d half = half_axes(s, length, wider).cwiseMax(thinnest);
     if (slab) return std::abs(x.z()) <= half.x();
     if (square) return std::abs(x.z()) <= half.x() && std::abs(x.y()) <= half.y();
@@ -229,7 +229,13 @@ std::vector<Eigen::Vector3d> Swimmer::bent(const std::vector<Eigen::Vector3d>& s
         if (wave == Wave::curvature)
             angle[k + 1] = angle[k] + ds * bending((k + 0.5) * ds, beats);
         else
-            angle[k + 1] = angle_at(wave == Wave::displacement ? (k + 1) * ds : ds * std::cos(angle[k]) - x[k]);
+            angle[k + 1] =
+                angle_at(wave == Wave::displacement || endless ? (k + 1) * ds : ds * std::cos(angle[k]) - x[k]);
+        if (endless) {
+            x[k + 1] = -(k + 1) * ds;
+            z[k + 1] = bending((k + 1) * ds, beats);
+            continue;
+        }
         const double between = (angle[k] + angle[k + 1]) / 2;
         x[k + 1] = x[k] - ds * std::cos(between);
         z[k + 1] = z[k] + ds * std::sin(between);
@@ -273,10 +279,13 @@ void read_midline(const json& midline, const Place& place, Swimmer& swimmer) {
 Swimmer swimmer_from_json(const json& document, const std::string& name) {
     const Place top{name, ""};
     Swimmer swimmer;
-    fields::read_object<Swimmer>(
-        document, top,
-        {{"slab", &Swimmer::slab}, {"square", &Swimmer::square}, {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
-        {"source", "outline", "midline", "deformation", "towed", "variants", "targets"}, swimmer);
+    fields::read_object<Swimmer>(document, top,
+                                 {{"slab", &Swimmer::slab},
+                                  {"square", &Swimmer::square},
+                                  {"endless", &Swimmer::endless},
+                                  {"viscosity", &Swimmer::viscosity, {1e-6, 10}}},
+                                 {"source", "outline", "midline", "deformation", "towed", "variants", "targets"},
+                                 swimmer);
     for (const char* key : {"source", "viscosity"}) fields::required(document, top, key);
     std::string source;
     fields::read(document["source"], top.key("source"), {}, source);
@@ -288,6 +297,8 @@ Swimmer swimmer_from_json(const json& document, const std::string& name) {
         swimmer.deformation = read_deformation(document["deformation"], top.key("deformation"));
     else
         read_midline(fields::required(document, top, "midline"), top.key("midline"), swimmer);
+    if (swimmer.endless && !(swimmer.slab && swimmer.wave == Swimmer::Wave::axial_displacement))
+        fields::refuse(top.key("endless"), "is for a slab with a midline by axial displacement");
     if (document.contains("towed")) {
         double speed = 0;
         fields::read(document["towed"], top.key("towed"), {0, 10, false, "lengths/beat"}, speed);

@@ -44,6 +44,9 @@ struct Swimmer {
     Profile half_width, half_height;  ///< ellipses
     bool square = false;              ///< rectangles instead
     bool slab = false;                ///< spans the box along y instead: plane flow
+    /// It goes on along x without end, in copies: its places move across and turn with the midline, which becomes
+    /// longer, and the body as a whole doesn't turn.
+    bool endless = false;
     /// What the wave is of: of curvature, or of lateral displacement, as a function of the distance along the midline,
     /// or of that along the axis from which it is measured.
     enum class Wave { curvature, displacement, axial_displacement } wave = Wave::curvature;

@@ -269,6 +269,10 @@ void run_swimmer_study(const SwimmerStudy& study, ResultTable& table, ResultTabl
             for (const double box : study.boxes)
                 for (const Pool& pool : pools_of(study, resolution, box))
                     for (const auto& variant : one.variants) {
+                        if (variant.second.endless && !pool.mach) {
+                            report(one.name + " is endless: not in scheme conserving");
+                            break;
+                        }
                         run_one(one, variant, study, pool, table, beats, report);
                         if (study.quick) break;
                     }

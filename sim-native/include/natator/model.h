@@ -25,6 +25,12 @@ struct WaterBox {
     double density = 1;               ///< mass/length^3
 
     double cell_mass() const { return density * cell * cell * cell; }  ///< of water in a cell, mass
+    /// Whether the flow is plane: one cell deep along y, all along which it is the same.
+    bool is_plane() const { return cells.y() == 1 && faces[1][0] == WaterFace::periodic; }
+    /// Of water in the place of a particle, whose cube, or in plane flow square, has so long an edge; mass.
+    double displaced_mass(double edge) const {
+        return is_plane() ? density * cell * edge * edge : density * edge * edge * edge;
+    }
 };
 
 /// The water on a grid of cubic cells, in the coordinates of its tank; values are by cell, x first, then y, then z.

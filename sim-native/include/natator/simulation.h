@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "natator/gait.h"
@@ -75,6 +77,16 @@ public:
     /// Goes to another of the scene's starts, see choose_start. Throws InputError.
     void reset(int start);
 
+    /// The present moment with all that what follows depends on, as bytes: in any process of the same version, on the
+    /// same kind of processor, what `restore` makes of them goes on bit by bit as this does. They name the scene, and
+    /// hold its overrides, start and gait. They are of this version, and for the one that reads them to trust no more
+    /// than a scene. Throws InputError after an instability.
+    std::string save();
+    /// Goes to a saved moment of the same scene, whose overrides, start, gait and steering come with it; what `reset`
+    /// goes back to is that start. True if overrides, start or gait are others than before. Throws InputError when the
+    /// bytes are damaged, or of another scene, scheme, precision or version.
+    bool restore(std::string_view saved);
+
     /// What runs now; its gait is always there.
     const SimulationSetup& setup() const { return setup_; }
     const Gait& gait() const { return *setup_.gait; }    ///< that drives the muscles
@@ -102,7 +114,10 @@ public:
 
 private:
     struct Run;
+    struct Moment;
 
+    std::uint64_t digest(Run& run) const;
+    Moment read(std::string_view saved) const;
     void refuse_to_steer_on_gpu() const;
     std::unique_ptr<Run> make_run(const SimulationSetup& setup) const;
     void follow(MovingFrame& follower);
@@ -114,6 +129,8 @@ private:
     std::unique_ptr<Run> run_;
     State<Real> state_;
     bool updated_ = false;  ///< whether the state is what run_'s solver has left
+    /// of a restored state, until the next step; none: the solver has them
+    std::optional<std::vector<Real>> restored_densities_;
     int frames_ = 0;
     int base_frame_ = 0;    ///< since when the time step is what it is
     double base_time_ = 0;  ///< s, of base_frame_

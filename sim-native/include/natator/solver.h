@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "natator/gait.h"
@@ -189,6 +190,13 @@ public:
     double muscle_work() const;
     /// Sets muscle_work() to 0.
     void clear_muscle_work();
+
+    /// What goes from one frame to the next beside the State, as bytes: the work of the muscles, and in scheme lattice
+    /// the water. Its densities, pressures, forces and neighbours are not among it.
+    std::string save() const;
+    /// Takes what `save` gave, of a Solver of the same Model on the same kind of processor. Throws InputError when it
+    /// is none of that, and then nothing has changed.
+    void restore(std::string_view saved);
 
     /// Scheme lattice: moves the water by -by, length, a whole number of cells, as the State's particles have been
     /// moved. Does nothing in the other schemes, whose water is particles.

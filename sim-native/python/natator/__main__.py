@@ -7,6 +7,7 @@ import sys
 
 from natator import export, picture, report
 from natator.errors import InputError
+from natator.export.runs import RUN_FORMATS, export_run
 from natator.script import run
 from natator.source import source
 
@@ -21,7 +22,7 @@ class Parser(argparse.ArgumentParser):
 def parser():
     all_commands = Parser(prog="python -m natator", description=__doc__)
     commands = all_commands.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    for name, work, about in (("export", exported, "Simulates a swim and writes it, frame by frame, for another program."),
+    for name, work, about in (("export", exported, "Simulates a swim and writes it, frame by frame, for another program; or writes the course of a run."),
                               ("picture", drawn, "Simulates a swim up to a time and draws it: the body in its water, with a scale.")):
         command = commands.add_parser(name, help=about, description=about)
         command.set_defaults(work=work, command=command)
@@ -32,7 +33,10 @@ def parser():
         command.add_argument("--scheme", help="flex, conserving or lattice; default: the run's, else the scene's")
         command.add_argument("--no-water", action="store_true", help="without the water's particles")
         if name == "export":
-            command.add_argument("--format", required=True, choices=export.FORMATS)
+            command.add_argument("--format", required=True, choices=[*export.FORMATS, *RUN_FORMATS], help=f"{', '.join(RUN_FORMATS)} are of the "
+                                 "course of a RUN, which simulates nothing; the others of a swim")
+            command.add_argument("--fresh", type=int, metavar="N", help="with --format archive: run the best of each kind from so many new starts, too")
+            command.add_argument("--workers", type=int, metavar="N", help="with --fresh: how many at a time; default: all processors")
             command.add_argument("--duration", type=float, help="s, to the nearest frame; default: the run's, else the scene's")
             command.add_argument("--every", type=int, default=1, metavar="N", help="every Nth frame only")
             command.add_argument("--fields", default=",".join(export.WIDTHS), help="of each particle; default: %(default)s")
@@ -60,7 +64,24 @@ def reported(given):
     print(report.write(given.run, given.output_dir))
 
 
+def run_exported(given):
+    """The course of a run, in a format that knows nothing of swims."""
+    for name in ("gait", "overrides", "scheme", "no_water", "duration", "water_surface", "precision"):
+        if getattr(given, name):
+            raise InputError(f"--{name.replace('_', '-')} and --format {given.format}: expected a format of swims: {', '.join(export.FORMATS)}")
+    if given.fresh is not None and given.fresh < 1:
+        raise InputError(f"--fresh is {given.fresh}; expected a whole number from 1")
+    folder = given.output_dir or f"{given.source}/export-{given.format}"
+    written = export_run(given.source, given.format, folder, given.force, given.fresh or 0, given.workers)
+    facts = [f"{key} {value:.6g}" for key, value in written.items() if isinstance(value, (int, float)) and key != "generations"]
+    print(", ".join([f"{folder}: {written['generations']} generation" + "s" * (written["generations"] > 1), *facts]))
+
+
 def exported(given):
+    if given.format in RUN_FORMATS:
+        return run_exported(given)
+    if given.fresh is not None:
+        raise InputError(f"--fresh and --format {given.format}: expected --format archive")
     swim = source(given.source, given.gait, given.overrides, given.scheme)
     fields = given.fields.split(",")
     for field in fields:

@@ -10,6 +10,7 @@ from pathlib import Path
 from natator.errors import InputError
 from natator.gait import Gait, whole
 from natator.plain import is_number
+from natator.runs import effort, measures
 from natator.script import package
 from natator.simulator import Simulator, make_request
 from natator.source import merged
@@ -21,27 +22,36 @@ BEST = 5  # gaits that run again before one is chosen
 
 
 def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, duration=2.0, optimizer=None, workers=None, program=None, arguments=(),
-           **request):
+           run=None, **request):
     """Evolves the gait that swims furthest along x, by CMA-ES (natator[cma]) or another optimizer; tqdm shows how far it is, if it is there.
 
     creature_or_scene: as of swim. generations, population, starts: how many; each gait of a generation runs from the same starts, each
     generation has others, and a gait's fitness is the mean distance, 0 if one run is unstable. The best five run again from new starts; chosen
     is the largest mean less a standard error. That one is told by max(4, 2 starts) fresh starts, and as many at half the time step.
-    duration: s of a swim. optimizer: anything with ask(), which gives lists of genes in [0, 1] (frequency 0.5 to 2, then amplitudes,
-    then phases), and tell(genes, costs). workers, program, arguments: as of Simulator. request: more fields of a request. The same seed,
+    duration: s of a swim. optimizer: "cma-es", "map-elites" or "cma-me" (natator[ribs]), or anything with ask(), which gives lists of genes in [0, 1]
+    (frequency 0.5 to 2, then amplitudes, then phases), and tell(genes, costs); if it has a true attribute `measures`, tell(genes, costs, measures): of
+    each gait beats for a body length and cost of transport, or None. workers, program, arguments: as of Simulator. request: more fields of a request. The same seed,
     program and optimizer give the same gait for any number of workers. Returns an Evolved. Raises InputError and ProgramError.
+
+    run: a run folder, which the program natator then makes and judges as that of `natator evolve --optimizer external`, or goes on with, also to more
+    generations, if it is there. Genes are those of its encoding; arguments are more of its options. Returns an EvolvedRun (natator.external).
     """
     for name, value, least in (("generations", generations, 1), ("population", population, 2), ("starts", starts, 1), ("seed", seed, 1)):
         whole(name, value, least)
     if seed >= 2**32:
         raise InputError(f"seed = {seed}: must be below 2**32")
     scene = scene_of(creature_or_scene)
+    make = _maker(optimizer, population, seed)
+    if run is not None:
+        from natator import external
+        if others := sorted(request.keys() - {"overrides", "scheme"}):
+            raise InputError(f"{others[0]} and run: expected one of them")
+        return external.evolve(run, scene, generations, seed, population, starts, duration, make, workers, program, arguments, shown=_shown, **request)
     with Stream(scene, overrides=request.get("overrides"), scheme=request.get("scheme"), program=program) as stream:
         about, actuators = stream.scene, stream.actuators
     if not actuators:
         raise InputError(f'scene "{scene}": must have a creature with actuators')
-    if optimizer is None:
-        optimizer = _cma_es(1 + 2 * actuators, population, seed)
+    optimizer = make(1 + 2 * actuators)
     half = merged(request.get("overrides"), {"solver": {"substeps": 2 * about["definition"]["solver"]["substeps"]}})
     first, judged, best, history = seed * 1_000_003, [], [], []
 
@@ -53,15 +63,17 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
             requests = [make_request(scene, gait, **{**request, "duration": duration, "start": start, **other}) for gait in gaits for start in numbers]
             results = simulator.evaluate_all(requests)
             distances = [result["distance"] if result["status"] == "ok" else None for result in results]
-            return [distances[k:k + count] for k in range(0, len(distances), count)], results[0]["scheme"]
+            of = range(0, len(distances), count)
+            return [distances[k:k + count] for k in of], results[0]["scheme"], [_measures(gait, results[k:k + count], about["bodyLength"])
+                                                                                for gait, k in zip(gaits, of, strict=True)]
 
         for _ in _shown(range(generations), lambda: best and _fitness(best[0][1])):
             asked = [list(map(float, genes)) for genes in optimizer.ask()]
             gaits = [_gait(genes, actuators) for genes in asked]
-            ways, scheme = runs(gaits, starts)
+            ways, scheme, kinds = runs(gaits, starts)
             judged += zip(gaits, ways)
             worth = [_fitness(way) for way in ways]
-            optimizer.tell(asked, [-one for one in worth])
+            tell(optimizer, asked, worth, kinds)
             best = sorted(judged, key=lambda one: _fitness(one[1]), reverse=True)[:BEST]
             judged = list(best)
             history.append((_fitness(best[0][1]), statistics.fmean(worth)))
@@ -70,7 +82,12 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
         fresh, = runs([gait], max(4, 2 * starts))[0]
         first -= len(fresh)  # the same starts
         at_half, = runs([gait], len(fresh), overrides=half)[0]
-    return Evolved(scene, gait, _fitness(way), fresh, at_half, duration, about["bodyLength"], scheme, request, history)
+    return Evolved(scene, gait, _fitness(way), fresh, at_half, duration, about["bodyLength"], scheme, request, history, getattr(optimizer, "archive", None))
+
+
+def tell(optimizer, genes, fitness, kinds):
+    """Tells an optimizer what gaits are worth, and the measures of those that get anywhere if it wants to know them."""
+    optimizer.tell(genes, [-one for one in fitness], *[kinds] * bool(getattr(optimizer, "measures", False)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,6 +104,7 @@ class Evolved:
     scheme: str
     request: dict        #: what else it was asked with
     history: list = ()   #: of each generation the best mean distance so far, and the mean over its gaits, length
+    archive: object = None  #: the optimizer's, as of pyribs
 
     def __repr__(self):
         lengths = self.body_length * self.duration
@@ -124,6 +142,25 @@ def _gait(genes, actuators):
     if len(genes) != 1 + 2 * actuators or not all(is_number(gene) and 0 <= gene <= 1 for gene in genes):
         raise InputError(f"optimizer.ask() gave {str(genes)[:200]}: must be {1 + 2 * actuators} numbers in [0, 1]")
     return Gait(0.5 + 1.5 * genes[0], genes[1:1 + actuators], genes[1 + actuators:])
+
+
+def _measures(gait, results, body_length):
+    """Of all runs of a gait together; None where one was unstable, or work is not measured."""
+    if not all(result["status"] == "ok" and result.get("work") is not None for result in results):
+        return None
+    return measures(*sum(effort(gait.to_json(), result, body_length) for result in results))
+
+
+def _maker(optimizer, population, seed):
+    """What gives the optimizer for a number of genes."""
+    if optimizer in (None, "cma-es"):
+        return lambda genes: _cma_es(genes, population, seed)
+    if isinstance(optimizer, str):
+        from natator.map_elites import MapElites
+        if optimizer not in ("map-elites", "cma-me"):
+            raise InputError(f'optimizer = "{optimizer}": must be cma-es, map-elites, cma-me, or an object with ask and tell')
+        return lambda genes: MapElites(optimizer, genes, population, seed)
+    return lambda _: optimizer
 
 
 def _cma_es(genes, population, seed):

@@ -6,9 +6,11 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
+from natator.batch import Batch
 from natator.errors import InputError, Unstable
 from natator.gait import as_json, number, rows, wave_in, whole
-from natator.stream import SIDES, Stream, close_all, pairs
+from natator.plain import plain
+from natator.stream import SIDES, Stream, pairs
 from natator.swimming import Views
 
 
@@ -22,13 +24,14 @@ class SwimmerEnv(gymnasium.Env):
     box (low, high) that each reset draws one from (the reward is coming nearer). reached: at this distance, in body lengths,
     an episode with a target ends. work_cost: taken off the reward per unit of work, mass length²/s², in all schemes but flex.
     render_mode: None, or "rgb_array", whose pictures gymnasium.make shows in a window for "human"; needs Pillow.
-    options: those of Stream, such as overrides, scheme, arguments, program.
+    options: those of Stream, such as overrides, scheme, arguments, program. swim: one of a Batch of the scene, in place of a
+    program of its own.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, scene="pool/tadpole", actions="drive", gait=None, frames=3, duration=4.0, starts=16, flow=3,
-                 target=None, reached=0.25, work_cost=0.0, render_mode=None, **options):
+                 target=None, reached=0.25, work_cost=0.0, render_mode=None, swim=None, **options):
         if actions not in ("drive", "gait"):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
         if gait is not None and actions == "drive":
@@ -43,7 +46,7 @@ class SwimmerEnv(gymnasium.Env):
             raise InputError("duration = 0: must be more than 0 s")
         self.target, self.reached = _box_of(target), _at_least(0, "reached", reached)
         self.work_cost = _at_least(0, "work_cost", work_cost)
-        self._stream = Stream(scene, fields=("position",) if render_mode else (), **options)
+        self._stream = swim or Stream(scene, fields=fields_of(render_mode), **options)
         try:
             self._prepare(actions, gait, flow)
         except BaseException:
@@ -64,7 +67,7 @@ class SwimmerEnv(gymnasium.Env):
             _check_room(self.gait)
         self._places = places_of(flow, len(stream.scene["slices"]))
         stream.sense(flow=self._places)
-        self._senses, self._work, self._action, self._sent = None, 0.0, self._rest(), 0
+        self._senses, self._work, self._action, self._began = None, 0.0, self._rest(), 0.0
         size = 9 + 2 * self.actuators + 3 * len(self._places) + 2 * self.by_gait + 4 * (self.target is not None)
         self.observation_space = spaces.Box(-LARGEST, LARGEST, (size,), np.float32)
         self.action_space = spaces.Box(-1, 1, (self.actuators * (2 if self.by_gait else 1),), np.float32)
@@ -72,28 +75,59 @@ class SwimmerEnv(gymnasium.Env):
         self._views = Views(stream.scene, stream.frame.position) if self.render_mode else None
 
     def reset(self, *, seed=None, options=None):
-        """As of gymnasium.Env. options: {"start": number of a start} chooses one. Raises InputError."""
+        """As of gymnasium.Env. options: "start", the number of a start; "overrides", a dict merged into the scene from now on (null
+        removes a key); "state", of `save`, to begin in its midst. Raises InputError."""
+        self.begin_overrides(options)
+        self.end_overrides(options)
         self.begin_reset(seed, options)
         return self.end_reset()
 
-    def begin_reset(self, seed=None, options=None):
-        """Begins a `reset`, without waiting for the simulator."""
-        unknown = set(options or {}) - {"start"}
+    def save(self):
+        """The present moment as bytes, for resets to begin at."""
+        return self._stream.save()
+
+    def begin_overrides(self, options=None):
+        """Begins what `reset` does first, without waiting for the simulator."""
+        unknown = set(options or {}) - {"start", "overrides", "state"}
         if unknown:
-            raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start'")
-        super().reset(seed=seed)
-        start = (options or {}).get("start")
+            raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start', 'overrides' or 'state'")
         self._stream.require_idle()
-        self._stream.begin_reset(int(self.np_random.integers(self.starts)) if start is None else start)
+        if (options or {}).get("overrides") is not None:
+            self._stream.send({"do": "overrides", "overrides": plain("overrides", options["overrides"])})
+
+    def end_overrides(self, options=None):
+        """Waits for it. Raises InputError."""
+        if (options or {}).get("overrides") is not None:
+            before = self.actuators
+            self._stream.receive()
+            if self._stream.actuators != before:
+                raise InputError(f"overrides: the body has {self._stream.actuators} actuators: must have {before}, as before")
+            self.length = self._stream.scene["bodyLength"]
+
+    def begin_reset(self, seed=None, options=None):
+        """Begins the rest of a `reset`."""
+        options = options or {}
+        super().reset(seed=seed)
+        self._state = options.get("state")
+        if self._state is None:
+            start = options.get("start")
+            self._stream.begin_reset(int(self.np_random.integers(self.starts)) if start is None else start)
         self._point = None
         if self.target is not None:
             self._point = self.np_random.uniform(*self.target)
 
     def end_reset(self):
         """Waits for a reset that was begun; returns observation and info."""
-        self._stream.end_reset()
+        if self._state is None:
+            self._stream.end_reset()
+        else:
+            self._stream.restore(self._state)
+            if self.by_gait:
+                self._stream.set_gait(self.gait)
         self._action, self._work = self._rest(), 0.0
-        self._senses = self._stream.sense(target=self._point)
+        self._senses = self._stream.sense(flow=self._places, target=self._point)  # overrides may have made it forget
+        self._began = self._senses.time
+        self._work_since()
         return self._observation(), self._info()
 
     def step(self, action):
@@ -110,14 +144,12 @@ class SwimmerEnv(gymnasium.Env):
         self._stream.require_idle()
         parts = np.arange(1, self.frames + 1)[:, None] / self.frames
         rows = self._action + parts * (action - self._action)
-        self._action, self._sent = action, 1
-        if not self.by_gait:
+        self._action = action
+        if self.by_gait:
+            scale, offset = np.split(rows, 2, axis=1)
+            self._stream.begin_step(scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
+        else:
             self._stream.begin_step(drive=rows)
-            return
-        self._sent = len(rows)
-        for row in rows:
-            scale, offset = np.split(row, 2)
-            self._stream.begin_step(1, scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
 
     def checked(self, action):
         """An action that can be taken: what is beyond [-1, 1] is clipped, with a warning the first time. Raises InputError."""
@@ -135,19 +167,15 @@ class SwimmerEnv(gymnasium.Env):
     def end_step(self):
         """Waits for a step that was begun; returns what `step` does."""
         before, unstable = self._senses, False
-        for left in range(self._sent, 0, -1):
-            try:
-                self._senses = self._stream.end_step()
-            except Unstable:
-                unstable = True
-                for _ in range(left - 1):
-                    self._drain()
-                break
+        try:
+            self._senses = self._stream.end_step()
+        except Unstable:
+            unstable = True
         now = self._senses
         reward = self._progress(before, now) - self.work_cost * self._work_since()
         there = self.target is not None and now.target_distance <= self.reached * self.length
         info = self._info() | {"unstable": unstable, "reached": there}
-        late = now.time >= self.duration - 1e-9
+        late = now.time - self._began >= self.duration - 1e-9
         return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
 
     def render(self):
@@ -161,13 +189,6 @@ class SwimmerEnv(gymnasium.Env):
     def close(self):
         """Ends its program."""
         self._stream.close()
-
-    def _drain(self):
-        """An answer that says no more than the one before: refused, or unstable."""
-        try:
-            self._stream.end_step()
-        except (InputError, Unstable):
-            pass
 
     def _rest(self):
         """The action at the start: muscles at rest, or the gait as it is."""
@@ -203,26 +224,27 @@ class SwimmerEnv(gymnasium.Env):
 
 
 class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
-    """Swimmers side by side, each by a program of its own: they swim at the same time, as far as there are processors.
-    Arguments are those of SwimmerEnv, and the bits are those of so many of these. autoreset_mode: when an environment whose
+    """Swimmers side by side in one program. Arguments are those of SwimmerEnv, and the bits are those of so many of these. threads:
+    how many swim at a time, by default as many as there are processors. autoreset_mode: when an environment whose
     episode has ended begins anew, one of gymnasium.vector.AutoresetMode: with the next step, with the same one (its last
     observation and info are infos["final_obs"] and infos["final_info"]), or by reset(options={"reset_mask": …}) alone."""
 
     metadata = {"render_modes": ["rgb_array"], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(self, num_envs=1, autoreset_mode=AutoresetMode.NEXT_STEP, **arguments):
-        self.envs = []
+    def __init__(self, num_envs=1, autoreset_mode=AutoresetMode.NEXT_STEP, threads=None, scene="pool/tadpole", render_mode=None,
+                 **arguments):
         whole("num_envs", num_envs, 1)
         try:
             self.autoreset_mode = AutoresetMode(autoreset_mode)
         except ValueError:
             raise InputError(f"autoreset_mode = {autoreset_mode!r}: must be one of "
                              f"{', '.join(mode.value for mode in AutoresetMode)}") from None
+        own = {key: arguments.pop(key) for key in list(arguments) if key in OF_STREAM}
+        self._batch = Batch(scene, num_envs, threads, fields=fields_of(render_mode), **own)
         try:
-            for _ in range(num_envs):
-                self.envs.append(SwimmerEnv(**arguments))
+            self.envs = [SwimmerEnv(scene, render_mode=render_mode, swim=swim, **arguments) for swim in self._batch.swims]
         except BaseException:
-            self.close_extras()
+            self._batch.close()
             raise
         self.num_envs, first = num_envs, self.envs[0]
         self.render_mode = first.render_mode
@@ -233,8 +255,8 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         self._over, self._observations = np.zeros(num_envs, bool), None
 
     def reset(self, *, seed=None, options=None):
-        """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, and "reset_mask", booleans:
-        which of them begin anew."""
+        """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, each for all or a list with
+        one for each; and "reset_mask", booleans: which of them begin anew."""
         seeds = list(seed) if isinstance(seed, (list, tuple)) else [
             None if seed is None else seed + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
@@ -244,17 +266,37 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         if mask.shape != (self.num_envs,) or mask.dtype != bool or self._observations is None and not mask.all():
             raise InputError(f"options: reset_mask = {mask.tolist()}: must be {self.num_envs} booleans, all true the first time")
         chosen = np.flatnonzero(mask)
-        for i in chosen:
-            self.envs[i].begin_reset(seeds[i], options)
-        self._over[mask] = False
+        for key, value in options.items():
+            if isinstance(value, list) and len(value) != self.num_envs:
+                raise InputError(f"options: {key} has {len(value)} values: must be {self.num_envs}, one for each environment")
+        own = [{key: value[i] if isinstance(value, list) else value for key, value in options.items()} for i in range(self.num_envs)]
+        self._each(chosen, lambda i: self.envs[i].begin_overrides(own[i]), lambda i: self.envs[i].end_overrides(own[i]))
         if self._observations is None:
             self._observations = np.zeros(self.observation_space.shape, np.float32)
-        infos = self._end_resets(chosen, {})
+        infos = self._reset(chosen, lambda i: self.envs[i].begin_reset(seeds[i], own[i]), {})
+        self._over[mask] = False
         return self._observations.copy(), infos
 
-    def _end_resets(self, chosen, infos):
-        for i in chosen:
-            self._observations[i], info = self.envs[i].end_reset()
+    def _each(self, chosen, begin, end):
+        """Begins something for all of these, then ends it, and raises the first InputError after that."""
+        begun, errors = [], {}
+        for work, over in ((begin, chosen), (end, begun)):
+            for i in over:
+                try:
+                    work(i)
+                    if work is begin:
+                        begun.append(i)
+                except (InputError, Unstable) as error:
+                    errors[i] = error
+        for i, error in sorted(errors.items()):
+            raise InputError(f"environment {i}: {error}") from None
+
+    def _reset(self, chosen, begin, infos):
+        """Resets these, which `begin` begins. Returns infos with theirs."""
+        told = {}
+        self._each(chosen, begin, lambda i: told.update({i: self.envs[i].end_reset()}))
+        for i, (observation, info) in told.items():
+            self._observations[i] = observation
             infos = self._add_info(infos, info, i)
         return infos
 
@@ -269,9 +311,10 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
         checked = [None if over else self._checked(i, action)  # all, before anything is begun
                    for i, (action, over) in enumerate(zip(actions, self._over))]
+        infos = self._reset(np.flatnonzero(self._over), lambda i: self.envs[i].begin_reset(), {})
         for env, action, over in zip(self.envs, checked, self._over):
-            env.begin_reset() if over else env.begin_checked_step(action)
-        infos = self._end_resets(np.flatnonzero(self._over), {})
+            if not over:
+                env.begin_checked_step(action)
         rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
         told = {}
         for i in np.flatnonzero(~self._over):
@@ -280,8 +323,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         again = np.flatnonzero(self._over) if self.autoreset_mode == AutoresetMode.SAME_STEP else []
         for i in again:
             infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": told.pop(i)}, i)
-            self.envs[i].begin_reset()
-        infos = self._end_resets(again, infos)
+        infos = self._reset(again, lambda i: self.envs[i].begin_reset(), infos)
         self._over[again] = False
         for i, info in told.items():
             infos = self._add_info(infos, info, i)
@@ -298,8 +340,13 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close_extras(self, **_):
-        """Ends their programs."""
-        close_all([env._stream for env in self.envs])
+        """Ends their program."""
+        self._batch.close()
+
+
+def fields_of(render_mode):
+    """What frames have to hold for pictures."""
+    return ("position",) if render_mode else ()
 
 
 def places_of(flow, slices):
@@ -366,6 +413,7 @@ def _check_in_tank(box, scene):
             raise InputError(f"target = {corner.tolist()}: must be in the tank, {', '.join(limits)}")
 
 
+OF_STREAM = ("overrides", "scheme", "start", "arguments", "program")
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
 LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it

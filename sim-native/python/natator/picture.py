@@ -21,6 +21,8 @@ OPACITY = 0.3  # of the water's surface
 ROOM, ROOM_IN_VACUUM = 0.6, 0.2  # in body lengths: how much is shown before and behind a body
 NEARLY_ALL = 0.7  # a tank of which this share would be shown is shown whole
 VORTICES = 0.01  # share of the water whose Q is highest
+STRONGEST = 0.97  # share of the cells of plane flow that turn less than what the colours end with
+RESTS = "vortices: the water does not turn anywhere; expected a swim that has gone on for a while"
 SIDES, ABOVE, BELOW = 0.03, 0.04, 0.07  # margins, in widths of the picture
 FLATTEST, HIGHEST = 0.3, 0.75
 
@@ -31,7 +33,7 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     scene, gait, options: as of Stream. at: s, to the nearest frame; None is 1, or the end of a shorter swim, or 0 of a body at rest.
     view: one of VIEWS. size: pixels, or None for 1600 wide and as high as what is shown. duration: of the swim in s, None is the
     scene's. vortices: draws those in place of the water's surface: where Q (Water.q_criterion) is beyond the least of its highest
-    VORTICES, coloured by the vorticity about the vertical. Returns the size and the time. Raises InputError, ProgramError, Unstable
+    VORTICES, coloured by the vorticity about the vertical; of plane flow a map of that. Returns the size and the time. Raises InputError, ProgramError, Unstable
     and OSError.
     """
     pyvista = package("pyvista", "pyvista", "a picture")
@@ -111,12 +113,22 @@ def _framing(swim, position):
 
 
 def _vortices(plotter, water):
-    """Surfaces of equal Q. Raises InputError where nothing turns."""
+    """Surfaces of equal Q, or of plane flow a map of the vorticity below the body. Raises InputError where nothing turns."""
+    if water.density.shape[1] == 1:
+        flat = water.grid()
+        flat.origin = water.corner - [0, water.cell / 2, 0]  # above the ground, up to the middle of the body
+        turns = np.abs(flat["vorticity"][:, 1])
+        if not turns.any():
+            raise InputError(RESTS)
+        strength = np.quantile(turns[turns > 0], STRONGEST)
+        plotter.add_mesh(flat, scalars="vorticity", component=1, cmap="coolwarm", clim=[-strength, strength], show_scalar_bar=False,
+                         lighting=False)
+        return
     grid = water.grid().cell_data_to_point_data() if water.density.size else None
     q = grid["Q"] if grid else np.zeros(1)
     least = np.quantile(q, 1 - VORTICES)
     if not least > 0:
-        raise InputError("vortices: the water does not turn anywhere; expected a swim that has gone on for a while")
+        raise InputError(RESTS)
     about = grid["vorticity"][:, 1]
     grid["about the vertical"] = about
     strength = np.quantile(np.abs(about[q > least]), 0.9)

@@ -64,6 +64,18 @@ class Senses:
             np.array([place["particles"] if is_whole(place["particles"]) else None for place in flow], int),
             _vector(target["direction"] or [None] * 3, 3), _number(target["distance"]))
 
+    @classmethod
+    def from_numbers(cls, values, actuators):
+        """From those of an OBSV. Raises ValueError where they are too few."""
+        places, rest = divmod(len(values) - 27 - 2 * actuators, 4)
+        if places < 0 or rest:
+            raise ValueError
+        ends = np.cumsum([5, 3, 3, 3, 3, 3, 3, 3, 1, actuators, actuators, 3 * places])
+        head, *vectors, distance, drive, bend, flow, particles = np.split(values, ends)
+        centre, forward, up, right, velocity, turn_rate, target = vectors
+        return cls(int(head[0]), float(head[1]), float(head[2]), bool(head[3]), float(head[4]), centre, forward, up, right, velocity,
+                   turn_rate, drive, bend, flow.reshape(-1, 3), particles.astype(int), target, float(distance[0]))
+
 
 def _number(value):
     """A number of a message; nan for null."""
@@ -104,38 +116,22 @@ class Stream:
     Frame, None without fields; `last_water`, the Water that was asked for last.
     """
 
+    _alone = True  # in its program
+
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
-        fields = [fields] * bool(fields) if isinstance(fields, str) else programs.listed("fields", fields)
-        arguments = programs.listed("arguments", arguments)
-        if not isinstance(scene, (str, os.PathLike)):
-            raise InputError(f"scene = {scene!r}: must be a name or a path")
-        for i, field in enumerate(fields):
-            if not isinstance(field, str) or not field:
-                raise InputError(f"fields[{i}] = {field!r}: must be a text, not empty")
-        scene = os.fsdecode(scene)
-        options = ["stream", "./" * scene.startswith("-") + scene,  # a file, not an option
-                   "--paused", "--fields=" + (",".join(fields) or "none")]
-        for name, value in (("--gait", gait), ("--overrides", overrides)):
-            if value is None:
-                continue
-            if not isinstance(value, (Mapping, Gait)):
-                raise InputError(f"{name.removeprefix('--')} = {value!r}: must be a dict" + " or a Gait" * (name == "--gait"))
-            options.append(f"{name}={json.dumps(plain(name.removeprefix('--'), value))}")
-        if scheme is not None:
-            options.append(f"--scheme={scheme}")
-        if start is not None:
-            options.append(f"--start={whole('start', start, 0)}")
-        self.scene, self.frame, self.last_water = {}, None, None
-        self._framed = bool(fields)
-        self._unstable, self._torn = None, False
-        self._ids, self._unanswered = itertools.count(1), collections.deque()
-        self._program = programs.Program(program, [*options, *arguments])
+        self._begin(*start_program(scene, gait, overrides, scheme, start, fields, arguments, program))
         try:
             self._take(*self._message())
             self._first_frame()
         except BaseException:
             self.close()
             raise
+
+    def _begin(self, program, framed):
+        self.scene, self.frame, self.last_water, self._state = {}, None, None, None
+        self._framed, self._program = framed, program
+        self._unstable, self._torn = None, False
+        self._ids, self._unanswered = itertools.count(1), collections.deque()
 
     @property
     def actuators(self):
@@ -154,7 +150,7 @@ class Stream:
 
     def step(self, frames=None, drive=None, scale=None, offset=None):
         """Simulates frames; the senses at the end. drive: a value in [-2, 2] for each actuator, or a row of them for each
-        frame, in place of the gait; scale, offset: what the gait gives, times scale plus offset. They stay until changed.
+        frame, in place of the gait; scale, offset: what the gait gives, times scale plus offset, likewise. They stay until changed.
         Raises InputError, and then nothing was simulated; raises Unstable."""
         self.require_idle()
         self.begin_step(frames, drive, scale, offset)
@@ -169,7 +165,7 @@ class Stream:
             command["drive"] = rows("drive", drive).tolist()
         for name, values in (("scale", scale), ("offset", offset)):
             if values is not None:
-                command[name] = numbers(name, values)
+                command[name] = rows(name, values).tolist()
         if self._framed:
             self.send({"do": "credit"})
         self.send(command)
@@ -179,6 +175,31 @@ class Stream:
         if self._framed:
             self.receive()
         return self._senses(self.receive())
+
+    def save(self):
+        """The present moment as bytes, which any process may go on from: all that what follows depends on. Raises InputError when the
+        simulation has become unstable."""
+        self.ask({"do": "save"})
+        return self._state
+
+    def restore(self, state):
+        """Goes to a moment that `save` gave, of the same scene; its overrides, start and gait come with it, and what is sensed
+        stays. Returns the senses. Raises InputError for bytes that are damaged, or of another scene, scheme, precision or version."""
+        if not isinstance(state, (bytes, bytearray, memoryview)):
+            raise InputError(f"state = {state!r}: must be bytes, as save gives them")
+        self.require_idle()
+        if state is not self._state or not self._alone:  # which the simulator has
+            self._send_message(b"STAT", bytes(state))
+            self._state = state if isinstance(state, bytes) else None
+        senses = len(self.scene["body"]) > 0
+        if self._framed:
+            self.send({"do": "credit"})
+        self.send({"do": "restore", "sense": senses})
+        if self._framed:
+            self.receive()
+        answer = self.receive()
+        self._unstable = None
+        return self._senses(answer) if senses else None
 
     def water(self):
         """The Water as it is now. Raises InputError, also when the simulation has become unstable."""
@@ -220,6 +241,15 @@ class Stream:
         others."""
         if self._torn or self._unanswered:
             raise ProgramError("a call was interrupted before its answer was read: close the stream and open another")
+
+    def _send_message(self, letters, body):
+        """Sends bytes among the commands."""
+        self._program.require_open()
+        if len(body) > LARGEST[letters]:
+            raise InputError(f"{len(body)} bytes: must be at most {LARGEST[letters]}")
+        self._torn = True
+        self._program.send(struct.pack("<4sI", letters, len(body)) + body)
+        self._torn = False
 
     def send(self, command):
         """Sends a command without waiting for its answer."""
@@ -300,6 +330,8 @@ class Stream:
                 self.last_water = Water.from_message(body)
             except ValueError:
                 raise self._program.no_simulator() from None
+        elif letters == b"STAT":
+            self._state = body
         elif letters == b"SCEN":
             self._take_scene(self._program.json(body))
         elif letters == b"STOP":
@@ -336,6 +368,31 @@ class Stream:
         return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"))
 
 
+def start_program(scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
+    """A program that streams, and whether it gives frames. Arguments are those of Stream."""
+    fields = [fields] * bool(fields) if isinstance(fields, str) else programs.listed("fields", fields)
+    arguments = programs.listed("arguments", arguments)
+    if not isinstance(scene, (str, os.PathLike)):
+        raise InputError(f"scene = {scene!r}: must be a name or a path")
+    for i, field in enumerate(fields):
+        if not isinstance(field, str) or not field:
+            raise InputError(f"fields[{i}] = {field!r}: must be a text, not empty")
+    scene = os.fsdecode(scene)
+    options = ["stream", "./" * scene.startswith("-") + scene,  # a file, not an option
+               "--paused", "--fields=" + (",".join(fields) or "none")]
+    for name, value in (("--gait", gait), ("--overrides", overrides)):
+        if value is None:
+            continue
+        if not isinstance(value, (Mapping, Gait)):
+            raise InputError(f"{name.removeprefix('--')} = {value!r}: must be a dict" + " or a Gait" * (name == "--gait"))
+        options.append(f"{name}={json.dumps(plain(name.removeprefix('--'), value))}")
+    if scheme is not None:
+        options.append(f"--scheme={scheme}")
+    if start is not None:
+        options.append(f"--start={whole('start', start, 0)}")
+    return programs.Program(program, [*options, *arguments]), bool(fields)
+
+
 def close_all(streams):
     """Closes streams at the same time."""
     busy = any(stream._torn or stream._unanswered for stream in streams)
@@ -370,6 +427,8 @@ def _is_scene(scene):
 
 
 PROTOCOL = 2
+MAX_COMMAND = 1 << 20  # bytes of a line
 WIDTHS = {"position": 3, "velocity": 3, "density": 1}
 #: bytes of a message's body
-LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}
+LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"STAT": 1 << 30,
+           b"ACTS": 1 << 30, b"OBSV": 1 << 30, b"SWIM": 4, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

@@ -33,10 +33,14 @@ class Water:
                    values[3 * size:].reshape(shape).T)
 
     def gradient(self):
-        """X × Y × Z × 3 × 3: derivative of component i along axis j, 1/s. Raises InputError for fewer than two cells along an axis."""
-        if min(self.density.shape) < 2:
-            raise InputError(f"water of {' x '.join(map(str, self.density.shape))} cells: must have 2 along each axis for derivatives")
-        return np.stack([np.stack(np.gradient(self.velocity[..., i], self.cell), -1) for i in range(3)], -2)
+        """X × Y × Z × 3 × 3: derivative of component i along axis j, 1/s; 0 along y in plane flow, one cell deep. Raises InputError
+        for fewer than two cells along another axis."""
+        shape = self.density.shape
+        if min(shape[0], shape[2]) < 2 or not shape[1]:
+            raise InputError(f"water of {' x '.join(map(str, shape))} cells: must have 2 along each axis for derivatives")
+        deep = np.repeat(self.velocity, 2, axis=1) if shape[1] == 1 else self.velocity
+        all_deep = np.stack([np.stack(np.gradient(deep[..., i], self.cell), -1) for i in range(3)], -2)
+        return all_deep[:, :shape[1]]
 
     def vorticity(self):
         """X × Y × Z × 3: curl of the velocity, 1/s."""

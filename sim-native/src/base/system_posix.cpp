@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -40,6 +41,9 @@ std::filesystem::path program_file() {
     auto size = static_cast<std::uint32_t>(name.size());
     return ::_NSGetExecutablePath(name.data(), &size) == 0 ? std::filesystem::canonical(name.data(), failed)
                                                            : std::filesystem::path();
+#elif defined(__EMSCRIPTEN__)
+    const char* const name = std::getenv("_");  // of the script; the running program is node or a browser
+    return name ? std::filesystem::weakly_canonical(name, failed) : std::filesystem::path();
 #else
     return std::filesystem::read_symlink("/proc/self/exe", failed);
 #endif

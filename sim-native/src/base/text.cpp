@@ -78,6 +78,25 @@ std::string on_one_line(const json& value, std::size_t max_length) {
     return shortened(with_characters(value.dump(-1, ' ', true, json::error_handler_t::replace)), max_length);
 }
 
+template <class Real>
+std::string shortest_text(Real value) {
+    if (std::isnan(value)) return "NaN";
+    if (std::isinf(value)) return value < 0 ? "-Infinity" : "Infinity";
+    std::array<char, 512> text;
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000  // which lacks to_chars of floating-point numbers
+    const auto reads_back = [&] { return static_cast<Real>(std::strtod(text.data(), nullptr)) == value; };
+    int digits = 0;
+    do std::snprintf(text.data(), text.size(), "%.*e", digits, static_cast<double>(value));
+    while (!reads_back() && ++digits);
+    const std::string scientific = text.data();
+    const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+    std::snprintf(text.data(), text.size(), "%.*f", std::max(0, digits - exponent), static_cast<double>(value));
+    return std::string(text.data()).size() <= scientific.size() ? text.data() : scientific;
+#else
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+#endif
+}
+
 }  // namespace
 
 std::optional<double> decimal_number(std::string_view text) {
@@ -106,10 +125,11 @@ std::string shortened(std::string text, std::size_t max_length) {
 }
 
 std::string number_text(double value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value < 0 ? "-Infinity" : "Infinity";
-    std::array<char, 32> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+    return shortest_text(value);
+}
+
+std::string number_text(float value) {
+    return shortest_text(value);
 }
 
 std::string computed_text(double value) {

@@ -14,6 +14,7 @@ std::optional<double> decimal_number(std::string_view text);
 
 /// A number as it is shown in messages: the shortest text that reads back as it.
 std::string number_text(double value);
+std::string number_text(float value);  ///< likewise
 
 /// The same of one that was computed: to 12 digits, without the rounding of its computation.
 std::string computed_text(double value);

@@ -25,7 +25,7 @@ int upright_axis(const Eigen::Vector3d& gravity) {
 }
 
 const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& periodic) {
-    const auto found = std::ranges::find(periodic, axis, &PeriodicAxis::axis);
+    const auto found = std::find_if(periodic.begin(), periodic.end(), [axis](const PeriodicAxis& one) { return one.axis == axis; });
     return found == periodic.end() ? nullptr : &*found;
 }
 

@@ -160,7 +160,7 @@ Model model_of(const Scene& scene, const Creature& creature, const std::string& 
     add_body(creature, layout, model);
     add_muscles(creature, layout, model);
     check_muscles(scene, creature, place, model);
-    refine_body(creature, model);
+    refine_body(creature, is_plane_flow(scene), model);
     return model;
 }
 
@@ -184,6 +184,7 @@ Model build_model(const Scene& scene) {
     add_obstacles(scene.obstacles, model);
     if (scene.scheme == Scheme::lattice && scene.fluid) {
         model.water_box = water_box(scene);
+        if (scene.creature && model.water_box->is_plane()) check_plane_body(scene);
         const Eigen::Vector3d offset = offset_in_cells(scene);
         for (Eigen::Vector3d& position : model.position) position += offset;
         for (Cluster& cluster : model.clusters) cluster.centre += offset;

@@ -6,12 +6,12 @@ namespace natator {
 namespace {
 
 /// From a particle to those that it is made of, length.
-std::vector<Eigen::Vector3d> places_of_parts(const Creature& creature) {
-    const int n = creature.refinement;
-    const Eigen::Vector3d middle = Eigen::Vector3d::Constant((n - 1) / 2.0);
+std::vector<Eigen::Vector3d> places_of_parts(const Creature& creature, bool plane) {
+    const int n = creature.refinement, high = plane ? 1 : n;
+    const Eigen::Vector3d middle = Eigen::Vector3d(n - 1, high - 1, n - 1) / 2;
     std::vector<Eigen::Vector3d> places;
     for (int x = 0; x < n; ++x)
-        for (int y = 0; y < n; ++y)
+        for (int y = 0; y < high; ++y)
             for (int z = 0; z < n; ++z) places.push_back(creature.spacing / n * (Eigen::Vector3d(x, y, z) - middle));
     return places;
 }
@@ -74,10 +74,10 @@ void divide_muscles(const Creature& creature, const std::vector<Eigen::Vector3d>
 
 }  // namespace
 
-void refine_body(const Creature& creature, Model& model) {
+void refine_body(const Creature& creature, bool plane, Model& model) {
     if (creature.refinement == 1) return;
-    const std::vector<Eigen::Vector3d> places = places_of_parts(creature);
-    const int parts = creature.parts();
+    const std::vector<Eigen::Vector3d> places = places_of_parts(creature, plane);
+    const auto parts = static_cast<int>(places.size());
     divide_muscles(creature, places, model);
 
     const std::vector<Eigen::Vector3d> whole = std::move(model.position);

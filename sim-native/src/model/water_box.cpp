@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "natator/error.h"
+#include "tank_ends.h"
 
 namespace natator {
 namespace {
@@ -57,7 +58,26 @@ WaterBox water_box(const Scene& scene) {
                                       ", as the fluid is");
         box.faces[periodic.axis][0] = box.faces[periodic.axis][1] = WaterFace::periodic;
     }
+    if (is_plane_flow(scene)) box.faces[1][0] = box.faces[1][1] = WaterFace::periodic;
     return box;
+}
+
+bool is_plane_flow(const Scene& scene) {
+    return scene.scheme == Scheme::lattice && scene.fluid && scene.fluid->count.y() == 1 &&
+           tank_ends(scene.planes, 1).none();
+}
+
+void check_plane_body(const Scene& scene) {
+    const Creature& creature = *scene.creature;
+    for (std::size_t i = 0; i < creature.slices.size(); ++i)
+        if (const Slice& slice = creature.slices[i]; slice.height != 1 || slice.lift != 0)
+            refuse_lattice(scene, "creature.slices[" + std::to_string(i) + "].height = " +
+                                      std::to_string(slice.height) + ": must be 1 in water that is one cell deep");
+    const double off = creature.rear_centre.y() - scene.fluid->origin.y();
+    if (std::abs(off) > 0.01 * scene.fluid->spacing)
+        refuse_lattice(scene, "creature.rearCentre[1] = " + number_text(creature.rear_centre.y()) + ": must be " +
+                                  number_text(scene.fluid->origin.y()) +
+                                  ", the middle (fluid.origin) of water that is one cell deep");
 }
 
 Eigen::Vector3d offset_in_cells(const Scene& scene) {
@@ -65,6 +85,7 @@ Eigen::Vector3d offset_in_cells(const Scene& scene) {
     if (scene.fluid->disorder == 0) return offset;
     std::mt19937_64 random(static_cast<std::uint64_t>(scene.fluid->disorder));
     for (double& part : offset) part = scene.fluid->spacing * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    if (is_plane_flow(scene)) offset.y() = 0;
     return offset;
 }
 

@@ -10,6 +10,11 @@ namespace natator {
 /// stand at its ends.
 WaterBox water_box(const Scene& scene);
 
+/// Whether that water's flow is plane (WaterBox): it is one cell deep along y, without planes there.
+bool is_plane_flow(const Scene& scene);
+/// Throws InputError unless a creature in plane flow is one particle high, in the middle of its cells.
+void check_plane_body(const Scene& scene);
+
 /// Where the body begins, from its place, length: FluidBlock::disorder says it.
 Eigen::Vector3d offset_in_cells(const Scene& scene);
 

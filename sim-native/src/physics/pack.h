@@ -10,6 +10,8 @@
 #include <emmintrin.h>
 #elif defined(NATATOR_NEON)
 #include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 namespace natator::physics::inline NATATOR_SET {

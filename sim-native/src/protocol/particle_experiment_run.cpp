@@ -1,4 +1,3 @@
-#include <charconv>
 #include <string>
 
 #include "base/text.h"
@@ -17,9 +16,7 @@ json value_of(double value) {
     return value;
 }
 json value_of(float value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-    return std::stod(std::string(text, end));
+    return std::stod(number_text(value));
 }
 
 template <class Vector>

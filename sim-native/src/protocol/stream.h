@@ -28,9 +28,8 @@ struct Steer {
 };
 struct Step {
     int frames = 1;
-    std::optional<Steer> steer;              ///< before the first frame
-    std::vector<std::vector<double>> drive;  ///< for each frame; empty: as `steer` says
-    bool sense = false;                      ///< the answer has the senses at the end
+    std::vector<Steer> steer;  ///< before the first frame, or one for each; empty: as before
+    bool sense = false;        ///< the answer has the senses at the end
 };
 struct Sense {
     std::optional<std::vector<SkinPlace>> flow;
@@ -38,7 +37,11 @@ struct Sense {
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
-struct Water {};  ///< a WATR of the present state
+struct Water {};         ///< a WATR of the present state
+struct Save {};          ///< a STAT of the present moment
+struct Restore {         ///< to the last STAT, of either direction
+    bool sense = false;  ///< the answer has the senses
+};
 struct Rate {
     double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
 };
@@ -58,6 +61,34 @@ struct NewScene {
 inline constexpr int max_credit = 1000;              ///< frames
 inline constexpr int max_step = 1000;                ///< frames
 inline constexpr std::size_t max_command = 1 << 20;  ///< bytes
+inline constexpr std::size_t max_message = 1 << 30;  ///< bytes of the body of one that comes in
+
+// Messages that come in stand among the commands. They have the form of those that go out: letters, length, body.
+inline constexpr std::size_t message_head = 8;  ///< bytes before the body
+inline constexpr std::string_view state_letters = "STAT", action_letters = "ACTS";
+
+/// What one of many swims is told to do.
+struct Action {
+    std::optional<Step> step;  ///< none: it stands still
+    std::string refusal;       ///< why it can't be done; empty: it can
+};
+
+/// Those of all swims, of an ACTS.
+struct Actions {
+    std::uint32_t id = 0;
+    std::vector<Action> of;
+};
+
+/// What has come of it.
+struct Outcome {
+    enum Status : std::uint32_t { still, stepped, unstable, refused };
+    Status status = still;
+    std::string refusal;
+    std::vector<double> senses;  ///< of the present moment; empty without a creature
+};
+
+/// The largest batch.
+inline constexpr int max_swims = 4096;
 
 /// Whether simulated seconds per second of wall time may be limited to this: 0 (no limit) or in [0.001, 1000].
 bool is_rate(double value);
@@ -85,9 +116,9 @@ struct FrameHead {
 
 }  // namespace stream
 
-using StreamCommand =
-    std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate, stream::Reset, stream::NewGait,
-                 stream::Steer, stream::Sense, stream::Water, stream::Overrides, stream::NewScene>;
+using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
+                                   stream::Reset, stream::NewGait, stream::Steer, stream::Sense, stream::Water,
+                                   stream::Save, stream::Restore, stream::Overrides, stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -100,8 +131,8 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 template <class Real>
 nlohmann::ordered_json stream_scene(const Simulation<Real>& simulation, const stream::SceneHead& head);
 
-/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of
-/// `stream_scene`.
+/// The body of a SCEN that goes on: its number, and what differs from the one before; null where
+/// there is none any more. Both are bodies of `stream_scene`.
 nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 /// The FRAM of the present state, as bytes.
@@ -112,9 +143,24 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
 template <class Real>
 std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene);
 
+/// A saved moment as a STAT, as bytes.
+std::string stream_state(std::string_view saved);
+
 /// What a swimmer senses, in SENS and in answers.
 template <class Real>
 nlohmann::ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& sensing);
+
+/// The senses as an OBSV has them; none where there is no creature.
+template <class Real>
+std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const Sensing& sensing);
+
+/// Reads an ACTS, header and all. Throws InputError where it is not one of so many swims; what is wrong with one of
+/// them is in its Action.
+stream::Actions parse_stream_actions(std::string_view message, std::size_t swims);
+
+/// The OBSV of these, and the SWIM before messages of one swim, as bytes.
+std::string stream_outcomes(std::uint32_t id, const std::vector<stream::Outcome>& outcomes);
+std::string stream_swim(std::uint32_t swim);
 
 /// The bodies of STOP: the time asked for is reached; the simulation has become unstable.
 nlohmann::ordered_json stream_stop();
@@ -124,6 +170,8 @@ extern template nlohmann::ordered_json stream_scene(const Simulation<float>&, co
 extern template nlohmann::ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
 extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, const Sensing&);
 extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const Sensing&);
+extern template std::vector<double> stream_sense_numbers(const Simulation<float>&, const Sensing&);
+extern template std::vector<double> stream_sense_numbers(const Simulation<double>&, const Sensing&);
 extern template std::string stream_water(const Simulation<float>&, std::uint32_t);
 extern template std::string stream_water(const Simulation<double>&, std::uint32_t);
 extern template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "base/field.h"
 #include "protocol/protocol.h"
 #include "protocol/stream.h"
@@ -43,32 +45,46 @@ stream::Steer read_steer(const json& value) {
     return steer;
 }
 
-/// A list of lists: what drives the actuators in each frame.
-bool is_for_each_frame(const json& value) {
-    return value.contains("drive") && value.at("drive").is_array() && !value.at("drive").empty() &&
-           value.at("drive")[0].is_array();
+bool read_sense_flag(const json& value) {
+    bool sense = false;
+    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, sense);
+    return sense;
 }
 
+bool has_rows(const json& value, const char* key) {
+    return value.contains(key) && value.at(key).is_array() && !value.at(key).empty() && value.at(key)[0].is_array();
+}
+
+/// Values that are lists of lists are for each frame, all of them or none.
 stream::Step read_step(const json& value) {
     stream::Step step;
     step.frames = read_frames(value, stream::max_step);
-    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, step.sense);
-    json other = value;
-    if (is_for_each_frame(value)) {
-        const json& rows = value.at("drive");
+    step.sense = read_sense_flag(value);
+    std::vector<const char*> given;
+    for (const char* key : {"drive", "scale", "offset"})
+        if (value.contains(key)) given.push_back(key);
+    const bool each = std::ranges::any_of(given, [&](const char* key) { return has_rows(value, key); });
+    if (!each && !given.empty()) step.steer.push_back(read_steer(value));
+    if (!each) return step;
+    if (given.size() > 1 && value.contains("drive"))
+        fields::refuse(place.key("drive"), "must not be given together with scale or offset");
+    if (!value.contains("frames")) step.frames = static_cast<int>(value.at(given[0]).size());
+    step.steer.resize(std::min(step.frames, stream::max_step));
+    for (const char* key : given) {
+        if (!has_rows(value, key))
+            fields::refuse(place.key(key), value.at(key), "a list for each frame, as the other is");
+        const json& rows = value.at(key);
         const std::string has = "has " + std::to_string(rows.size()) + " lists: must have ";
         if (rows.size() > stream::max_step)
-            fields::refuse(place.key("drive"), has + std::to_string(stream::max_step) + " at most");
-        if (!value.contains("frames")) step.frames = static_cast<int>(rows.size());
+            fields::refuse(place.key(key), has + std::to_string(stream::max_step) + " at most");
         if (rows.size() != static_cast<std::size_t>(step.frames))
-            fields::refuse(place.key("drive"), has + "one for each of the " + std::to_string(step.frames) + " frames");
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            step.drive.push_back(read_actuator_values(rows[k], place.key("drive").item(k)));
-        other.erase("drive");
+            fields::refuse(place.key(key), has + "one for each of the " + std::to_string(step.frames) + " frames");
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            stream::Steer& steer = step.steer[k];
+            auto& list = key[0] == 'd' ? steer.drive : key[0] == 's' ? steer.scale : steer.offset;
+            list = read_actuator_values(rows[k], place.key(key).item(k));
+        }
     }
-    if (other.contains("drive") || other.contains("scale") || other.contains("offset")) step.steer = read_steer(other);
-    if (step.steer && !step.drive.empty())
-        fields::refuse(place.key("drive"), "must not be given together with scale or offset");
     return step;
 }
 
@@ -146,14 +162,18 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "steer") return only({"scale", "offset"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
     if (name == "water") return only({}), stream::Water{};
+    if (name == "save") return only({}), stream::Save{};
+    if (name == "restore") return only({"sense"}), stream::Restore{read_sense_flag(value)};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name,
-                   "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, overrides or scene");
+    fields::refuse(
+        place.key("do"), name,
+        "credit, run, pause, step, rate, reset, gait, drive, steer, sense, water, save, restore, overrides or "
+        "scene");
 }
 
 }  // namespace natator

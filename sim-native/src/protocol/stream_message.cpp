@@ -1,8 +1,7 @@
 #include <bit>
-#include <cstring>
-#include <stdexcept>
 
 #include "base/strict_json.h"
+#include "message_writer.h"
 #include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
@@ -23,42 +22,6 @@ using nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "messages are written as numbers are in memory");
 
 constexpr std::uint32_t flag_running = 1, flag_touches_plane = 2;
-
-/// A message that grows: letters, a length that is set at the end, a body.
-class MessageWriter {
-public:
-    explicit MessageWriter(std::string_view letters) : bytes_(letters) { add<std::uint32_t>(0); }
-
-    template <class T>
-    void add(T value) {
-        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    void add_text(const std::string& text) { bytes_ += text; }
-    template <class Vectors>
-    void add_vectors(const Vectors& vectors) {
-        for (const auto& vector : vectors)
-            for (const auto component : vector) add(static_cast<float>(component));
-    }
-    template <class Numbers>
-    void add_numbers(const Numbers& numbers) {
-        for (const auto number : numbers) add(static_cast<float>(number));
-    }
-    void reserve(std::size_t size) { bytes_.reserve(size); }
-
-    /// The bytes, filled up with spaces to a multiple of 4.
-    std::string finish() {
-        while (bytes_.size() % 4 != 0) bytes_ += ' ';
-        const std::size_t length = bytes_.size() - head;
-        if (length > UINT32_MAX) throw std::runtime_error("a message of the stream is larger than 4 GiB");
-        const auto stored = static_cast<std::uint32_t>(length);
-        std::memcpy(bytes_.data() + 4, &stored, sizeof stored);
-        return std::move(bytes_);
-    }
-
-private:
-    static constexpr std::size_t head = 8;
-    std::string bytes_;
-};
 
 ordered_json planes_json(const Model& model) {
     ordered_json planes = ordered_json::array();
@@ -237,7 +200,10 @@ ordered_json stream_scene(const Simulation<Real>& simulation, const stream::Scen
 ordered_json stream_scene_change(const ordered_json& before, const ordered_json& now) {
     ordered_json body;
     for (const auto& [key, value] : now.items())
-        if (key == "number" || key == "restarted" || before.at(key) != value) body[key] = value;
+        if (key == "number" || key == "restarted" || !before.contains(key) || before.at(key) != value)
+            body[key] = value;
+    for (const auto& [key, value] : before.items())
+        if (!now.contains(key)) body[key] = nullptr;
     return body;
 }
 
@@ -285,6 +251,13 @@ std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene
     for (const double component : field.corner) message.add(component);
     message.add_vectors(field.velocity);
     message.add_numbers(field.density);
+    return message.finish();
+}
+
+std::string stream_state(std::string_view saved) {
+    MessageWriter message("STAT");
+    message.reserve(saved.size() + 16);
+    message.add_text(saved);
     return message.finish();
 }
 

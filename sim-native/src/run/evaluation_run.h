@@ -84,7 +84,7 @@ void run_frames(const Scene& scene, Stepper& stepper, std::vector<EvaluationRun>
     note(stepper.start(), over, &EvaluationRun::start);
     for (int frame = 0; frame < frames_of(scene); ++frame) {
         for (std::size_t k = 0; k < runs.size(); ++k) over[k] = runs[k].is_over();
-        if (std::ranges::find(over, false) == over.end()) return;
+        if (std::find(over.begin(), over.end(), false) == over.end()) return;
         note(stepper.frame(frame, over), over, &EvaluationRun::add);
     }
 }

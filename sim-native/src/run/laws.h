@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/byte_reader.h"
+#include "base/byte_writer.h"
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
@@ -51,8 +53,15 @@ public:
     std::optional<Instability> look_at_compression(double mean_excess, double time);
     /// The run goes on from what it has come to in another model: that is allowed, and energy counts from here.
     void go_on(const physics::LawMeasures& measures);
-    /// The tank has moved: energy counts anew, from the end of the next frame.
+    /// The tank has moved: energy counts anew, from the end of the next frame; not that of a weightless body on a
+    /// lattice, which no water takes along.
     void restart();
+
+    /// What it has come to, besides what its model says.
+    void save(ByteWriter& to) const;
+    /// Takes what `save` of a watch of the same model wrote. Throws InputError where there is none, and then nothing
+    /// has changed.
+    void restore(ByteReader& from);
 
     /// The limits that hold now, without what they grow by with time.
     const physics::LawLimits& limits() const;

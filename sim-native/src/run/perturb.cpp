@@ -19,10 +19,11 @@ Perturbation choose_start(int start, Scene& scene) {
 void perturb(const Perturbation& perturbation, Model& model) {
     if (perturbation.amplitude == 0) return;
     std::mt19937_64 random(perturbation.seed);
+    const bool plane = model.water_box && model.water_box->is_plane();
     for (Eigen::Vector3d& position : model.position) {
-        for (double& coordinate : position) {
+        for (int axis = 0; axis < 3; ++axis) {
             const double u = static_cast<double>(random() >> 11) * 0x1p-53;
-            coordinate += perturbation.amplitude * (2 * u - 1);
+            if (!(plane && axis == 1)) position[axis] += perturbation.amplitude * (2 * u - 1);
         }
     }
 }

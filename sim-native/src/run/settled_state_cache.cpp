@@ -9,9 +9,9 @@
 #include <system_error>
 #include <vector>
 
+#include "base/byte_writer.h"
 #include "base/fnv1a.h"
 #include "base/whole_file.h"
-#include "byte_writer.h"
 #include "natator/limits.h"
 #include "settled_state_key.h"
 

@@ -1,7 +1,7 @@
 #include "settled_state_key.h"
 
+#include "base/byte_writer.h"
 #include "base/system.h"
-#include "byte_writer.h"
 #include "natator/instruction_set.h"
 
 namespace natator {
@@ -39,16 +39,8 @@ void add_water_box(ByteWriter& key, const WaterBox& box) {
     for (const auto& ends : faces) add(key, ends[0], ends[1]);
 }
 
-}  // namespace
-
-std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
-    static const std::string id = system::build_id();
-    if (id.empty()) return {};
-    ByteWriter key;
-    add(key, id, instruction_set(), real_bytes);
-    const auto& [updates, step, settling_substeps] = settling;
-    add(key, updates, step, settling_substeps);
-
+/// What settling depends on.
+void add_start(ByteWriter& key, const Model& model) {
     // Muscles rest while a model settles, and its own time step is that of later.
     const auto& [scheme, parameters, time_step, position, velocity, inverse_mass, phase, rest_position, planes,
                  water_box, periodic, springs, clusters, muscles, actuators, body, companions] = model;
@@ -60,6 +52,37 @@ std::string settled_state_key(const Model& model, const Settling& settling, int 
     for (const auto& [a, b, rest_length, stiffness] : springs) add(key, a, b, rest_length, stiffness);
     for (const auto& [particles, rest_offset, stiffness, rotation, centre] : clusters)
         add(key, particles, rest_offset, stiffness, rotation, centre);
+}
+
+void add_body(ByteWriter& key, const Body& whole) {
+    const auto& [particles, slices, length, spacing] = whole;
+    add(key, particles, slices, length, spacing);
+}
+
+}  // namespace
+
+std::string model_key(const Model& model) {
+    ByteWriter key;
+    add_start(key, model);
+    add(key, model.time_step, model.actuators);
+    for (const auto& [spring, actuator, lateral] : model.muscles) add(key, spring, actuator, lateral);
+    add_body(key, model.body);
+    for (const auto& [body, gait, first_actuator] : model.companions) {
+        const auto& [frequency, amplitude, phase, power, offset] = gait;
+        add_body(key, body);
+        add(key, frequency, amplitude, phase, power, offset, first_actuator);
+    }
+    return key.bytes();
+}
+
+std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
+    static const std::string id = system::build_id();
+    if (id.empty()) return {};
+    ByteWriter key;
+    add(key, id, instruction_set(), real_bytes);
+    const auto& [updates, step, settling_substeps] = settling;
+    add(key, updates, step, settling_substeps);
+    add_start(key, model);
     return key.bytes();
 }
 

@@ -2,21 +2,17 @@
 
 #include "base/strict_json.h"
 #include "conservation_errors.h"
-#include "laws.h"
 #include "move_tank.h"
-#include "moving_tank.h"
-#include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/limits.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/model.h"
-#include "perturb.h"
 #include "physics/laws.h"
 #include "same_layout.h"
 #include "scene/merge_patches.h"
-#include "settled_start.h"
+#include "simulation_run.h"
 
 namespace natator {
 namespace {
@@ -34,53 +30,7 @@ std::vector<Real> densities_at_rest(Model model, State<Real> state) {
     return solver.densities();
 }
 
-/// The scene's model, if a stream of it does not cost too much.
-Model affordable(const Scene& scene, std::optional<double> until, const Computing& computing) {
-    Model model = build_model(scene);
-    check_live_cost(scene, model, until, computing);
-    return model;
-}
-
 }  // namespace
-
-/// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
-template <class Real>
-struct Simulation<Real>::Run {
-    Run(Scene of, const Perturbation& by, const SimulationSetup& setup, const Execution& execution)
-        : scene(std::move(of)),
-          perturbation(by),
-          model(affordable(scene, setup.until,
-                           {.doubles = sizeof(Real) > sizeof(float), .several_threads = execution.threads > 1})),
-          solver(model, execution),
-          laws(model) {
-        if (scene.moving_tank) follower.emplace(scene, model);
-    }
-
-    /// The start at rest; settled once. Sets `instability` if settling was unstable.
-    State<Real> begin(const SettledStateCache* starts, std::optional<Instability>& instability) {
-        if (settled) return *settled;
-        State<Real> state = perturbation.amplitude == 0
-                                ? settled_start(model, scene.settling, solver, starts, instability)
-                                : shifted_start(instability);
-        if (!instability) settled = state;
-        return state;
-    }
-
-    /// As in `evaluate` never from the cache: there are as many as seeds.
-    State<Real> shifted_start(std::optional<Instability>& instability) {
-        Model shifted = model;
-        perturb(perturbation, shifted);
-        return settled_start<Real>(shifted, scene.settling, solver, nullptr, instability);
-    }
-
-    Scene scene;
-    Perturbation perturbation;
-    Model model;
-    Solver<Real> solver;
-    LawWatch laws;
-    std::optional<MovingFrame> follower;
-    std::optional<State<Real>> settled;
-};
 
 template <class Real>
 Simulation<Real>::Simulation(const Scene& scene, const Execution& execution)
@@ -218,6 +168,7 @@ bool Simulation<Real>::step() {
     instability_ = leaves_gait(steering_) && leaves_gait(applied_) ? run_->solver.frame(state_, gait())
                                                                    : run_->solver.frame(state_, next_drive());
     updated_ = true;
+    restored_densities_.reset();
     if (!instability_)
         instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
     if (!instability_ && (frames_ + 1) % frames_between_densities == 0)
@@ -261,7 +212,8 @@ WaterField Simulation<Real>::water() const {
 
 template <class Real>
 std::vector<Real> Simulation<Real>::densities() {
-    return updated_ ? run_->solver.densities() : densities_at_rest(model(), state_);
+    if (!updated_) return densities_at_rest(model(), state_);
+    return restored_densities_ ? *restored_densities_ : run_->solver.densities();
 }
 
 template <class Real>

@@ -29,7 +29,7 @@ std::string mesh_bytes(const std::string& file, const std::filesystem::path& dat
     if (failed || size > limits::mesh_bytes)
         throw InputError("has " + std::to_string(size) + " bytes; must be at most " +
                          std::to_string(limits::mesh_bytes));
-    std::string bytes(size, '\0');
+    std::string bytes(static_cast<std::size_t>(size), '\0');
     std::ifstream in(path, std::ios::binary);
     if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) throw InputError("cannot be read");
     return bytes;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/byte_reader.h"
+#include "base/byte_writer.h"
 #include "cuda/device.h"
 #include "cuda/grid/grid_runner.h"
 #include "cuda/kernel_choice.h"
@@ -91,6 +93,18 @@ public:
 
     double muscle_work() const { return muscle_work_; }
     void clear_muscle_work() { muscle_work_ = 0; }
+    std::string save() const {
+        ByteWriter saved;
+        saved.add(muscle_work_);
+        return saved.bytes();
+    }
+    void restore(std::string_view saved) {
+        ByteReader from(saved);
+        double work = 0;
+        from.read(work);
+        from.require_end();
+        muscle_work_ = work;
+    }
 
     std::vector<int> neighbour_counts() const {
         std::vector<int> counts(model_.particles(), 0);
@@ -268,6 +282,14 @@ double GpuSolver<Real>::muscle_work() const {
 template <class Real>
 void GpuSolver<Real>::clear_muscle_work() {
     implementation_->clear_muscle_work();
+}
+template <class Real>
+std::string GpuSolver<Real>::save() const {
+    return implementation_->save();
+}
+template <class Real>
+void GpuSolver<Real>::restore(std::string_view saved) {
+    implementation_->restore(saved);
 }
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {

@@ -57,6 +57,9 @@ public:
     /// (Solver::muscle_work); 0 in scheme flex.
     double muscle_work() const;
     void clear_muscle_work();
+    /// As Solver's.
+    std::string save() const;
+    void restore(std::string_view saved);
 
     /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.

@@ -41,7 +41,7 @@ const char* name(Law law) {
 }
 
 Law law_named(const std::string& text) {
-    const auto found = std::ranges::find(law_names, text);
+    const auto found = std::find(std::begin(law_names), std::end(law_names), text);
     return found == std::end(law_names) ? Law::none : static_cast<Law>(found - std::begin(law_names));
 }
 

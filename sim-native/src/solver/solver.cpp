@@ -5,6 +5,8 @@
 #include <string>
 #include <variant>
 
+#include "base/byte_reader.h"
+#include "base/byte_writer.h"
 #include "base/check_values.h"
 #include "flex/cpu/flex_stages.h"
 #include "gpu_solver.h"
@@ -151,6 +153,23 @@ public:
     double muscle_work() const { return muscle_work_; }
     void clear_muscle_work() { muscle_work_ = 0; }
 
+    std::string save() const {
+        ByteWriter saved;
+        saved.add(muscle_work_);
+        if (coupling_) coupling_->save(saved);
+        return saved.bytes();
+    }
+    void restore(std::string_view saved) {
+        ByteReader from(saved);
+        double work = 0;
+        from.read(work);
+        if (coupling_)
+            coupling_->restore(from);
+        else
+            from.require_end();
+        muscle_work_ = work;
+    }
+
     std::vector<Real> densities() {
         return std::visit([](auto& stages) { return stages->densities(); }, stages_);
     }
@@ -288,6 +307,16 @@ double Solver<Real>::muscle_work() const {
 template <class Real>
 void Solver<Real>::clear_muscle_work() {
     gpu_ ? gpu_->clear_muscle_work() : implementation_->clear_muscle_work();
+}
+
+template <class Real>
+std::string Solver<Real>::save() const {
+    return gpu_ ? gpu_->save() : implementation_->save();
+}
+
+template <class Real>
+void Solver<Real>::restore(std::string_view saved) {
+    gpu_ ? gpu_->restore(saved) : implementation_->restore(saved);
 }
 
 template <class Real>

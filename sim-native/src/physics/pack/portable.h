@@ -1,4 +1,4 @@
-// Of pack.h: 4 floats by what every compiler makes of vectors, and SSE2 or NEON where that is better.
+// Of pack.h: 4 floats by what every compiler makes of vectors, and SSE2, NEON or WebAssembly where that is better.
 #pragma once
 
 #include "physics/pack/lane_lists.h"
@@ -13,17 +13,27 @@ inline Doubles fused(Doubles a, Doubles b, Doubles c) {
     return a * b + c;
 }
 inline Floats square_root(Floats v) {
+#if defined(__wasm_simd128__)
+    return static_cast<Floats>(wasm_f32x4_sqrt(static_cast<v128_t>(v)));  // clang 14 takes roots one by one
+#else
     for (int lane = 0; lane < width; ++lane) v[lane] = __builtin_sqrtf(v[lane]);
     return v;
+#endif
 }
 inline Doubles square_root(Doubles v) {
+#if defined(__wasm_simd128__)
+    return static_cast<Doubles>(wasm_f64x2_sqrt(static_cast<v128_t>(v)));
+#else
     for (int lane = 0; lane < double_width; ++lane) v[lane] = __builtin_sqrt(v[lane]);
     return v;
+#endif
 }
 #endif
 inline Floats positive_part(Floats v) {
 #if defined(__SSE2__)
     return _mm_max_ps(v, Floats{});  // g++ makes two instructions of the other form
+#elif defined(__wasm_simd128__)
+    return static_cast<Floats>(wasm_f32x4_pmax(v128_t{}, static_cast<v128_t>(v)));
 #else
     return v > 0 ? v : Floats{};
 #endif
@@ -85,6 +95,8 @@ inline unsigned positive_and_below(Floats v, Floats limit) {
     const Ints chosen = (v < limit) & (v > 0);
 #if defined(__SSE2__)
     return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(chosen)));
+#elif defined(__wasm_simd128__)
+    return static_cast<unsigned>(wasm_i32x4_bitmask(static_cast<v128_t>(chosen)));
 #else
     unsigned bits = 0;
     for (int lane = 0; lane < width; ++lane) bits |= static_cast<unsigned>(chosen[lane]) & 1u << lane;

@@ -1,6 +1,7 @@
 #include "level.h"
 
 #include "base/text.h"
+#include "model/water_box.h"
 #include "natator/error.h"
 
 namespace natator {
@@ -9,10 +10,13 @@ namespace {
 using nlohmann::json;
 
 /// The first cell's share of the block stays where it was: a lattice point is in the middle of its cell.
-json refined_fluid(const FluidBlock& fluid, int n) {
-    const Eigen::Vector3d origin = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2 * (1 - 1.0 / n));
-    const double parts = n * n * n;
-    return {{"count", {n * fluid.count.x(), n * fluid.count.y(), n * fluid.count.z()}},
+/// Water that is one cell deep remains so, with the mass that it had.
+json refined_fluid(const FluidBlock& fluid, bool plane, int n) {
+    const Eigen::Vector3i by(n, plane ? 1 : n, n);
+    Eigen::Vector3d origin = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2 * (1 - 1.0 / n));
+    if (plane) origin.y() = fluid.origin.y();
+    const double parts = by.prod();
+    return {{"count", {by.x() * fluid.count.x(), by.y() * fluid.count.y(), by.z() * fluid.count.z()}},
             {"spacing", fluid.spacing / n},
             {"origin", {origin.x(), origin.y(), origin.z()}},
             {"clearance", fluid.clearance / n},
@@ -45,7 +49,7 @@ json refined(const Scene& scene, const Level& level, int substeps) {
                              ": half the spacing is not known of companions and obstacles; "
                              "the levels of this scene are time/2 and time/4");
         overrides["solver"] = refined_distances(scene.solver, level.space);
-        if (scene.fluid) overrides["fluid"] = refined_fluid(*scene.fluid, level.space);
+        if (scene.fluid) overrides["fluid"] = refined_fluid(*scene.fluid, is_plane_flow(scene), level.space);
         if (scene.creature) overrides["creature"]["refinement"] = level.space * scene.creature->refinement;
     }
     const bool waves = scene.scheme == Scheme::lattice;  // go so many cells a substep, whatever their size

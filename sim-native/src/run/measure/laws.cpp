@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -69,7 +70,7 @@ Eigen::Vector3d bounded_gravity(const Model& model) {
     Eigen::Vector3d gravity = model.parameters.gravity;
     for (const PeriodicAxis& axis : model.periodic) gravity[axis.axis] = 0;
     if (model.water_box && !model.body.particles.empty())  // less what the water carries
-        gravity *= 1 - model.water_box->density * std::pow(model.body.spacing, 3) *
+        gravity *= 1 - model.water_box->displaced_mass(model.body.spacing) *
                            model.inverse_mass[model.body.particles.front()];
     return gravity;
 }
@@ -129,6 +130,7 @@ struct LawWatch::Parts {
         // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its
         // motion.
         if (model.scheme == Scheme::flex && own.crowding == 0) fallen += swum;
+        body_alone = model.water_box && own.fall == 0;
         if (model.scheme == Scheme::flex) gain = std::numeric_limits<double>::infinity();
         first = begin.energy;
         limits.depth = depth_margin * model.parameters.radius;
@@ -184,10 +186,12 @@ struct LawWatch::Parts {
         return own;
     }
 
-    /// No part of a body of length L that beats f times a second goes faster than 2 pi f L.
+    /// No part of a body of length L that beats f times a second goes faster than 2 pi f L, nor a slender one slower for
+    /// a small amplitude: its curvature is that over its width.
     static double speed_of(const Gait& gait, double length) {
         double largest = 0;
         for (const double amplitude : gait.amplitude) largest = std::max(largest, std::abs(amplitude));
+        if (largest > 0) largest = std::max(largest, 1.0);
         return 2 * std::numbers::pi * gait.frequency * std::max(1.0, gait.power) * largest * length;
     }
 
@@ -224,6 +228,7 @@ struct LawWatch::Parts {
     double gain = 0;                                        ///< what it may rise by
     double work = 0;                                        ///< of the muscles, by then
     bool begun = true;
+    bool body_alone = false;  ///< and without weight: its energy is the same wherever the tank is
     LawLimits limits{};
     LawMargins margins;
 };
@@ -279,7 +284,25 @@ std::optional<Instability> broken_by_compression(double mean_excess, double time
 }
 
 void LawWatch::restart() {
-    parts_->begun = false;
+    if (!parts_->body_alone) parts_->begun = false;
+}
+
+void LawWatch::save(ByteWriter& to) const {
+    const Parts& p = *parts_;
+    for (const double value : {p.muscle_speed, p.highest, p.first, p.work}) to.add(value);
+    to.add(p.begun);
+    const auto& [particle_energy, energy, depth, reach, compression] = p.margins;
+    for (const double value : {particle_energy, energy, depth, reach, compression}) to.add(value);
+}
+
+void LawWatch::restore(ByteReader& from) {
+    Parts next = *parts_;
+    for (double* value : {&next.muscle_speed, &next.highest, &next.first, &next.work}) from.read(*value);
+    from.read(next.begun);
+    auto& [particle_energy, energy, depth, reach, compression] = next.margins;
+    for (double* value : {&particle_energy, &energy, &depth, &reach, &compression})
+        std::memcpy(value, from.take(sizeof *value).data(), sizeof *value);  // may be infinite
+    *parts_ = next;
 }
 
 const LawLimits& LawWatch::limits() const {

@@ -36,8 +36,9 @@ double range_between(const std::vector<double>& path, double begin, double end) 
 
 double water_across(const Model& model) {
     const bool water = model.water_box ||
-                       std::ranges::any_of(model.phase, [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
+                       std::any_of(model.phase.begin(), model.phase.end(), [](std::uint32_t bits) { return (bits & phase::fluid) != 0; });
     if (!water) return 0;
+    const bool plane = model.water_box && model.water_box->is_plane();
     double across = 0;
     for (const std::vector<int>& slice : model.body.slices) {
         Eigen::Array3d low = model.position[slice.front()], high = low;
@@ -46,7 +47,7 @@ double water_across(const Model& model) {
             high = high.max(model.position[particle].array());
         }
         const Eigen::Array3d size = high - low + model.body.spacing;
-        across = std::max(across, std::min(size.y(), size.z()));
+        across = std::max(across, plane ? size.z() : std::min(size.y(), size.z()));
     }
     return across / (model.water_box ? model.water_box->cell : model.parameters.fluid_rest_distance);
 }

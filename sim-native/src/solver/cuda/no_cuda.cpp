@@ -50,6 +50,14 @@ void GpuSolver<Real>::clear_muscle_work() {
     refuse_without_cuda();
 }
 template <class Real>
+std::string GpuSolver<Real>::save() const {
+    refuse_without_cuda();
+}
+template <class Real>
+void GpuSolver<Real>::restore(std::string_view) {
+    refuse_without_cuda();
+}
+template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
     refuse_without_cuda();
 }

@@ -11,11 +11,16 @@ Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu
       threads_(threads),
       gpu_(gpu),
       immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing, 1.75, surface_offset),
-      displaced_(model.water_box->density * std::pow(model.body.spacing, 3)) {}
+      displaced_(model.water_box->displaced_mass(model.body.spacing)) {}
+
+template <class Real>
+std::unique_ptr<Water> Coupling<Real>::make_water() const {
+    return gpu_ ? Water::on_gpu(*model_.water_box, *gpu_) : Water::on_cpu(*model_.water_box, threads_);
+}
 
 template <class Real>
 void Coupling<Real>::begin(const State<Real>& state) {
-    water_ = gpu_ ? Water::on_gpu(*model_.water_box, *gpu_) : Water::on_cpu(*model_.water_box, threads_);
+    water_ = make_water();
     impulses_.assign(state.position.size(), Eigen::Vector3d::Zero());
     fastest_ = 0;
 }
@@ -23,8 +28,10 @@ void Coupling<Real>::begin(const State<Real>& state) {
 template <class Real>
 void Coupling<Real>::push(State<Real>& state, double h) {
     if (!water_ || std::abs(state.time - time_) > h / 2) begin(state);
+    const bool plane = model_.water_box->is_plane();
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
-        const Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        if (plane) given.y() = 0;  // not even rounding
         state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
     }
 }
@@ -57,6 +64,43 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
     }
     time_ = time;
     step_ = h;
+}
+
+template <class Real>
+void Coupling<Real>::save(ByteWriter& to) const {
+    to.add(water_ != nullptr);
+    if (!water_) return;
+    to.add(impulses_);
+    for (const double value : {time_, step_, fastest_}) to.add(value);
+    to.add(fastest_particle_);
+    water_->save(to);
+}
+
+template <class Real>
+void Coupling<Real>::restore(ByteReader from) {
+    bool has_water = false;
+    from.read(has_water);
+    if (!has_water) {
+        from.require_end();
+        water_.reset();
+        return;
+    }
+    std::vector<Eigen::Vector3d> impulses;
+    double time = 0, step = 0, fastest = 0;
+    int particle = 0;
+    from.read(impulses);
+    for (double* value : {&time, &step, &fastest}) from.read(*value);
+    from.read(particle);
+    if (impulses.size() != model_.position.size() || particle < 0 || particle >= model_.particles())
+        throw InputError("state: its water is not of these bodies");
+    std::unique_ptr<Water> made = water_ ? nullptr : make_water();
+    (made ? made : water_)->restore(from);
+    if (made) water_ = std::move(made);
+    impulses_ = std::move(impulses);
+    time_ = time;
+    step_ = step;
+    fastest_ = fastest;
+    fastest_particle_ = particle;
 }
 
 template <class Real>

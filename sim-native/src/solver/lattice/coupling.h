@@ -26,6 +26,10 @@ public:
     void follow(const State<Real>& state, double h, double time);
     /// Moves all water by -by, length: a whole number of cells. The caller moves the State's particles.
     void shift(const Eigen::Vector3d& by);
+    /// All that goes from one substep to the next, the water with it.
+    void save(ByteWriter& to) const;
+    /// Takes what `save` wrote. Throws InputError when it is not of this, and then nothing has changed.
+    void restore(ByteReader from);
     /// All cells of the water; at rest before the first step.
     WaterField field() const;
     /// The greatest speed of a particle in a substep so far, cells.
@@ -34,6 +38,7 @@ public:
 
 private:
     void begin(const State<Real>& state);
+    std::unique_ptr<Water> make_water() const;
 
     const Model& model_;
     int threads_;

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "cube_cells.h"
@@ -27,6 +28,8 @@ public:
     Cell cell(const Eigen::Vector3i& at) const override;
     std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
+    void save(ByteWriter& to) const override;
+    void restore(ByteReader from) override;
 
 private:
     using Array = cpu::AlignedVector<float>;
@@ -39,6 +42,12 @@ private:
         int x, y, z;
     };
 
+    template <class Row>
+    void for_each_row(const Row& row) const {
+        for (int e = 0; e < moments; ++e)
+            for (int z = 0; z < cells_[2]; ++z)
+                for (int y = 0; y < cells_[1]; ++y) row(e, place(0, y, z));
+    }
     long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
     View view();
     void hold(const std::vector<Cube>& cubes);
@@ -325,6 +334,50 @@ void CpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {
     float values[moments];
     equilibrium(cell, values);
     for (int e = 0; e < moments; ++e) now_[e][i] = values[e];
+}
+
+void CpuWater::save(ByteWriter& to) const {
+    to.add(moments);
+    to.add(begun_);
+    to.add(owned_.size());
+    for (const Owned& one : owned_) to.add(Eigen::Vector4i(one.x, one.y, one.z, owner_[one.cell]));
+    const auto width = static_cast<std::size_t>(cells_[0]);
+    for_each_row([&](int e, long at) { to.add_all(std::span<const float>(&now_[e][at], width)); });
+}
+
+void CpuWater::restore(ByteReader from) {
+    int kind = 0;
+    bool begun = false;
+    std::size_t count = 0;
+    from.read(kind);
+    if (kind != moments) refuse_saved();
+    from.read(begun);
+    from.read(count);
+    const Eigen::Map<const Eigen::Array3i> size(cells_);
+    std::vector<Owned> owned;
+    std::vector<int> owners;
+    for (std::size_t k = 0; k < count; ++k) {
+        Eigen::Vector4i one;
+        from.read(one);
+        if ((one.head<3>().array() < 0).any() || (one.head<3>().array() >= size).any() || one[3] < 0) refuse_saved();
+        owned.push_back({place(one[0], one[1], one[2]), one[0], one[1], one[2]});
+        owners.push_back(one[3]);
+    }
+    const std::size_t row = sizeof(float) * static_cast<std::size_t>(cells_[0]);
+    if (from.left().size() != row * moments * cells_[1] * cells_[2]) refuse_saved();
+    const std::string_view values = from.left();
+    bool finite = true;
+    for (std::size_t at = 0; at < values.size(); at += sizeof(float)) {
+        float value = 0;
+        std::memcpy(&value, values.data() + at, sizeof value);
+        finite &= std::isfinite(value);
+    }
+    if (!finite) refuse_saved();
+    begun_ = begun;
+    for (const Owned& one : owned_) owner_[one.cell] = -1;
+    owned_ = std::move(owned);
+    for (std::size_t k = 0; k < owned_.size(); ++k) owner_[owned_[k].cell] = owners[k];
+    for_each_row([&](int e, long at) { std::memcpy(&now_[e][at], from.take(row).data(), row); });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -345,6 +346,8 @@ public:
     Cell cell(const Eigen::Vector3i& at) const override;
     std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
+    void save(ByteWriter& to) const override;
+    void restore(ByteReader from) override;
 
 private:
     /// Chooses a device before anything is made there.
@@ -511,6 +514,45 @@ void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
                                   lattice_populations, cudaMemcpyHostToDevice, stream_.get()),
                 "upload");
     wait();
+}
+
+void GpuWater::save(ByteWriter& to) const {
+    choose();
+    wait();
+    to.add(lattice_populations);
+    to.add(begun_);
+    for (int a = 0; a < 3; ++a) to.add(around_.low[a]), to.add(around_.count[a]);
+    to.add_all(std::span<const float>(populations_[now_].download()));
+    to.add_all(std::span<const Owners>(owners_[0].download()));
+}
+
+void GpuWater::restore(ByteReader from) {
+    int kind = 0;
+    bool begun = false;
+    CellRange around{};
+    from.read(kind);
+    if (kind != lattice_populations) refuse_saved();
+    from.read(begun);
+    for (int a = 0; a < 3; ++a) {
+        from.read(around.low[a]);
+        from.read(around.count[a]);
+        const int low = around.low[a], cells = lattice_.cells[a];
+        if (low < 0 || low > cells || around.count[a] < 0 || around.count[a] > cells - low) refuse_saved();
+    }
+    std::vector<float> populations(static_cast<std::size_t>(lattice_populations) * lattice_.count);
+    std::vector<Owners> owners(lattice_.count);
+    const std::size_t of_populations = populations.size() * sizeof(float), of_owners = owners.size() * sizeof(Owners);
+    if (from.left().size() != of_populations + of_owners) refuse_saved();
+    std::memcpy(populations.data(), from.take(of_populations).data(), of_populations);
+    std::memcpy(owners.data(), from.take(of_owners).data(), of_owners);
+    if (!std::ranges::all_of(populations, [](float value) { return std::isfinite(value); })) refuse_saved();
+    choose();
+    wait();
+    populations_[now_].upload(populations);
+    owners_[0].upload(owners);
+    cuda::wait_for_uploads();
+    begun_ = begun;
+    around_ = around;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<i
     : spacing_(spacing), extension_(extension), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-    std::ranges::sort(order, {}, [&](int i) { return std::pair(rest[i].x(), i); });
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(rest[a].x(), a) < std::pair(rest[b].x(), b); });
     const double reach = reach_in_spacings * spacing, half = spacing / 2;
     for (std::size_t a = 0; a < order.size(); ++a)
         for (std::size_t b = a + 1; b < order.size() && rest[order[b]].x() - rest[order[a]].x() < reach; ++b) {
@@ -53,7 +53,7 @@ Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<i
             near_[j].push_back({i, (rest[i] - rest[j]) / half});
         }
     for (auto& neighbours : near_) {
-        std::ranges::sort(neighbours, {}, &Neighbour::particle);
+        std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) { return a.particle < b.particle; });
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), inverse = sum;
         for (const Neighbour& one : neighbours) sum += one.weight * one.weight.transpose();
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sum);

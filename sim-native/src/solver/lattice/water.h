@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "base/byte_reader.h"
+#include "base/byte_writer.h"
 #include "box.h"
 #include "immersed.h"
 
@@ -51,8 +53,17 @@ public:
     virtual std::vector<Eigen::Vector4f> cells() const = 0;
     virtual void set_cell(const Eigen::Vector3i& at, const Cell& cell) = 0;
 
+    /// All that goes from one step to the next.
+    virtual void save(ByteWriter& to) const = 0;
+    /// Takes what `save` wrote, the last that there is to read. Throws InputError when it is not of such water in such
+    /// a box, and then nothing has changed.
+    virtual void restore(ByteReader from) = 0;
+
 protected:
     explicit Water(const Box& box) : box_(box) {}
+    [[noreturn]] static void refuse_saved() {
+        throw InputError("state: its water is not of this lattice on this kind of processor");
+    }
     Box box_;
 };
 

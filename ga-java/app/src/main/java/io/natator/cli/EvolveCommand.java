@@ -107,8 +107,9 @@ final class EvolveCommand implements Callable<Integer> {
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.problem().scene());
         RunWriter folder = RunWriter.create(directory, settings);
         try (folder) {
-            preview.printAnyway(directory, spec.commandLine().getOut());
-            new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+            RunLauncher launcher = RunLauncher.of(spec.commandLine(), settings);
+            preview.printAnyway(directory, launcher.out());
+            launcher.run(folder, execution, stopAfter);
         } catch (InvalidInputException | RequestRejectedException e) {
             // What is refused with the first evaluation leaves no folder that would be in the way of the corrected command.
             RunWriter.deleteUnlessBegun(directory);
@@ -123,6 +124,10 @@ final class EvolveCommand implements Callable<Integer> {
         if (outputDir == null || dryRun) {
             throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out"
                     : "--seeds goes with --output-dir; give both");
+        }
+        if (settings.search().optimizer().isOutside()) {
+            throw new InvalidInputException(
+                    "--seeds goes without --optimizer external, which speaks of one run; leave one of them out");
         }
         if (RunReader.exists(outputDir)) {
             throw new InvalidInputException(
@@ -147,7 +152,7 @@ final class EvolveCommand implements Callable<Integer> {
         return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
                 sceneOptions.overrides(), execution.simulator())
                 .withScene(sceneOptions.scheme(),
-                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(sceneName),
                         sceneOptions.overrides());
     }
 

@@ -9,6 +9,7 @@ import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.file.OutputFile;
+import io.natator.replay.LivePageHtml;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
@@ -22,11 +23,14 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.Callable;
+import java.util.stream.Stream;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
@@ -34,13 +38,16 @@ import picocli.CommandLine.Spec;
 /** {@code natator page}: swims to be looked at anywhere. */
 @Command(name = "page", mixinStandardHelpOptions = true,
         description = {"Simulates the best swimmers and writes one HTML file that replays them, water and all.",
-                "It opens from disk in any browser of today, and loads nothing from anywhere."},
+                "It opens from disk in any browser of today, and loads nothing from anywhere.",
+                "With --live the file simulates a swimmer by itself, with sliders, and needs no RUN."},
         footer = {"", "Examples:",
                 "  natator page runs/creature-1-seed-1 --output swim.html",
-                "  natator page runs/one runs/two --best 3 --no-water"})
+                "  natator page runs/one runs/two --best 3 --no-water",
+                "  natator page --live --output live.html"})
 final class PageCommand implements Callable<Integer> {
 
     private static final double MEGABYTE = 1e6;
+    private static final Set<String> WITH_LIVE = Set.of("--live", "--output", "--force", "--title", "--simulator-path");
 
     @Spec
     private CommandSpec spec;
@@ -48,9 +55,13 @@ final class PageCommand implements Callable<Integer> {
     @Mixin
     private SceneOptions sceneOptions;
 
-    @Parameters(paramLabel = "RUN|SCENE", arity = "1..*", description = "Run folders of evolve, or scenes: names as "
+    @Parameters(paramLabel = "RUN|SCENE", arity = "0..*", description = "Run folders of evolve, or scenes: names as "
             + "thesis/creature-1, or files.")
-    private List<String> sources;
+    private List<String> sources = List.of();
+
+    @Option(names = "--live", description = "A page that simulates one of the bundled swimmers in the browser: gait, "
+            + "stiffness and viscosity are its sliders. Takes --output, --force and --title alone.")
+    private boolean live;
 
     @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE",
@@ -89,6 +100,12 @@ final class PageCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
+        if (live) {
+            return writeLive();
+        }
+        if (sources.isEmpty()) {
+            throw new InvalidInputException("no RUN or SCENE is named; expected at least one, or --live");
+        }
         if (best < 1 || best > 1 && gait != null) {
             throw new InvalidInputException(
                     "--best is " + best + "; expected a whole number from 1, and 1 with --gait");
@@ -97,11 +114,7 @@ final class PageCommand implements Callable<Integer> {
             throw new InvalidInputException(
                     "--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
-        OutputFile.check(output);
-        if (!force && Files.exists(output)) {
-            throw new InvalidInputException("output file " + output
-                    + " is already there; choose another by --output, or replace it by --force");
-        }
+        checkOutput();
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
         List<List<SwimSource>> swimmers = sources.stream().map(this::swimmers).toList();
@@ -118,6 +131,30 @@ final class PageCommand implements Callable<Integer> {
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
                 written.bytes() / MEGABYTE, written.framesPerSecond(),
                 written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", precision);
+        return ExitCode.OK;
+    }
+
+    private void checkOutput() {
+        OutputFile.check(output);
+        if (!force && Files.exists(output)) {
+            throw new InvalidInputException("output file " + output
+                    + " is already there; choose another by --output, or replace it by --force");
+        }
+    }
+
+    private int writeLive() throws InterruptedException {
+        List<String> given = Stream
+                .concat(sources.stream(), spec.commandLine().getParseResult().matchedOptions().stream()
+                        .map(OptionSpec::longestName).filter(name -> !WITH_LIVE.contains(name)))
+                .toList();
+        if (!given.isEmpty()) {
+            throw new InvalidInputException(
+                    "--live with " + given.get(0) + "; expected --output, --force and --title beside it at most");
+        }
+        checkOutput();
+        long bytes = LivePageHtml.write(simulatorOption.path(),
+                title != null ? title : "A swimmer of Natator", output);
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB%n", output, bytes / MEGABYTE);
         return ExitCode.OK;
     }
 

@@ -75,7 +75,7 @@ final class ResumeCommand implements Callable<Integer> {
         if (execution.backend() != before) {
             changeBackend(folder, before, execution.backend());
         }
-        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        RunLauncher.of(spec.commandLine(), settings).run(folder, execution, stopAfter);
         if (compact && RunReader.isFinished(directory) && !CompactRun.isCompact(directory)) {
             CompactRun.compact(directory);
         }

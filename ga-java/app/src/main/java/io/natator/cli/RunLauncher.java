@@ -1,13 +1,16 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.RunWriter;
+import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.file.ShellWord;
 import io.natator.process.Evaluator;
+import io.natator.process.OptimizerPipe;
 import io.natator.run.EvolutionRun;
 import java.io.PrintWriter;
+import picocli.CommandLine;
 
 /** Runs the evolution of a folder for the command line: progress, an early stop, the report. */
 final class RunLauncher {
@@ -15,9 +18,20 @@ final class RunLauncher {
     private final PrintWriter out;
     private final PrintWriter err;
 
-    RunLauncher(PrintWriter out, PrintWriter err) {
+    private RunLauncher(PrintWriter out, PrintWriter err) {
         this.out = out;
         this.err = err;
+    }
+
+    /** For a command, whose standard output is the optimizer's if that is outside this program: then people read standard error. */
+    static RunLauncher of(CommandLine command, EvolutionSettings settings) {
+        return new RunLauncher(settings.search().optimizer().isOutside() ? command.getErr() : command.getOut(),
+                command.getErr());
+    }
+
+    /** What people read. */
+    PrintWriter out() {
+        return out;
     }
 
     /**
@@ -30,13 +44,15 @@ final class RunLauncher {
         String how = "continue by: " + Main.asCalled() + " resume " + ShellWord.of(folder.directory());
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
-            try (Evaluator evaluator = EvolutionRun.open(limited);
-                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+            boolean isOutside = folder.settings().search().optimizer().isOutside();
+            try (OptimizerPipe pipe = isOutside ? new OptimizerPipe(System.in, System.out) : null;
+                    Evaluator evaluator = EvolutionRun.open(limited);
+                    ShutdownHandler shutdown = new ShutdownHandler(() -> stop(evaluator, pipe), stopAfter,
                             () -> say("interrupted; " + how))) {
                 EvolutionRun.Outcome outcome;
                 try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(),
                         err, System.console() != null ? System.err : null)) {
-                    outcome = new EvolutionRun(folder).run(limited, evaluator, limited.inBatches()
+                    outcome = new EvolutionRun(folder, pipe).run(limited, evaluator, limited.inBatches()
                             ? new EvolutionListener[] {progress, shutdown.beforeLateGenerations()}
                             : new EvolutionListener[] {progress});
                 } catch (EvolutionStoppedException | InterruptedException e) {
@@ -49,6 +65,13 @@ final class RunLauncher {
                 out.println("  run folder  " + folder.directory());
                 out.flush();
             }
+        }
+    }
+
+    private static void stop(Evaluator evaluator, OptimizerPipe pipe) {
+        evaluator.close();
+        if (pipe != null) {
+            pipe.close();
         }
     }
 

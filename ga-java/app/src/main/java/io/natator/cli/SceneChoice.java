@@ -15,11 +15,11 @@ import picocli.CommandLine.ParameterException;
 final class SceneChoice {
 
     @Option(names = "--creature", paramLabel = "1..4|NAME",
-            description = "Creature of the thesis, or another bundled body: eel, ray, tadpole, tuna. Default: 1.")
+            description = "Creature of the thesis, or another bundled body: eel, ray, tadpole, tuna; with the preset quick loach.")
     private String creature;
 
     @Option(names = "--scene", paramLabel = "NAME|FILE",
-            description = "Default: thesis/creature-N; of evolve the preset's.")
+            description = "Default: thesis/creature-N; of evolve the preset's, without a creature plane/loach.")
     private String scene;
 
     /** Whether either was given. */
@@ -48,7 +48,10 @@ final class SceneChoice {
             throw new InvalidInputException("--creature is " + creature
                     + "; expected 1, 2, 3 or 4, or the name of a bundled body such as eel");
         }
-        return scene != null ? SceneOptions.scene("--scene", scene) : preset.sceneOf(creature != null ? creature : "1");
+        if (scene != null) {
+            return SceneOptions.scene("--scene", scene);
+        }
+        return creature != null ? preset.sceneOf(creature) : preset.scene();
     }
 
     /** What to say where the simulator refuses the chosen scene: which there are, if it has none of that name. */

@@ -24,8 +24,8 @@ final class SearchOptions {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 3 generations of 2 s in pool/creature-N, 1 start) or thesis (150, 100, "
-                    + "as thesis/creature-N has it, 4 starts). Other options change parts of it. "
+            description = "quick (population 16, 3 generations of 4 s in plane/loach or 2 s in pool/creature-N, 1 start) or "
+                    + "thesis (150, 100, as thesis/creature-N has it, 4 starts). Other options change parts of it. "
                     + "Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
@@ -67,7 +67,7 @@ final class SearchOptions {
 
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
             description = "jgap (the thesis' genetic algorithm), cma-es, random, map-elites (the best of every kind of gait), "
-                    + "or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
+                    + "external (another program, which speaks on standard input and output), or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
     @Option(names = "--seed", paramLabel = "N", defaultValue = "1",

@@ -96,7 +96,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "--stop-after 0|--stop-after is 0.0",
             "--simulator thread|expected process, resident, batch or spark but was 'thread'",
             "--backend gpu|expected cpu, cuda or auto but was 'gpu'; did you mean cuda?",
-            "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
+            "--optimizer cma|expected jgap, cma-es, random, nsga2, map-elites or external but was 'cma'; did you mean cma-es?",
             "--fitness speed|expected distance or net",
             "--timeout 0|--timeout is 0.0",
             "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",

@@ -100,8 +100,10 @@ class EvolveCommandTest extends FakeSimulatorTest {
     @Test
     void withoutOptionsItIsTheQuickPreset() {
         ok(natator("evolve", "--dry-run", "--output-dir", path("run")))
-                .startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
-                .contains(", backend cpu, 2.0 s\n", "evaluations about 100\n");
+                .startsWith("plane/loach, jgap (corrected operators), population 16, 3 generations,")
+                .contains(", sparse", ", backend cpu\n", "evaluations about 100\n");
+        ok(natator("evolve", "--dry-run", "--creature", "1"))
+                .startsWith("pool/creature-1, ").contains(", backend cpu, 2.0 s\n");
 
         ok(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3"))
                 .contains(", scheme flex, 3.0 s\n");

@@ -37,13 +37,13 @@ public enum EncodingKind {
     }
 
     /**
-     * The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. Scenes
-     * whose goals are to one side have an offset too.
+     * The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. It is sparse in
+     * plane flow, too; scenes whose goals are to one side have an offset.
      */
     public static EncodingKind usualFor(String scene) {
         if (scene.startsWith("goals/")) {
             return SPARSE_STEERED;
         }
-        return scene.matches("[a-z-]+/creature-2(-vacuum)?") ? SPARSE : DENSE;
+        return scene.matches("[a-z-]+/creature-2(-vacuum)?|plane/[a-z-]+") ? SPARSE : DENSE;
     }
 }

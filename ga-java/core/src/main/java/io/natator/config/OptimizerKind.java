@@ -19,12 +19,15 @@ public enum OptimizerKind {
     NSGA2(Trait.SEVERAL_OBJECTIVES),
     /** MAP-Elites (Mouret and Clune 2015): the best gait of every kind. */
     @JsonProperty("map-elites")
-    MAP_ELITES(Trait.KINDS);
+    MAP_ELITES(Trait.KINDS),
+    /** Another program, which asks and is told over a pipe. */
+    @JsonProperty("external")
+    EXTERNAL(Trait.WHOLE_HISTORY, Trait.OUTSIDE);
 
     private final Set<Trait> traits;
 
     private enum Trait {
-        GENETIC_OPERATORS, WHOLE_HISTORY, SEVERAL_OBJECTIVES, KINDS
+        GENETIC_OPERATORS, WHOLE_HISTORY, SEVERAL_OBJECTIVES, KINDS, OUTSIDE
     }
 
     OptimizerKind(Trait... traits) {
@@ -49,5 +52,10 @@ public enum OptimizerKind {
     /** Whether it keeps the best gait of each kind, told by the effort of the swim. */
     public boolean mapsKinds() {
         return traits.contains(Trait.KINDS);
+    }
+
+    /** Whether it is another program, which may propose otherwise when a run continues and it is asked again. */
+    public boolean isOutside() {
+        return traits.contains(Trait.OUTSIDE);
     }
 }

@@ -3,23 +3,27 @@ package io.natator.config;
 /** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
     /**
-     * Some 90 evaluations of 2 s in a small pool of water in which only swimming pays: some two minutes on two cores.
-     * Each gait swims once, or it would take four times as long; only the winner is run from fresh starts.
+     * Some 90 evaluations of 4 s in plane flow, or of 2 s in a small pool of water in which only swimming pays: some two
+     * minutes on two cores. Each gait swims once, or it would take four times as long; only the winner is run from fresh
+     * starts.
      */
-    QUICK(16, 3, "pool", "pool", 2.0, 1),
+    QUICK(16, 3, "plane/loach", "pool", "pool", 2.0, 1),
     /** The thesis' size (2.6): some 22 500 gaits in its tank, as the scene has it (scheme flex, 4 s), four runs each. */
-    THESIS(150, 100, "thesis", "open-water", null, 4);
+    THESIS(150, 100, "thesis/creature-1", "thesis", "open-water", null, 4);
 
     private final int population;
     private final int generations;
+    private final String scene;
     private final String scenes;
     private final String otherScenes;
     private final Double duration;
     private final int starts;
 
-    Preset(int population, int generations, String scenes, String otherScenes, Double duration, int starts) {
+    Preset(int population, int generations, String scene, String scenes, String otherScenes, Double duration,
+            int starts) {
         this.population = population;
         this.generations = generations;
+        this.scene = scene;
         this.scenes = scenes;
         this.otherScenes = otherScenes;
         this.duration = duration;
@@ -41,21 +45,30 @@ public enum Preset {
         return creature.matches("[1-4]|[a-z][a-z0-9-]*");
     }
 
+    /** Name of the scene that it is for where none is asked for. */
+    public String scene() {
+        return scene;
+    }
+
     /**
-     * Name of the scene of a creature: 1 to 4 are the thesis'; others, which its tank does not know, are in open water.
+     * Name of the scene of a creature: 1 to 4 are the thesis'; others, which its tank does not know, are in open water. That
+     * of its own scene is there.
      *
      * @param creature for example {@code 2} or {@code eel}
      */
     public String sceneOf(String creature) {
+        if (scene.endsWith("/" + creature)) {
+            return scene;
+        }
         if (creature.matches("[1-4]")) {
             return scenes + "/creature-" + creature;
         }
         return (creature.matches("creature-[1-4]") ? scenes : otherScenes) + "/" + creature;
     }
 
-    /** Simulated time of an evaluation in seconds, or null for the scene's own. */
-    public Double duration() {
-        return duration;
+    /** Simulated time of an evaluation in a scene, s; null for the scene's own, as in {@link #scene()}. */
+    public Double duration(String inScene) {
+        return inScene.equals(scene) ? null : duration;
     }
 
     /** Runs of each new gait. */

@@ -43,11 +43,12 @@ final class CmaEs implements Optimizer {
     }
 
     @Override
-    public void recall(List<Individual> earlier) {
+    public void recall(List<List<Individual>> earlier) {
         int size = settings.search().population();
-        for (int first = 0; first + size <= earlier.size(); first += size) {
+        List<Individual> all = earlier.stream().flatMap(List::stream).toList();
+        for (int first = 0; first + size <= all.size(); first += size) {
             points();
-            known.addAll(earlier.subList(first, first + size));
+            known.addAll(all.subList(first, first + size));
         }
     }
 

@@ -59,8 +59,13 @@ public final class EliteMap {
 
     /** The kind of what took this. Without any work, as with muscles that are pushed, it is of the kind that gets nowhere. */
     static Cell cell(Effort effort) {
-        boolean moves = effort.beatsPerLength() < MAX_BEATS && effort.work() > 0;
-        return moves ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport())) : Cell.NOWHERE;
+        return moves(effort) ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport()))
+                : Cell.NOWHERE;
+    }
+
+    /** Whether what took this gets anywhere, by work of its muscles. */
+    static boolean moves(Effort effort) {
+        return effort.beatsPerLength() < MAX_BEATS && effort.work() > 0;
     }
 
     /** Number of a cell; the same on every machine, since the course of a run depends on it. */

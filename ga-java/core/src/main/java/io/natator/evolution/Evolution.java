@@ -5,6 +5,7 @@ import io.natator.base.Numbers;
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
 import io.natator.process.Evaluator;
+import io.natator.process.OptimizerPipe;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.util.ArrayList;
@@ -28,6 +29,7 @@ public final class Evolution {
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
     private final RecordedEvaluations recorded;
+    private final OptimizerPipe pipe;
 
     private int generation;
     private long evaluations;
@@ -49,11 +51,22 @@ public final class Evolution {
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             RecordedEvaluations recorded) {
+        this(settings, evaluator, listeners, recorded, null);
+    }
+
+    /**
+     * An evolution that has not begun, by an optimizer outside this program.
+     *
+     * @param pipe to it, which stays open; null without one
+     */
+    public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
+            RecordedEvaluations recorded, OptimizerPipe pipe) {
         this.settings = settings;
         this.genome = settings.problem().genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
         this.recorded = recorded;
+        this.pipe = pipe;
     }
 
     /**
@@ -71,15 +84,15 @@ public final class Evolution {
                     Numbers.count(recorded.end(), "simulation") + " recorded; expected the " + evaluations
                             + " up to where the evolution is to continue");
         }
-        try (Optimizer optimizer = Optimizer.of(settings, genome.genes())) {
-            optimizer.recall(newborns(recorded.between(0, evaluations)));
+        try (Optimizer optimizer = Optimizer.of(settings, genome.genes(), pipe)) {
+            optimizer.recall(earlier());
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
                 List<Individual> parents = state == null ? List.of() : state.population();
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
                 born.clear();
-                List<List<Double>> newborn = announce(optimizer.propose(generation, parents));
+                List<List<Double>> newborn = announce(asRecorded(optimizer.propose(generation, parents)));
                 state = finish(state, optimizer.population(newborns(newborn, simulate(runs(newborn)))));
             }
             return state;
@@ -148,7 +161,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (List<Double> genes : genomes) {
             for (int k = 0; k < starts; k++) {
-                runs.add(new Run(genes, starts == 1 ? null : StartSeeds.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(genes, start(k)));
             }
         }
         return runs;
@@ -168,7 +181,36 @@ public final class Evolution {
         return newborns;
     }
 
-    /** The newborns of all generations that these simulations are of. */
+    /** The newborns of each generation up to where the evolution continues. */
+    private List<List<Individual>> earlier() {
+        SortedMap<Integer, List<EvaluationRecord>> generations = new TreeMap<>();
+        recorded.between(0, evaluations).forEach(
+                one -> generations.computeIfAbsent(one.generation(), number -> new ArrayList<>()).add(one));
+        return generations.values().stream().map(this::newborns).toList();
+    }
+
+    /**
+     * What is to be simulated of a proposal: where an optimizer outside this program may propose otherwise than before an interruption, first
+     * what was begun then.
+     */
+    private List<List<Double>> asRecorded(List<List<Double>> proposed) {
+        if (!settings.search().optimizer().isOutside()) {
+            return proposed;
+        }
+        long end = recorded.end();
+        List<List<Double>> genomes = new ArrayList<>(recorded.between(Math.min(evaluations, end), end).stream()
+                .filter(one -> one.generation() == generation && Objects.equals(one.start(), start(0)))
+                .map(EvaluationRecord::genes).toList());
+        genomes.addAll(proposed.subList(Math.min(genomes.size(), proposed.size()), proposed.size()));
+        return genomes;
+    }
+
+    /** A start of the generation; null where gaits run from the scene's own. */
+    private Integer start(int number) {
+        return settings.search().starts() == 1 ? null : StartSeeds.of(settings.search().seed(), generation, number);
+    }
+
+    /** The newborns of a generation that these simulations are of. */
     private List<Individual> newborns(List<EvaluationRecord> earlier) {
         int starts = settings.search().starts();
         List<List<Double>> genomes = new ArrayList<>();

@@ -2,6 +2,7 @@ package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.GeneRange;
+import io.natator.process.OptimizerPipe;
 import java.util.List;
 
 /**
@@ -13,9 +14,9 @@ interface Optimizer extends AutoCloseable {
     /**
      * Takes note of what was evaluated in earlier generations, when a run continues.
      *
-     * @param earlier all newborns in their order, each as it was before any was run again
+     * @param earlier the newborns of each generation in their order, each as it was before any was run again
      */
-    default void recall(List<Individual> earlier) {
+    default void recall(List<List<Individual>> earlier) {
     }
 
     /**
@@ -43,14 +44,16 @@ interface Optimizer extends AutoCloseable {
      * The optimizer that the settings name.
      *
      * @param ranges of the genes
+     * @param pipe   to an optimizer outside this program; null without one
      */
-    static Optimizer of(EvolutionSettings settings, List<GeneRange> ranges) {
+    static Optimizer of(EvolutionSettings settings, List<GeneRange> ranges, OptimizerPipe pipe) {
         return switch (settings.search().optimizer()) {
             case JGAP -> new GeneticAlgorithm(settings, ranges);
             case CMA_ES -> new CmaEs(settings, ranges);
             case RANDOM -> new RandomSearch(settings, ranges);
             case NSGA2 -> new Nsga2(settings, ranges);
             case MAP_ELITES -> new MapElites(settings, ranges);
+            case EXTERNAL -> new ExternalOptimizer(settings, ranges, pipe);
         };
     }
 }

@@ -77,7 +77,7 @@ public final class FitnessEvaluator implements Evaluator {
                     + " has some, which are its fitness; expected --objectives net, alone or together with goals");
         }
         OptimizerKind optimizer = settings.search().optimizer();
-        if (!optimizer.mapsKinds()) {
+        if (!optimizer.mapsKinds() && !optimizer.isOutside()) {
             return of(evaluator, problem);
         }
         if (problem.evolve() != null) {
@@ -85,6 +85,9 @@ public final class FitnessEvaluator implements Evaluator {
                     request -> problem.bodyLength(request.overrides()));
         }
         if (scene.bodyLength() == null || !(scene.bodyLength() > 0)) {
+            if (optimizer.isOutside()) {
+                return of(evaluator, problem);
+            }
             throw new InvalidInputException(
                     "optimizer " + Json.name(optimizer) + ": the body's length is " + scene.bodyLength()
                             + "; expected a simulator that tells it, and a scene with a body");
@@ -174,6 +177,9 @@ public final class FitnessEvaluator implements Evaluator {
     }
 
     private Effort effort(SimulationResult result, SimulationRequest request) {
+        if (result.work() == null && optimizer.isOutside()) {
+            return null;
+        }
         if (result.work() == null) {
             throw new InvalidInputException("optimizer " + Json.name(optimizer)
                     + ": this simulator does not measure the muscles' work in scheme " + result.scheme()

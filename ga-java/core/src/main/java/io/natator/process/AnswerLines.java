@@ -20,6 +20,7 @@ final class AnswerLines implements Runnable {
 
     private final InputStream stdout;
     private final Runnable kill;
+    private final int maxBytes;
     private final BlockingQueue<Line> lines = new ArrayBlockingQueue<>(QUEUED_LINES);
 
     /** A line of output; or, with a fault, that no more will come and why. */
@@ -32,8 +33,14 @@ final class AnswerLines implements Runnable {
      * @param kill ends the program, of which no more will be read
      */
     AnswerLines(InputStream stdout, Runnable kill) {
+        this(stdout, kill, MAX_LINE_BYTES);
+    }
+
+    /** Those of a program's standard output, with lines of up to so many bytes. */
+    AnswerLines(InputStream stdout, Runnable kill, int maxBytes) {
         this.stdout = stdout;
         this.kill = kill;
+        this.maxBytes = maxBytes;
     }
 
     /** The next line, or null if none comes in time. */
@@ -72,9 +79,9 @@ final class AnswerLines implements Runnable {
                 if (next == '\n') {
                     lines.put(new Line(line.toString(StandardCharsets.UTF_8), null));
                     line.reset();
-                } else if (line.size() == MAX_LINE_BYTES) {
+                } else if (line.size() == maxBytes) {
                     kill.run();
-                    return "more than " + MAX_LINE_BYTES + " bytes in one line";
+                    return "more than " + maxBytes + " bytes in one line";
                 } else {
                     line.write(next);
                 }

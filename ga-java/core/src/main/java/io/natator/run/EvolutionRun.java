@@ -17,6 +17,7 @@ import io.natator.evolution.Individual;
 import io.natator.fitness.BodyCheckEvaluator;
 import io.natator.fitness.FitnessEvaluator;
 import io.natator.process.Evaluator;
+import io.natator.process.OptimizerPipe;
 import io.natator.process.SceneInfo;
 import io.natator.process.TimeLimit;
 import io.natator.protocol.SimulationResult;
@@ -31,6 +32,7 @@ public final class EvolutionRun {
 
     private final RunWriter folder;
     private final EvolutionSettings settings;
+    private final OptimizerPipe pipe;
 
     /**
      * What came of a run.
@@ -43,7 +45,17 @@ public final class EvolutionRun {
 
     /** A run whose folder stays open. */
     public EvolutionRun(RunWriter folder) {
+        this(folder, null);
+    }
+
+    /**
+     * A run by an optimizer outside this program, whose folder stays open.
+     *
+     * @param pipe to it, which stays open; null without one
+     */
+    public EvolutionRun(RunWriter folder, OptimizerPipe pipe) {
         this.folder = folder;
+        this.pipe = pipe;
         this.settings = folder.settings();
     }
 
@@ -123,7 +135,7 @@ public final class EvolutionRun {
         Evaluator checked = settings.problem().evolve() == null ? own
                 : new BodyCheckEvaluator(own, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, FitnessEvaluator.of(checked, settings, scene), all,
-                folder.recorded()).run(folder.checkpoint());
+                folder.recorded(), pipe).run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         return outcome(state, own, scene, execution.simulator());
     }

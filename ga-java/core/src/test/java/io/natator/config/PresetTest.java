@@ -11,7 +11,7 @@ class PresetTest {
 
     @ParameterizedTest
     @CsvSource({"QUICK, 2, pool/creature-2", "THESIS, 2, thesis/creature-2", "THESIS, creature-2, thesis/creature-2",
-            "QUICK, eel, pool/eel", "THESIS, eel, open-water/eel", "QUICK, ray, pool/ray"})
+            "QUICK, loach, plane/loach", "QUICK, eel, pool/eel", "THESIS, eel, open-water/eel", "QUICK, ray, pool/ray"})
     void aCreatureHasASceneInEachPreset(Preset preset, String creature, String scene) {
         assertThat(preset.sceneOf(creature)).isEqualTo(scene);
     }

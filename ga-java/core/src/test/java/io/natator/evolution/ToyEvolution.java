@@ -38,9 +38,17 @@ public final class ToyEvolution {
 
     private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
             EvolutionState from, List<EvaluationRecord> recorded, EvolutionListener... listeners) {
+        try (ToyOptimizer optimizer = settings.search().optimizer().isOutside() ? new ToyOptimizer() : null) {
+            return run(settings, simulator, optimizer, workers, from, recorded, listeners);
+        }
+    }
+
+    /** By an optimizer outside the program, or null. */
+    static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, ToyOptimizer optimizer,
+            int workers, EvolutionState from, List<EvaluationRecord> recorded, EvolutionListener... listeners) {
         try (Evaluator pool = new FakePool(simulator, workers)) {
             return new Evolution(settings, evaluator(settings, pool), List.of(listeners),
-                    new RecordedEvaluations(0, recorded)).run(from);
+                    new RecordedEvaluations(0, recorded), optimizer == null ? null : optimizer.pipe).run(from);
         }
     }
 

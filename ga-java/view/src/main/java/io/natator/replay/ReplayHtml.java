@@ -2,17 +2,13 @@ package io.natator.replay;
 
 import io.natator.base.InvalidInputException;
 import io.natator.base.Numbers;
-import io.natator.config.Json;
 import io.natator.file.OutputFile;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.util.Base64;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
-import java.util.regex.Matcher;
-import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 /** One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request. */
@@ -20,8 +16,6 @@ public final class ReplayHtml {
 
     private static final int[] EVERY = {1, 2, 3, 4, 5, 6, 8, 10, 12};
     private static final double MEGABYTE = 1e6;
-    /** Where something is put into the page; in one go, so that what is put there stays as it is. */
-    private static final Pattern PART = Pattern.compile("\\{\\{(title|style|modules|swims)}}");
 
     private final String title;
     private final List<Replay> swims;
@@ -97,23 +91,8 @@ public final class ReplayHtml {
 
     private String html(int every) {
         String swimText = swims.stream().map(swim -> "<script type=\"text/plain\" class=\"swim\" data-title=\""
-                + escaped(swim.title()) + "\">" + base64(new SwimCode(swim, water).compressed(every)) + "</script>")
+                + PageHtml.escaped(swim.title()) + "\">" + PageHtml.base64(new SwimCode(swim, water).compressed(every)) + "</script>")
                 .collect(Collectors.joining("\n"));
-        String modules = base64(Zlib.compressed(
-                Json.line(PageModules.of("natator/replay.js")).getBytes(StandardCharsets.UTF_8)));
-        Map<String, String> parts = Map.of("title", escaped(title), "style",
-                PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"), "modules",
-                modules,
-                "swims", swimText);
-        return PART.matcher(PageModules.resource("natator/replay.html"))
-                .replaceAll(part -> Matcher.quoteReplacement(parts.get(part.group(1))));
-    }
-
-    private static String base64(byte[] content) {
-        return Base64.getEncoder().encodeToString(content);
-    }
-
-    private static String escaped(String text) {
-        return text.replace("&", "&amp;").replace("<", "&lt;").replace("\"", "&quot;");
+        return PageHtml.of("natator/replay.html", "natator/replay.js", title, Map.of("swims", swimText));
     }
 }

@@ -3,7 +3,7 @@
 /** @typedef {{rows: Int32Array[], columns: {low: number, step: number}[], numbers: number}} Table whole numbers, and what they stand for */
 
 /** Expands text (base64 of zlib) to bytes. */
-async function expanded(text) {
+export async function expanded(text) {
   const bytes = Uint8Array.from(atob(text), one => one.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Response(stream).arrayBuffer();

@@ -1,4 +1,4 @@
-/** One WebSocket, which is one simulator process: commands up, scenes and frames down, again after a loss. */
+/** One socket, which is one simulator: commands up, scenes and frames down, again after a loss. */
 
 /** Frames that may be under way or waiting to be drawn. */
 const CREDIT = 3;
@@ -10,7 +10,7 @@ const LAST_RETRY_MS = 8000;
  * lost(LOST), saved(SAVED) if a scene's file was saved, refused(text) if what was to be shown cannot be.
  */
 export class Connection {
-  #url;
+  #openSocket;
   #handlers;
   #start;
   #socket = null;
@@ -26,9 +26,13 @@ export class Connection {
   #timer = 0;
   #closed = false;
 
-  /** `start` gives the first command of each connection: what to show, as it was last set. */
-  constructor(url, start, handlers) {
-    this.#url = url;
+  /**
+   * `start` gives the first command of each connection: what to show, as it was last set.
+   *
+   * @param {() => WebSocket} openSocket opens another socket
+   */
+  constructor(openSocket, start, handlers) {
+    this.#openSocket = openSocket;
     this.#start = start;
     this.#handlers = handlers;
     this.#open();
@@ -74,7 +78,7 @@ export class Connection {
 
   #open() {
     this.#handlers.status('connecting', 'connecting');
-    const socket = new WebSocket(this.#url);
+    const socket = this.#openSocket();
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.#opened();
     socket.onmessage = event => this.#received(event.data);

@@ -15,6 +15,14 @@ const VACUUM_PATCH = {
   fluid: null, planes: [], solver: {gravity: [0, 0, 0]}, stopping: {planeContact: false, noProgressAfter: 0},
 };
 
+/** A socket to the server of this page. */
+function serverSocket() {
+  const url = new URL('stream', document.baseURI);
+  url.protocol = url.protocol.replace('http', 'ws');
+  url.hash = '';
+  return new WebSocket(url.href);
+}
+
 /**
  * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends); `again` is what a button does
  * that starts anew, where that is left to the user.
@@ -51,18 +59,16 @@ export class View {
    * @param {object} setting scene, overrides, gait, rate, paused: how to begin; origin: where the gait is from, or absent
    * @param {object} fallback scene, overrides, gait: what to show if that is refused
    * @param {string[]} known names of scenes
+   * @param {() => WebSocket} openSocket opens a socket to a simulator
    */
-  constructor(host, setting, fallback, known, handlers) {
+  constructor(host, setting, fallback, known, handlers, openSocket = serverSocket) {
     this.#setting = {overrides: null, gait: null, rate: 1, paused: false, ...setting};
     this.#known = known;
     this.#fallback = fallback;
     this.#handlers = handlers;
     this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
-    const url = new URL('stream', document.baseURI);
-    url.protocol = url.protocol.replace('http', 'ws');
-    url.hash = '';
-    this.#connection = new Connection(url.href, () => this.#start(), {
+    this.#connection = new Connection(openSocket, () => this.#start(), {
       status: (state, text) => this.#status(state, text),
       scene: scene => this.#scene(scene),
       stop: stop => this.#stopped(stop),
