@@ -48,17 +48,17 @@ compiler() {
     printf 'c_stdlib: [sysroot]\nc_stdlib_version: ["%s"]\n' "$(plain "$libc")" >"$root/tried/variants.yaml"
     begin_part gxx_linux-64 "$(inside g++ -dumpfullversion)"
     mkdir -p "$part/etc/conda/activate.d"
+    local variable
+    for variable in "${cache_variables[@]}"; do echo "export $variable" >>"$part/etc/conda/activate.d/gxx.sh"; done
     # As conda-forge's compiler sets them.
-    cat >"$part/etc/conda/activate.d/gxx.sh" <<'SHELL'
+    cat >>"$part/etc/conda/activate.d/gxx.sh" <<'SHELL'
 export CXX=/usr/bin/g++ CMAKE_PREFIX_PATH=$PREFIX
-export CXXFLAGS="-fvisibility-inlines-hidden -fmessage-length=0 -march=nocona -mtune=haswell -ftree-vectorize -fPIC -fstack-protector-strong -fno-plt \
+export CXXFLAGS="${CXXFLAGS-} -fvisibility-inlines-hidden -fmessage-length=0 -march=nocona -mtune=haswell -ftree-vectorize -fPIC -fstack-protector-strong -fno-plt \
 -O2 -ffunction-sections -pipe -isystem $PREFIX/include -fdebug-prefix-map=$SRC_DIR=/usr/local/src/conda"
 export LDFLAGS="-Wl,-O2 -Wl,--sort-common -Wl,--as-needed -Wl,-z,relro -Wl,-z,now -Wl,--disable-new-dtags -Wl,--gc-sections -Wl,-rpath,$PREFIX/lib \
 -Wl,-rpath-link,$PREFIX/lib -L$PREFIX/lib"
 export CMAKE_ARGS="-DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$PREFIX -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER"
 SHELL
-    local variable
-    for variable in "${cache_variables[@]}"; do echo "export $variable" >>"$part/etc/conda/activate.d/gxx.sh"; done
 }
 
 system conda-build bookworm python3-venv"${given:-,g++}"

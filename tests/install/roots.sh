@@ -60,7 +60,8 @@ if [[ -n $cache ]]; then
     ldd "$(command -v ccache)" | grep -o '/[^ ]*' | xargs cp --dereference --target-directory "$cache/bin" "$(command -v ccache)"
     printf '#!/bin/sh\nexec /mnt/bin/ld-linux-x86-64.so.2 --library-path /mnt/bin /mnt/bin/ccache "$@"\n' >"$cache/ccache"
     chmod +x "$cache/ccache"
-    cache_variables=(CCACHE_DIR=/mnt/cache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1 CCACHE_TEMPDIR=/tmp CMAKE_CXX_COMPILER_LAUNCHER=/mnt/ccache)
+    cache_variables=(CCACHE_DIR=/mnt/cache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1 CCACHE_TEMPDIR=/tmp CMAKE_CXX_COMPILER_LAUNCHER=/mnt/ccache
+        CCACHE_SLOPPINESS=pch_defines,time_macros CXXFLAGS=-fpch-preprocess)  # without them nothing that has a precompiled header is kept
 fi
 
 # Runs a command in it, after variables of its environment, with /proc, by which the program finds its scenes.

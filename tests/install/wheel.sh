@@ -3,7 +3,7 @@
 # PATH; then where it can't work; with --source also the sdist, on a system with a compiler. Needs root, debootstrap, a Debian
 # mirror and PyPI; Python with tests/readers/requirements.txt makes and checks the wheel (./setup.sh --readers).
 #   sudo tests/install/wheel.sh [--source] [WHEEL]
-# Systems are kept in $NATATOR_ROOTS, else in build/roots: 0.3 GB each.
+# Systems are kept in $NATATOR_ROOTS, else in build/roots: 0.4 GB each.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -50,9 +50,11 @@ fi
 printf '%s: %d bytes\n' "$wheel" "$(stat -c %s "$wheel")"
 name=${wheel##*/}
 
-python_system bookworm bookworm ''
-cp "$wheel" "$root/tried/"
-install_and_swim "$name" 'Debian 12, the wheel'
+for suite in trixie noble bookworm; do  # Debian 13, Ubuntu 24.04, Debian 12
+    python_system "$suite" "$suite" ''
+    cp "$wheel" "$root/tried/"
+    install_and_swim "$name" "$suite, the wheel"
+done
 said=$(inside PATH= /tried/venv/bin/natator-sim run pool/eel --backend cuda 2>&1) && exit 1
 printf 'without a GPU: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 ]]
@@ -75,7 +77,7 @@ sdist=$(echo build/wheel/natator-*.tar.gz)
 printf '%s: %d bytes\n' "$sdist" "$(stat -c %s "$sdist")"
 python_system source bookworm ,g++,libeigen3-dev,nlohmann-json3-dev,libcli11-dev
 cp "$sdist" "$root/tried/"
-install_and_swim "${sdist##*/}" 'Debian 12, the sdist'
+install_and_swim "${sdist##*/}" 'bookworm, the sdist'
 rm "$root/complete"
 for lacking in libcli11-dev g++; do
     inside PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg --purge --force-depends "$lacking" >/dev/null 2>&1
