@@ -41,7 +41,7 @@ for argument in "$@"; do
     esac
 done
 
-if $python_only && { $with_cuda || $with_browser || $with_readers || $with_tidy; }; then
+if $python_only && { $with_cuda || $with_browser || $with_readers || $with_tidy || $with_wasm; }; then
     echo 'setup.sh: --python: goes with --check alone' >&2
     exit 2
 fi
