@@ -56,10 +56,15 @@ readonly cache=${NATATOR_CCACHE:+$roots/ccache}
 cache_variables=()
 if [[ -n $cache ]]; then
     command -v ccache >/dev/null || { echo "${0##*/}: NATATOR_CCACHE: ccache is missing: apt-get install ccache" >&2; exit 1; }
-    mkdir -p "$NATATOR_CCACHE" "$cache/bin" "$cache/cache"
-    ldd "$(command -v ccache)" | grep -o '/[^ ]*' | xargs cp --dereference --target-directory "$cache/bin" "$(command -v ccache)"
-    printf '#!/bin/sh\nexec /mnt/bin/ld-linux-x86-64.so.2 --library-path /mnt/bin /mnt/bin/ccache "$@"\n' >"$cache/ccache"
-    chmod +x "$cache/ccache"
+    mkdir -p "$NATATOR_CCACHE" "$roots"
+    if [[ ! -d $cache ]]; then  # others may be using it
+        making=$(mktemp -d "$roots/ccache.XXXX")
+        mkdir "$making/bin" "$making/cache"
+        ldd "$(command -v ccache)" | grep -o '/[^ ]*' | xargs cp --dereference --target-directory "$making/bin" "$(command -v ccache)"
+        printf '#!/bin/sh\nexec /mnt/bin/ld-linux-x86-64.so.2 --library-path /mnt/bin /mnt/bin/ccache "$@"\n' >"$making/ccache"
+        chmod 755 "$making" "$making/ccache"
+        mv --no-target-directory "$making" "$cache"
+    fi
     cache_variables=(CCACHE_DIR=/mnt/cache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1 CCACHE_TEMPDIR=/tmp CMAKE_CXX_COMPILER_LAUNCHER=/mnt/ccache
         CCACHE_SLOPPINESS=pch_defines,time_macros CXXFLAGS=-fpch-preprocess)  # without them nothing that has a precompiled header is kept
 fi
