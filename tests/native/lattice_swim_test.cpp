@@ -226,7 +226,7 @@ TEST(PlaneFlow, ShiftsNothingOutOfTheMiddle) {
 
 TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
     const auto refusal = [](const json& creature) {
-        return refusal_of([&] { build_model(load_scene("plane/loach", {{"creature", creature}})); });
+        return refusal_of([&] { build_model(load_scene("plane/loach", json{{"creature", creature}})); });
     };
     EXPECT_EQ(refusal({{"rearCentre", {1.8, 0.02, 0.8}}}),
               "scene \"plane/loach\": scheme lattice: creature.rearCentre[1] = 0.02: must be 0.01, the middle "
