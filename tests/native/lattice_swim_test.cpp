@@ -203,7 +203,7 @@ TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
 
 /// So it is as heavy as the water in its place at either.
 TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
-    const Scene scene = load_scene("plane/loach", {{"fluid", {{"disorder", 0}}}});
+    const Scene scene = load_scene("plane/loach", json{{"fluid", {{"disorder", 0}}}});
     const Model coarse = build_model(scene);
     const Model fine = build_model(
         load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
@@ -226,7 +226,7 @@ TEST(PlaneFlow, ShiftsNothingOutOfTheMiddle) {
 
 TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
     const auto refusal = [](const json& creature) {
-        return refusal_of([&] { build_model(load_scene("plane/loach", {{"creature", creature}})); });
+        return test::refusal_of([&] { build_model(load_scene("plane/loach", json{{"creature", creature}})); });
     };
     EXPECT_EQ(refusal({{"rearCentre", {1.8, 0.02, 0.8}}}),
               "scene \"plane/loach\": scheme lattice: creature.rearCentre[1] = 0.02: must be 0.01, the middle "
