@@ -68,7 +68,7 @@ TEST_F(LawWatchTest, NoParticleHasMoreEnergyThanGravityGives) {
 
 /// Its muscles' least amplitude bends a slender body so far that its tail goes as fast as that of a beat of its length.
 TEST(LawsOfABodyOnALattice, LetASlenderTailWhip) {
-    const Model loach = build_model(load_scene("plane/loach", json{}));
+    const Model loach = build_model(load_scene("plane/loach", json::object()));
     LawWatch laws(loach);
     laws.drive_by({2, {0.1, 0.1, 0.1, 0.1}, {0, 0, 0, 0}});
     physics::LawMeasures measures;
@@ -82,7 +82,7 @@ TEST(LawsOfABodyOnALattice, LetASlenderTailWhip) {
 
 /// It may have what its muscles gave it before the tank moved, and no more.
 TEST(LawsOfABodyOnALattice, KeepItsWorkWhereItsTankMoves) {
-    LawWatch laws(build_model(load_scene("plane/loach", json{})));
+    LawWatch laws(build_model(load_scene("plane/loach", json::object())));
     physics::LawMeasures measures;
     laws.start(measures);
     laws.restart();
