@@ -193,7 +193,8 @@ TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
     EXPECT_FALSE(build_model(load_scene("plane/water", floor)).water_box->is_plane());
 }
 
-/// In a quarter of the time, from rest, it goes further than three tenths of its length; its particles stay in the plane.
+/// In a quarter of the time, from rest, it goes further than three tenths of its length; its particles stay in the
+/// plane.
 TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
     Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave()});
     for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(swim.step());
@@ -205,8 +206,8 @@ TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
 TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
     const Scene scene = load_scene("plane/loach", json{{"fluid", {{"disorder", 0}}}});
     const Model coarse = build_model(scene);
-    const Model fine = build_model(
-        load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
+    const Model fine =
+        build_model(load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
     EXPECT_EQ(fine.water_box->cells, Eigen::Vector3i(320, 1, 160));
     EXPECT_EQ(fine.particles(), 4 * coarse.particles());
     EXPECT_NEAR(fine.water_box->displaced_mass(fine.body.spacing), 0.25, 1e-12);
@@ -231,11 +232,10 @@ TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
     EXPECT_EQ(refusal({{"rearCentre", {1.8, 0.02, 0.8}}}),
               "scene \"plane/loach\": scheme lattice: creature.rearCentre[1] = 0.02: must be 0.01, the middle "
               "(fluid.origin) of water that is one cell deep");
-    EXPECT_EQ(refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}},
-                       {"joints", {10, 20}},
-                       {"spacing", 0.02}}),
-              "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
-              "cell deep");
+    EXPECT_EQ(
+        refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}}, {"joints", {10, 20}}, {"spacing", 0.02}}),
+        "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
+        "cell deep");
 }
 
 TEST(LatticeSwim, RefusesWhatItHasNot) {
