@@ -180,9 +180,7 @@ TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
 }
 
 /// The loach with a wave to the tail, in plane flow.
-Gait loach_wave(double amplitude = 0.5) {
-    return {2, {amplitude, 0.8 * amplitude, 0.7 * amplitude, 0.5 * amplitude}, {0, 0.875, 0.75, 0.625}};
-}
+const Gait loach_wave{2, {0.4, 0.35, 0.3, 0.25, 0.2}, {0, 0.902, 0.804, 0.706, 0.608}};
 
 TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
     EXPECT_TRUE(build_model(load_scene("plane/loach")).water_box->is_plane());
@@ -193,12 +191,12 @@ TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
     EXPECT_FALSE(build_model(load_scene("plane/water", floor)).water_box->is_plane());
 }
 
-/// In a quarter of the time, from rest, it goes further than three tenths of its length; its particles stay in the
+/// In a quarter of the time, from rest, it goes further than two tenths of its length; its particles stay in the
 /// plane.
 TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
-    Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave()});
+    Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave});
     for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(swim.step());
-    EXPECT_GT(swim.distance(), 0.3);
+    EXPECT_GT(swim.distance(), 0.2);
     for (const auto& place : swim.state().position) EXPECT_EQ(place.y(), 0.01F);
 }
 
