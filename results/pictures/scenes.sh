@@ -27,3 +27,4 @@ draw reach goals/reach "$gaits/reach.json" --from top --at 2
 draw school company/school "$gaits/fish-like.json" --from top --at 2
 draw pillars company/pillars "$gaits/fish-like.json" --from top --at 2
 draw periodic open-water/periodic "$gaits/fish-like.json" --from top --at 2
+draw plane plane/loach "$gaits/loach.json" --from top --at 4 --vortices

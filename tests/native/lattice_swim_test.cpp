@@ -180,9 +180,7 @@ TEST(LatticeSwim, AMovingTankGoesByWholeCells) {
 }
 
 /// The loach with a wave to the tail, in plane flow.
-Gait loach_wave(double amplitude = 0.5) {
-    return {2, {amplitude, 0.8 * amplitude, 0.7 * amplitude, 0.5 * amplitude}, {0, 0.875, 0.75, 0.625}};
-}
+const Gait loach_wave{2, {0.4, 0.35, 0.3, 0.25, 0.2}, {0, 0.902, 0.804, 0.706, 0.608}};
 
 TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
     EXPECT_TRUE(build_model(load_scene("plane/loach")).water_box->is_plane());
@@ -193,20 +191,21 @@ TEST(PlaneFlow, IsWaterOneCellDeepWithoutFloor) {
     EXPECT_FALSE(build_model(load_scene("plane/water", floor)).water_box->is_plane());
 }
 
-/// In a quarter of the time, from rest, it goes further than three tenths of its length; its particles stay in the plane.
+/// In a quarter of the time, from rest, it goes further than two tenths of its length; its particles stay in the
+/// plane.
 TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
-    Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave()});
+    Simulation<float> swim({.scene = "plane/loach", .gait = loach_wave});
     for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(swim.step());
-    EXPECT_GT(swim.distance(), 0.3);
+    EXPECT_GT(swim.distance(), 0.2);
     for (const auto& place : swim.state().position) EXPECT_EQ(place.y(), 0.01F);
 }
 
 /// So it is as heavy as the water in its place at either.
 TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
-    const Scene scene = load_scene("plane/loach", {{"fluid", {{"disorder", 0}}}});
+    const Scene scene = load_scene("plane/loach", json{{"fluid", {{"disorder", 0}}}});
     const Model coarse = build_model(scene);
-    const Model fine = build_model(
-        load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
+    const Model fine =
+        build_model(load_scene("plane/loach", refined(scene, Level::named("spacing/2"), coarse.parameters.substeps)));
     EXPECT_EQ(fine.water_box->cells, Eigen::Vector3i(320, 1, 160));
     EXPECT_EQ(fine.particles(), 4 * coarse.particles());
     EXPECT_NEAR(fine.water_box->displaced_mass(fine.body.spacing), 0.25, 1e-12);
@@ -226,16 +225,15 @@ TEST(PlaneFlow, ShiftsNothingOutOfTheMiddle) {
 
 TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
     const auto refusal = [](const json& creature) {
-        return refusal_of([&] { build_model(load_scene("plane/loach", json{{"creature", creature}})); });
+        return test::refusal_of([&] { build_model(load_scene("plane/loach", json{{"creature", creature}})); });
     };
     EXPECT_EQ(refusal({{"rearCentre", {1.8, 0.02, 0.8}}}),
               "scene \"plane/loach\": scheme lattice: creature.rearCentre[1] = 0.02: must be 0.01, the middle "
               "(fluid.origin) of water that is one cell deep");
-    EXPECT_EQ(refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}},
-                       {"joints", {10, 20}},
-                       {"spacing", 0.02}}),
-              "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
-              "cell deep");
+    EXPECT_EQ(
+        refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}}, {"joints", {10, 20}}, {"spacing", 0.02}}),
+        "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
+        "cell deep");
 }
 
 TEST(LatticeSwim, RefusesWhatItHasNot) {

@@ -66,9 +66,9 @@ TEST_F(LawWatchTest, NoParticleHasMoreEnergyThanGravityGives) {
     EXPECT_EQ(particle, 501);
 }
 
-/// Its muscles' least amplitude bends a slender body so far that its tail goes as fast as that of a beat of its length.
+/// A small amplitude bends a slender body so far that its tail goes as fast as that of a beat of its length.
 TEST(LawsOfABodyOnALattice, LetASlenderTailWhip) {
-    const Model loach = build_model(load_scene("plane/loach", json{}));
+    const Model loach = build_model(load_scene("plane/loach", json::object()));
     LawWatch laws(loach);
     laws.drive_by({2, {0.1, 0.1, 0.1, 0.1}, {0, 0, 0, 0}});
     physics::LawMeasures measures;
@@ -82,16 +82,16 @@ TEST(LawsOfABodyOnALattice, LetASlenderTailWhip) {
 
 /// It may have what its muscles gave it before the tank moved, and no more.
 TEST(LawsOfABodyOnALattice, KeepItsWorkWhereItsTankMoves) {
-    LawWatch laws(build_model(load_scene("plane/loach", json{})));
+    LawWatch laws(build_model(load_scene("plane/loach", json::object())));
     physics::LawMeasures measures;
     laws.start(measures);
     laws.restart();
-    measures.energy = 0.1;
-    EXPECT_FALSE(laws.look(measures, 2, 0.2));
-    measures.energy = 1;
-    EXPECT_FALSE(laws.look(measures, 1.9, 0.3));
-    measures.energy = 3;
-    EXPECT_TRUE(laws.look(measures, 2, 0.4));
+    measures.energy = 100;
+    EXPECT_FALSE(laws.look(measures, 2000, 0.2));
+    measures.energy = 1000;
+    EXPECT_FALSE(laws.look(measures, 1900, 0.3));
+    measures.energy = 3000;
+    EXPECT_TRUE(laws.look(measures, 2000, 0.4));
 }
 
 /// All the water at a speed that one particle may have.

@@ -21,7 +21,7 @@ OPACITY = 0.3  # of the water's surface
 ROOM, ROOM_IN_VACUUM = 0.6, 0.2  # in body lengths: how much is shown before and behind a body
 NEARLY_ALL = 0.7  # a tank of which this share would be shown is shown whole
 VORTICES = 0.01  # share of the water whose Q is highest
-STRONGEST = 0.97  # share of the cells of plane flow that turn less than what the colours end with
+STRONGEST = 0.985  # share of the cells of plane flow that turn less than what the colours end with
 RESTS = "vortices: the water does not turn anywhere; expected a swim that has gone on for a while"
 SIDES, ABOVE, BELOW = 0.03, 0.04, 0.07  # margins, in widths of the picture
 FLATTEST, HIGHEST = 0.3, 0.75
@@ -54,6 +54,8 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
         frame = list(frames(stream, time, max(1, round(time / step))))[-1] if time else stream.frame
         field = stream.water() if vortices else None
     tank, shown = _framing(swim, frame.position)
+    if field is not None and field.density.shape[1] == 1 and len(tank):
+        shown = tank  # with the whole street behind
     axes = _axes(*VIEWS[view])
     extent = np.ptp(np.array(list(itertools.product(*shown.T))) @ axes.T, axis=0)[:2].clip(1e-6)
     width, height = size or (WIDTH, round(np.clip(WIDTH * ((1 - 2 * SIDES) * extent[1] / extent[0] + ABOVE + BELOW),

@@ -70,8 +70,8 @@ Eigen::Vector3d bounded_gravity(const Model& model) {
     Eigen::Vector3d gravity = model.parameters.gravity;
     for (const PeriodicAxis& axis : model.periodic) gravity[axis.axis] = 0;
     if (model.water_box && !model.body.particles.empty())  // less what the water carries
-        gravity *= 1 - model.water_box->displaced_mass(model.body.spacing) *
-                           model.inverse_mass[model.body.particles.front()];
+        gravity *=
+            1 - model.water_box->displaced_mass(model.body.spacing) * model.inverse_mass[model.body.particles.front()];
     return gravity;
 }
 
@@ -186,8 +186,8 @@ struct LawWatch::Parts {
         return own;
     }
 
-    /// No part of a body of length L that beats f times a second goes faster than 2 pi f L, nor a slender one slower for
-    /// a small amplitude: its curvature is that over its width.
+    /// No part of a body of length L that beats f times a second goes faster than 2 pi f L, nor a slender one slower
+    /// for a small amplitude: its curvature is that over its width.
     static double speed_of(const Gait& gait, double length) {
         double largest = 0;
         for (const double amplitude : gait.amplitude) largest = std::max(largest, std::abs(amplitude));

@@ -36,6 +36,9 @@ abstract class FakeSimulatorTest extends CommandTest {
         List<String> arguments = new ArrayList<>(List.of("evolve", "--output-dir", path(runName)));
         arguments.addAll(List.of("--population", "8", "--seed", "5", "--generations", "" + generations));
         arguments.addAll(List.of(more));
+        if (!arguments.contains("--scene") && !arguments.contains("--creature")) {
+            arguments.addAll(List.of("--creature", "1"));
+        }
         return natator(arguments);
     }
 }
