@@ -86,7 +86,7 @@ TEST(Swimmer, MidlineKeepsItsLengthAndSectionsTurnWithIt) {
     for (const std::string& name : swim_case_names())
         for (const auto& [variant, one] : read_swim_case(name).variants)
             for (const double beats : {0.0, 0.2, 3.1, 4.25, 5.55, 6.8}) {
-                if (!one.deformation.terms.empty()) continue;
+                if (!one.deformation.terms.empty() || one.endless) continue;
                 const Places line = one.bent(midline(400), length, beats);
                 double sum = 0;
                 for (std::size_t k = 1; k < line.size(); ++k) {
@@ -373,11 +373,11 @@ TEST(LatticeSwim, PressureAndFrictionAreToldApart) {
 /// other way reverses it, and it neither drifts nor turns.
 TEST(LatticeSwim, EndlessSheetGoesAsTheoryHas) {
     Swimmer sheet = swimmer("endless-sheet", "kd 0.2");
-    const LatticeBeat one = last_beat(sheet, 2, 0.15, 48);
+    const LatticeBeat one = last_beat(sheet, 2, 0.15, 64);
     EXPECT_NEAR(one.speed, 0.00884, 0.1 * 0.00884);
     EXPECT_NEAR(one.lateral, 0, 1e-5);
     sheet.waves = -2;
-    EXPECT_NEAR(last_beat(sheet, 2, 0.15, 48).speed, -one.speed, 1e-5);
+    EXPECT_NEAR(last_beat(sheet, 2, 0.15, 64).speed, -one.speed, 1e-5);
 }
 
 /// It goes where it is led, the water holds it back, and all that it gives the water is what that takes.
