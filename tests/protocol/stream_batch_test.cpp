@@ -132,10 +132,11 @@ std::string swim_of(int k, int swims, int place, const std::vector<std::string>&
     for (int i = 0; i < swims; ++i) {
         const int start = i == place ? 3 + k : 50 + i;
         EXPECT_EQ(client.ask(i, {{"do", "reset"}, {"start", start}})["ok"], true);
-        if (i == place && k == 1)
+        if (i == place && k == 1) {
             EXPECT_EQ(
                 client.ask(i, {{"do", "overrides"}, {"overrides", {{"solver", {{"dynamicFriction", 0.3}}}}}})["ok"],
                 true);
+        }
     }
     for (int turn = 0; turn < 3; ++turn) {
         std::vector<std::string> all;
