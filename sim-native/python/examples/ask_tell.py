@@ -1,5 +1,6 @@
-"""An optimizer outside of natator, here pycma: ask_tell.py RUN [options of natator evolve]. The same command goes on with an interrupted RUN."""
+"""An optimizer outside of natator, here pycma. The same command goes on with an interrupted run. Other options are those of natator evolve."""
 
+import argparse
 import json
 import os
 import subprocess
@@ -7,7 +8,10 @@ import sys
 
 import cma
 
-run, *options = sys.argv[1:]
+parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
+parser.add_argument("run", help="its folder")
+arguments, options = parser.parse_known_args()
+run = arguments.run
 command = ["resume", run] if os.path.exists(f"{run}/config.json") else ["evolve", "--optimizer", "external", "--output-dir", run]
 with subprocess.Popen([os.environ.get("NATATOR", "natator"), *command, *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as natator:
     for line in natator.stdout:
