@@ -66,7 +66,7 @@ void StreamBatch<Real>::run(LineQueue& commands) {
         carry_out_waiting();
         for (auto& swim : swims_) swim->offer();
         write();
-        const bool ended = std::ranges::all_of(swims_, [](const auto& swim) { return swim->ended(); });
+        const bool ended = std::all_of(swims_.begin(), swims_.end(), [](const auto& swim) { return swim->ended(); });
         if (ended || commands.exhausted()) return;
         std::optional<LineQueue::Clock::time_point> next;
         for (const auto& swim : swims_)

@@ -63,7 +63,7 @@ stream::Step read_step(const json& value) {
     std::vector<const char*> given;
     for (const char* key : {"drive", "scale", "offset"})
         if (value.contains(key)) given.push_back(key);
-    const bool each = std::ranges::any_of(given, [&](const char* key) { return has_rows(value, key); });
+    const bool each = std::any_of(given.begin(), given.end(), [&](const char* key) { return has_rows(value, key); });
     if (!each && !given.empty()) step.steer.push_back(read_steer(value));
     if (!each) return step;
     if (given.size() > 1 && value.contains("drive"))
