@@ -1,13 +1,13 @@
 #!/bin/bash
 # Stands for natator-sim in tests: speaks its protocol, but swims by a formula. The scene says what goes wrong:
-# thesis/… and pool/… nothing; fault/NAME the fault below; fault/mixed, fault/idle and fault/chaos one of many faults for
+# thesis/…, pool/… and plane/loach nothing; fault/NAME the fault below; fault/mixed, fault/idle and fault/chaos one of many faults for
 # some ids. Made of shell builtins, so that it starts and answers in a few milliseconds.
 here=${0%/*}
 
 # ok ID DISTANCE, by the scheme that $request asks for, else the scene's
 ok() {
     local hash digits=${2//[!0-9]/} scheme=flex more=
-    if [[ $request = *'"scheme":"conserving"'* || $scene = pool/* && $request != *'"scheme":"flex"'* ]]; then
+    if [[ $request = *'"scheme":"conserving"'* || $scene = p[ol]*/* && $request != *'"scheme":"flex"'* ]]; then
         scheme=conserving
         more='"swimming":{"tailAmplitude":0.25,"strouhal":0.3125,"reynolds":131.4,"swimmingNumber":409.6},"work":'$work,
     fi
@@ -170,7 +170,7 @@ describe() {
     thesis/tank) actuators=0 ;;
     thesis/creature-2 | pool/creature-2) actuators=8 ;;
     thesis/creature-3 | pool/creature-3) actuators=5 ;;
-    thesis/* | pool/* | fault/*) actuators=2 ;;
+    thesis/* | pool/* | plane/loach | fault/*) actuators=2 ;;
     goals/*) actuators=2 goals=',"goals":["turn"]' ;;
     *)
         echo "natator-sim: scene is \"$1\"; expected a named scene or a file" >&2

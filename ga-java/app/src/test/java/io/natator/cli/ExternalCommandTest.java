@@ -24,7 +24,7 @@ import org.junit.jupiter.api.Timeout;
 @Timeout(value = 10, unit = TimeUnit.MINUTES)
 class ExternalCommandTest extends CommandTest {
 
-    private static final String EVOLVE = "evolve --optimizer external --population 4 --generations 3 --seed 5";
+    private static final String EVOLVE = "evolve --creature 1 --optimizer external --population 4 --generations 3 --seed 5";
 
     private Path log;
 
