@@ -55,7 +55,8 @@ bool LineQueue::take_bytes(std::string_view bytes) {
         if (line_.size() < letters && !limits_.letters.empty()) {  // byte by byte, for it may become a message
             line_ += bytes.front();
             bytes.remove_prefix(1);
-            if (std::ranges::find(limits_.letters, line_) != limits_.letters.end()) of_message_ = head - letters;
+            if (std::find(limits_.letters.begin(), limits_.letters.end(), line_) != limits_.letters.end())
+                of_message_ = head - letters;
             if (line_.back() != '\n') continue;
             line_.pop_back();
         } else {

@@ -44,7 +44,7 @@ SimulationSetup read_setup(const StreamOptions& options) {
 }
 
 stream::Fields read_fields(const std::vector<std::string>& names) {
-    if (names.size() > 1 && std::ranges::find(names, "none") != names.end())
+    if (names.size() > 1 && std::find(names.begin(), names.end(), "none") != names.end())
         throw InputError(
             "--fields: none stands beside others; must be none alone, or some of position, velocity, density");
     stream::Fields fields{.position = false};

@@ -42,8 +42,7 @@ void add_gait(ByteWriter& to, const Gait& gait) {
     const auto& [frequency, amplitude, phase, power, offset] = gait;
     to.add(frequency), to.add(amplitude), to.add(phase), to.add(power), to.add(offset);
 }
-/// Templates use this and content_of, which clang 14 overlooks.
-[[maybe_unused]] void read_gait(ByteReader& from, Gait& gait) {
+void read_gait(ByteReader& from, Gait& gait) {
     auto& [frequency, amplitude, phase, power, offset] = gait;
     from.read(frequency), from.read(amplitude), from.read(phase), from.read(power), from.read(offset);
 }
@@ -67,7 +66,7 @@ bool same_overrides(const std::string& a, const std::string& b) {
 }
 
 /// What stands between head and tail, of bytes that are whole.
-[[maybe_unused]] std::string_view content_of(std::string_view saved) {
+std::string_view content_of(std::string_view saved) {
     if (saved.size() < letters.size() || !saved.starts_with(letters)) refuse_saved("is no saved state");
     std::uint64_t size = 0, sum = 0;
     if (saved.size() >= head_size) std::memcpy(&size, saved.data() + letters.size(), sizeof size);
@@ -232,6 +231,10 @@ bool Simulation<Real>::restore(std::string_view saved) {
     return changed;
 }
 
+template std::uint64_t Simulation<float>::digest(Simulation<float>::Run&) const;
+template Simulation<float>::Moment Simulation<float>::read(std::string_view) const;
+template std::uint64_t Simulation<double>::digest(Simulation<double>::Run&) const;
+template Simulation<double>::Moment Simulation<double>::read(std::string_view) const;
 template std::string Simulation<float>::save();
 template std::string Simulation<double>::save();
 template bool Simulation<float>::restore(std::string_view);
