@@ -31,7 +31,8 @@ class KilledRunTest {
 
     private static final List<String> HOW = List.of("--simulator", "resident", "--workers", "2", "--no-cache",
             "--timeout", "3600");
-    private static final List<String> SETTINGS = List.of("--creature", "1", "--population", "30", "--evaluations", "400");
+    private static final List<String> SETTINGS = List.of("--creature", "1", "--population", "30", "--evaluations",
+            "400");
     /** Answers that a simulator gives at most until it waits to be killed: no run gets to its end between two kills. */
     private static final String ANSWERS = "4";
     private static final int TIMES = Integer.getInteger("natator.kills", 1);

@@ -31,7 +31,8 @@ class PageCommandTest extends CommandTest {
     @Test
     void theBestOfARun() throws IOException {
         Path run = folder.resolve("run");
-        ok(natator("evolve --creature 1 --population 6 --generations 1 --duration 0.1", "--output-dir", run.toString()));
+        ok(natator("evolve --creature 1 --population 6 --generations 1 --duration 0.1", "--output-dir",
+                run.toString()));
         Path page = folder.resolve("page.html");
 
         ok(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
@@ -43,7 +44,8 @@ class PageCommandTest extends CommandTest {
     @Test
     void aStoredGaitThatSwimsOtherwiseNowIsNamed() throws IOException {
         Path run = folder.resolve("run");
-        ok(natator("evolve --creature 1 --population 2 --generations 0 --duration 0.1", "--output-dir", run.toString()));
+        ok(natator("evolve --creature 1 --population 2 --generations 0 --duration 0.1", "--output-dir",
+                run.toString()));
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
         String[] again = {"page", run.toString(), "--no-water", "--force", "--output",
                 path("page.html")};
