@@ -72,7 +72,7 @@ std::string model_key(const Model& model) {
         add_body(key, body);
         add(key, frequency, amplitude, phase, power, offset, first_actuator);
     }
-    return key.bytes();
+    return key.take();
 }
 
 std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
@@ -83,7 +83,7 @@ std::string settled_state_key(const Model& model, const Settling& settling, int 
     const auto& [updates, step, settling_substeps] = settling;
     add(key, updates, step, settling_substeps);
     add_start(key, model);
-    return key.bytes();
+    return key.take();
 }
 
 }  // namespace natator

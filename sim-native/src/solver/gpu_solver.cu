@@ -96,7 +96,7 @@ public:
     std::string save() const {
         ByteWriter saved;
         saved.add(muscle_work_);
-        return saved.bytes();
+        return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);

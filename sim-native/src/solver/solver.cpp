@@ -157,7 +157,7 @@ public:
         ByteWriter saved;
         saved.add(muscle_work_);
         if (coupling_) coupling_->save(saved);
-        return saved.bytes();
+        return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
