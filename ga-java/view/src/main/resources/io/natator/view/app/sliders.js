@@ -10,6 +10,7 @@ export class Slider {
   #error;
   #onChange;
   #pending = 0;
+  #isTyped = false;
   #label;
   #expected;
 
@@ -29,7 +30,9 @@ export class Slider {
     this.#error = error;
     this.#onChange = onChange;
     this.#range.addEventListener('input', () => this.#changed(this.#range.value));
+    this.#number.addEventListener('input', () => this.#isTyped = true);
     this.#number.addEventListener('change', () => this.#changed(this.#number.value));
+    this.#number.addEventListener('blur', () => this.#isTyped = false);
   }
 
   get inputs() {
@@ -40,9 +43,9 @@ export class Slider {
     return Number(this.#number.value);
   }
 
-  /** Shows what is in force, unless the user is just changing it. */
+  /** Shows what is in force, unless the user is just changing it: has typed and not left the field, or waits for an answer. */
   show(value) {
-    if (this.#pending === 0) {
+    if (this.#pending === 0 && !this.#isTyped) {
       this.#range.value = value;
       this.#number.value = Math.round(1000 * value) / 1000;
       this.#fail(null);
@@ -55,6 +58,7 @@ export class Slider {
   }
 
   async #changed(text) {
+    this.#isTyped = false;
     const value = Number(text);
     const {low, high, text: expected} = this.#expected;
     if (text === '' || !Number.isFinite(value) || value < low || value > high) {
