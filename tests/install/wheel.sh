@@ -64,12 +64,15 @@ cp "$wheel" "$root/tried/"
 said=$(inside /tried/venv/bin/pip install --no-deps "/tried/$name" 2>&1) && exit 1
 printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
 grep -q 'is not a supported wheel on this platform' <<<"$said"
-inside python3 -m zipfile -e "/tried/$name" /tried/unpacked  # as by someone who insists
-program=/tried/unpacked/natator/program/bin/natator-sim
-chmod +x "$root$program"
-said=$(inside "$program" --version 2>&1) && exit 1
-printf '… and its program: %s\n' "$(head -1 <<<"$said")"
-grep -q "version \`GLIBC_.*' not found" <<<"$said"
+forced=/tried/${name%%-manylinux*}-any.whl  # as by someone who insists
+cp "$wheel" "$root$forced"
+inside /tried/venv/bin/pip install --quiet --ignore-requires-python "$forced"
+said=$(inside /tried/venv/bin/natator-sim --version 2>&1) && exit 1
+printf '… and its program: %s\n' "$said"
+[[ $(wc -l <<<"$said") == 1 && $said == *': needs glibc 2.'*', this system has 2.31: '* ]]
+said=$(inside /tried/venv/bin/python -c "$swim" 2>&1 | tail -1)
+printf '… and its client: %s\n' "$said"
+grep -q "C library is too old for it; build it here" <<<"$said"
 
 $with_source || exit 0
 "$python" -c 'from scikit_build_core.build import build_sdist; build_sdist("build/wheel")' >/dev/null
