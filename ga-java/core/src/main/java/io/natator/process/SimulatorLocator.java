@@ -1,6 +1,7 @@
 package io.natator.process;
 
 import io.natator.base.InvalidInputException;
+import io.natator.protocol.RequestRejectedException;
 import java.io.File;
 import java.io.IOException;
 import java.io.InputStream;
@@ -11,6 +12,7 @@ import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.security.CodeSource;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 
 /**
@@ -35,6 +37,7 @@ public final class SimulatorLocator {
     private static final Path BUILT = Path.of("build", "release", "bin", NAME);
     private static final Path DATA = Path.of("share", "natator");
     private static final Path BIN = Path.of("bin", NAME);
+    private static final byte[] ELF = {0x7f, 'E', 'L', 'F'};
 
     private SimulatorLocator() {
     }
@@ -152,17 +155,38 @@ public final class SimulatorLocator {
     }
 
     /**
-     * Refuses a program of another version. One that does not say its version is told at its first use.
+     * Refuses a program of another version, and one of machine code that does not run on this system. Others that do not say
+     * their version are told at their first use.
      *
      * @param version this jar's; null of classes outside one, for which any program will do
      */
     static void requireVersion(Path program, String version) throws InterruptedException {
-        String expected = version == null ? null : version.replaceFirst("-SNAPSHOT$", "");
-        String found = expected == null ? null : ProgramInfo.version(program);
+        if (version == null) {
+            return;
+        }
+        String expected = version.replaceFirst("-SNAPSHOT$", "");
+        String found = null;
+        try {
+            found = ProgramInfo.version(program);
+        } catch (RequestRejectedException e) {
+            if (isMachineCode(program)) {
+                throw new InvalidInputException(program + " does not run here; expected " + NAME
+                        + " for this kind of processor and a C library no newer than this system's: build it on this machine by mvn compile in a "
+                        + "checkout, or name another program by --simulator-path or " + VARIABLE, e);
+            }
+        }
         if (found != null && !found.equals(expected)) {
             throw new InvalidInputException(program + " is " + NAME + " " + found + ", this is natator " + expected
                     + "; expected the same version: install or build both again, or name another program by --simulator-path or "
                     + VARIABLE);
+        }
+    }
+
+    private static boolean isMachineCode(Path program) {
+        try (InputStream file = Files.newInputStream(program)) {
+            return Arrays.equals(file.readNBytes(ELF.length), ELF);
+        } catch (IOException e) {
+            return false;
         }
     }
 }

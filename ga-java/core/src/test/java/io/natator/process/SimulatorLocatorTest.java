@@ -98,11 +98,25 @@ class SimulatorLocatorTest {
                         + "again, or name another program by --simulator-path or NATATOR_SIM");
     }
 
+    /** As one for another kind of processor, or another C library. */
+    @Test
+    void machineCodeThatDoesNotRunIsRefusedInOneLineWithTheWayOut() throws IOException, InterruptedException {
+        Path program = program("natator-sim", "\u007fELF");
+        SimulatorLocator.requireVersion(program, null);
+
+        assertThatThrownBy(() -> SimulatorLocator.requireVersion(program, "0.2.0"))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage(program
+                        + " does not run here; expected natator-sim for this kind of processor and a C library no newer than "
+                        + "this system's: build it on this machine by mvn compile in a checkout, or name another program by "
+                        + "--simulator-path or NATATOR_SIM");
+    }
+
     /** Its first use tells more. */
     @Test
     @Timeout(30)
     void aProgramThatSaysNoVersionPasses() throws IOException, InterruptedException {
-        for (String text : List.of("#!/bin/sh\n", "#!/bin/sh\nexec sleep 3600\n", "#!/bin/sh\nexit 1\n", "\u007fELF")) {
+        for (String text : List.of("#!/bin/sh\n", "#!/bin/sh\nexec sleep 3600\n", "#!/bin/sh\nexit 1\n")) {
             SimulatorLocator.requireVersion(program("natator-sim", text), "0.3.0");
         }
     }
