@@ -14,6 +14,7 @@ import java.security.CodeSource;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Map;
 
 /**
  * Finds the native program: the first of
@@ -38,6 +39,7 @@ public final class SimulatorLocator {
     private static final Path DATA = Path.of("share", "natator");
     private static final Path BIN = Path.of("bin", NAME);
     private static final byte[] ELF = {0x7f, 'E', 'L', 'F'};
+    private static final Map<String, Integer> MACHINES = Map.of("amd64", 0x3e, "aarch64", 0xb7);
 
     private SimulatorLocator() {
     }
@@ -165,14 +167,16 @@ public final class SimulatorLocator {
             return;
         }
         String expected = version.replaceFirst("-SNAPSHOT$", "");
+        Integer machine = machine(program);
+        if (machine != null && !machine.equals(MACHINES.getOrDefault(System.getProperty("os.arch"), machine))) {
+            throw runsElsewhere(program, null);  // Started, it would be taken for a script.
+        }
         String found = null;
         try {
             found = ProgramInfo.version(program);
         } catch (RequestRejectedException e) {
-            if (isMachineCode(program)) {
-                throw new InvalidInputException(program + " does not run here; expected " + NAME
-                        + " for this kind of processor and a C library no newer than this system's: build it on this machine by mvn compile in a "
-                        + "checkout, or name another program by --simulator-path or " + VARIABLE, e);
+            if (machine != null) {
+                throw runsElsewhere(program, e);
             }
         }
         if (found != null && !found.equals(expected)) {
@@ -182,11 +186,21 @@ public final class SimulatorLocator {
         }
     }
 
-    private static boolean isMachineCode(Path program) {
+    private static InvalidInputException runsElsewhere(Path program, Exception cause) {
+        return new InvalidInputException(program + " does not run here; expected " + NAME
+                + " for this kind of processor and a C library no newer than this system's: build it on this machine by mvn compile in a "
+                + "checkout, or name another program by --simulator-path or " + VARIABLE, cause);
+    }
+
+    /** The kind of processor that machine code is for, e_machine of ELF; null of what is none. */
+    private static Integer machine(Path program) {
         try (InputStream file = Files.newInputStream(program)) {
-            return Arrays.equals(file.readNBytes(ELF.length), ELF);
+            byte[] header = file.readNBytes(20);
+            return header.length == 20 && Arrays.equals(header, 0, ELF.length, ELF, 0, ELF.length)
+                    ? (header[18] & 0xff) + ((header[19] & 0xff) << 8)
+                    : null;
         } catch (IOException e) {
-            return false;
+            return null;
         }
     }
 }
