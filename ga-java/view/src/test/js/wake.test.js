@@ -112,10 +112,12 @@ test('a tank that moves along leaves the swimmer where it is over ground', () =>
     return [...one.origin, one.position[0], one.position[2]];
   };
 
-  const places = [frame(0, 0, 1, 1), frame(0.1, 0.1, 1.1, 1.05), frame(0.2, 0.2, 1, 0.9), frame(0.4, 0.4, 0.8, 1)];
+  const places = [frame(0, 0, 1, 1), frame(0.1, 0.1, 1.1, 1.05), frame(0.2, 0.2, 1, 0.9), frame(0.5, 0.5, 1.1, 1.05)];
 
-  const wanted = [[0, 0, 0, 1, 1], [0, 0, 0, 1.1, 1.05], [0.2, 0, 0.2, 1.2, 1.1], [0.6, 0, 0.2, 1.4, 1.2]];
+  const wanted = [[0, 0, 0, 1, 1], [0, 0, 0, 1.1, 1.05], [0.2, 0, 0.2, 1.2, 1.1], [0.4, 0, 0.2, 1.5, 1.25]];
   places.forEach((place, i) => place.forEach((one, k) => near(one, wanted[i][k])));
+  [[0.2, [0.2, 0, 0.2]], [0.32, [0.2, 0, 0.2]], [0.42, [0.4, 0, 0.2]], [0.5, [0.4, 0, 0.2]]].forEach(([time, origin]) =>
+    tank.originAt(time).forEach((one, axis) => near(one, origin[axis])));
 });
 
 test('water is read byte for byte, and told from a frame', () => {

@@ -8,7 +8,9 @@ export class MovingTank {
   #scene = null;
   #axes = [];
   #step = 0;
-  #origin = [0, 0, 0];
+  /** Where the body's middle is in the tank at first: it moves once that is a step away. */
+  #home = null;
+  #before = null;
   #last = null;
 
   /**
@@ -22,8 +24,7 @@ export class MovingTank {
     this.#step = movingTank?.step ?? 0.4;
     this.#scene = scene;
     if (scene.restarted) {
-      this.#origin = [0, 0, 0];
-      this.#last = null;
+      this.#home = null;
     }
   }
 
@@ -34,24 +35,39 @@ export class MovingTank {
    * @param {Frame} frame
    */
   follow(frame) {
+    frame.origin = [0, 0, 0];
     if (this.#axes.length === 0) {
-      frame.origin = [0, 0, 0];
       return;
     }
-    const {time, distance} = frame;
-    const velocity = Array.from(frame.velocity);
+    const {time, distance, velocity} = frame;
     const centre = centreOf(this.#scene.body, frame.position, [0, 0, 0]);
-    const last = this.#last ?? {time, distance, velocity, centre};
+    const now = {time, distance, velocity, centre, origin: frame.origin};
+    const last = this.#home === null ? now : this.#last;
+    this.#home ??= [...centre];
     for (const axis of this.#axes) {
       const gone = axis === 0 ? distance - last.distance : (time - last.time) * (velocity[axis] + last.velocity[axis]) / 2;
-      this.#origin[axis] += this.#step * Math.round((gone - centre[axis] + last.centre[axis]) / this.#step);
-    }
-    this.#last = {time, distance, velocity, centre};
-    frame.origin = [...this.#origin];
-    for (const axis of this.#axes) {
+      frame.origin[axis] = last.origin[axis] + this.#step * Math.round((gone - centre[axis] + last.centre[axis] - last.origin[axis]) / this.#step);
+      centre[axis] += frame.origin[axis];
       for (let i = axis; i < frame.position.length; i += 3) {
-        frame.position[i] += this.#origin[axis];
+        frame.position[i] += frame.origin[axis];
       }
     }
+    this.#before = last;
+    this.#last = now;
+  }
+
+  /** How far the tank had moved at a time between the last two frames, from one of which to the other the body goes evenly. */
+  originAt(time) {
+    if (this.#axes.length === 0) {
+      return [0, 0, 0];
+    }
+    const [from, to] = [this.#before, this.#last];
+    const share = to.time > from.time ? Math.min(1, Math.max(0, (time - from.time) / (to.time - from.time))) : 1;
+    return to.origin.map((end, axis) => {
+      const begin = from.origin[axis];
+      const ahead = from.centre[axis] + share * (to.centre[axis] - from.centre[axis]) - begin - this.#home[axis];
+      const moved = begin + this.#step * Math.trunc(ahead / this.#step);
+      return share === 1 ? end : Math.min(Math.max(begin, end), Math.max(Math.min(begin, end), moved));
+    });
   }
 }

@@ -157,13 +157,12 @@ export class View {
   #take() {
     for (let buffer = this.#connection.takeFrame(); buffer !== null; buffer = this.#connection.takeFrame()) {
       if (this.scene !== null && sceneNumber(buffer) >= this.#firstScene) {
-        const before = this.frame;
         this.frame = decodeFrame(buffer, this.scene);
         this.#tank.follow(this.frame);
         this.#isFresh = true;
         this.#isNew = true;
         this.stage.setFrame(this.frame);
-        this.#placeWater(before);
+        this.#placeWater();
         this.history.add(this.frame, this.scene.bodyLength, this.scene.gait?.frequency ?? 0);
         return true;
       }
@@ -171,9 +170,10 @@ export class View {
     return false;
   }
 
-  /** Asks for the water of now where the picture shows it, unless it has that, or an answer is still to come. */
+  /** Asks for the water of now where the picture shows it, unless it has that, or what was asked for is still to be shown. */
   async #askWater(now) {
-    if (!this.stage.wantsWater || !this.isReady || this.#isAsking || now < this.#nextWater || this.#waterFrame === this.frame.frame) {
+    const isWaiting = this.#isAsking || this.#water !== null;
+    if (!this.stage.wantsWater || !this.isReady || isWaiting || now < this.#nextWater || this.#waterFrame === this.frame.frame) {
       return;
     }
     this.#isAsking = true;
@@ -186,26 +186,18 @@ export class View {
     if (this.scene !== null && water.scene >= this.#firstScene) {
       this.#water = water;
       this.#waterFrame = water.frame;
-      this.#placeWater(this.frame);
+      this.#placeWater();
     }
   }
 
-  /**
-   * Shows water once the frame that it is of, or a later one, is shown: it tells where the tank was. Between two frames of
-   * which only the later is in a tank that has moved that is not known, and the water is left out.
-   *
-   * @param {Frame|null} before the frame before the present one
-   */
-  #placeWater(before) {
+  /** Shows water once the frame that it is of, or a later one, is shown: those tell where the tank was. */
+  #placeWater() {
     if (this.#water === null || !this.#isFresh || this.frame.frame < this.#water.frame) {
       return;
     }
-    const {origin} = this.frame;
-    if (this.frame.frame === this.#water.frame || `${before?.origin}` === `${origin}`) {
-      const began = performance.now();
-      this.stage.setWater({...this.#water, origin});
-      this.#nextWater = began + Math.max(WATER_MS, WATER_REST * (performance.now() - began));
-    }
+    const began = performance.now();
+    this.stage.setWater({...this.#water, origin: this.#tank.originAt(this.#water.time)});
+    this.#nextWater = began + Math.max(WATER_MS, WATER_REST * (performance.now() - began));
     this.#water = null;
   }
 
