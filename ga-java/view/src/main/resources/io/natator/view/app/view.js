@@ -16,6 +16,8 @@ const WATER_MS = 80;
 const WATER_REST = 4;
 /** … and so long where it was refused. */
 const REFUSED_MS = 5000;
+/** Where all stands still, water waits so long for its frame, which may have been dropped. */
+const PATIENCE_MS = 300;
 
 /** What a scene solves without water, gravity and walls; for scenes that have no such variant. */
 const VACUUM_PATCH = {
@@ -50,6 +52,7 @@ export class View {
   /** Water that waits for the frame that it is of. */
   #water = null;
   #waterFrame = -1;
+  #waterCame = 0;
   #isAsking = false;
   #nextWater = 0;
 
@@ -145,6 +148,9 @@ export class View {
 
   /** Draws what is new; `now` in milliseconds. */
   draw(now) {
+    if (this.#water !== null && this.isPaused && now > this.#waterCame + PATIENCE_MS) {
+      this.#showWater(this.frame.origin);
+    }
     this.#askWater(now);
     if (this.stage.draw(now, this.isPaused) && this.#isNew) {
       this.#meter.drawn(this.frame.time);
@@ -186,17 +192,21 @@ export class View {
     if (this.scene !== null && water.scene >= this.#firstScene) {
       this.#water = water;
       this.#waterFrame = water.frame;
+      this.#waterCame = performance.now();
       this.#placeWater();
     }
   }
 
   /** Shows water once the frame that it is of, or a later one, is shown: those tell where the tank was. */
   #placeWater() {
-    if (this.#water === null || !this.#isFresh || this.frame.frame < this.#water.frame) {
-      return;
+    if (this.#water !== null && this.#isFresh && this.frame.frame >= this.#water.frame) {
+      this.#showWater(this.#tank.originAt(this.#water.time));
     }
+  }
+
+  #showWater(origin) {
     const began = performance.now();
-    this.stage.setWater({...this.#water, origin: this.#tank.originAt(this.#water.time)});
+    this.stage.setWater({...this.#water, origin});
     this.#nextWater = began + Math.max(WATER_MS, WATER_REST * (performance.now() - began));
     this.#water = null;
   }

@@ -68,6 +68,7 @@ export class Wake {
   show(kind) {
     if (kind !== this.#kind) {
       this.#kind = kind;
+      this.#own = [0, 0];
       this.#update();
     }
   }
@@ -134,7 +135,7 @@ export class Wake {
       ofVertex[i] = turns[x + across * (y + up * z)];
     }
     this.vortices = {vertices, triangles, turns: ofVertex, cell};
-    this.#follow(quantile(ofVertex, 0.9, Math.abs));
+    this.#follow(quantile(ofVertex, 0.75, Math.abs));
   }
 
   /** The ends of the scale keep to round numbers, and do not change for little. */
