@@ -6,7 +6,6 @@ import {Figures} from './figures.js';
 import {CAMERAS} from './cameras.js';
 import {listen} from './keys.js';
 import {Legend} from './legend.js';
-import {errorOf} from './live.js';
 import {listenToBanner, showBanner, showStatus} from './notices.js';
 import {figures} from './probe.js';
 import {expanded} from './recording.js';
@@ -47,7 +46,7 @@ class LivePage {
   constructor(openSocket) {
     this.#theme = new Theme('auto', () => this.#themeChanged());
     const {scene} = this.#swimmer;
-    const first = {scene, overrides: null, gait: waveGait(this.#settings, 8)};
+    const first = {scene, overrides: null, gait: this.#gait};
     this.#view = new View(document.querySelector('.picture'), first, null, SWIMMERS.map(one => one.scene), {
       scene: () => this.#sceneChanged(),
       status: (state, text) => showStatus(state, state === 'open' ? 'computed here' : text),
@@ -97,7 +96,7 @@ class LivePage {
   }
 
   get #gait() {
-    return waveGait(this.#settings, this.#view.scene?.actuators ?? 8);
+    return waveGait(this.#settings, this.#swimmer.actuators);
   }
 
   /** What a slider changes in the scene. */
@@ -115,8 +114,7 @@ class LivePage {
     this.#settings = {...this.#settings, ...this.#swimmer.wave, stiffness: 1};
     this.#own = null;
     const overrides = {creature: this.#swimmer.creature, ...this.#patch('viscosity')};
-    const error = await this.#view.setScene(this.#swimmer.scene, overrides, null) ?? errorOf(await this.#view.setGait(this.#gait));
-    this.#report(error);
+    this.#report(await this.#view.setScene(this.#swimmer.scene, overrides, this.#gait));
     this.#show();
   }
 

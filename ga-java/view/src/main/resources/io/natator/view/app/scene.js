@@ -180,7 +180,7 @@ export function muscleChange(muscle, frame) {
 }
 
 /**
- * Whether the water is on a lattice. Recordings have no definition, and nothing of such water.
+ * Whether the water is on a lattice. The definition of a recording has `fluid` only where that water is in it.
  *
  * @param {Scene} scene
  */
@@ -211,7 +211,7 @@ export function waterShown(water, has) {
 
 /**
  * What there is to be seen in some scenes: water of particles, water on a lattice, a wake (in any water), vortices in space,
- * muscles, bodies, others (companions and obstacles). Of recordings no wake is known.
+ * muscles, bodies, others (companions and obstacles). Of recordings a wake is known where their definition has `fluid`.
  *
  * @param {Scene[]} scenes
  */
@@ -220,8 +220,8 @@ export function contents(scenes) {
   return {
     water: scenes.some(({fluid}) => fluid[1] > 0),
     lattice: scenes.some(hasLattice),
-    wake: scenes.some(scene => isWet(scene) && !!scene.definition),
-    vortices: scenes.some(scene => isWet(scene) && !!scene.definition && !(hasLattice(scene) && lattice(scene).count[1] === 1)),
+    wake: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid),
+    vortices: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid && !(hasLattice(scene) && lattice(scene).count[1] === 1)),
     muscles: scenes.some(({muscles}) => muscles.length > 0),
     bodies: scenes.some(({body}) => body.length > 0),
     others: scenes.some(({particles, fluid, body}) => particles > fluid[1] + body.length),
