@@ -191,9 +191,8 @@ final class PageCommand implements Callable<Integer> {
         }
         String name = swimmer.run() == null ? swimmer.name()
                 : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
-                + " s", swim.scene(), swim.json(), swim.frames(),
-                stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));
+        return swim.with(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
+                + " s", stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));
     }
 
     private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {

@@ -30,6 +30,14 @@ public sealed interface StreamMessage {
     }
 
     /**
+     * {@code WATR}: the water on a grid.
+     *
+     * @param body as the simulator wrote it, from {@code number} on, little-endian; read-only
+     */
+    record Water(ByteBuffer body) implements StreamMessage {
+    }
+
+    /**
      * {@code ANSW}: the answer to one command.
      *
      * @param id    the command's; a null node without one

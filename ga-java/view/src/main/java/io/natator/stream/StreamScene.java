@@ -72,6 +72,11 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         gait = present(gait);
     }
 
+    /** Whether it is plane flow: its water is on a lattice one cell deep. */
+    public boolean isPlane() {
+        return "lattice".equals(scheme) && definition.path("fluid").path("count").path(1).asInt() == 1;
+    }
+
     private static JsonNode present(JsonNode node) {
         return node == null || node.isNull() ? null : node;
     }

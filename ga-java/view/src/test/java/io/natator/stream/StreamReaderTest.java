@@ -119,6 +119,26 @@ class StreamReaderTest {
         assertThat(reader.next()).isNull();
     }
 
+    /** Of 3 by 1 by 2 cells. */
+    @Test
+    void waterIsReadWhole() throws IOException {
+        byte[] body = ByteBuffer.allocate(64 + 16 * 6).order(ByteOrder.LITTLE_ENDIAN).putInt(8, 3).putInt(12, 1)
+                .putInt(16, 2).putFloat(64, 0.5f).array();
+        StreamMessage.Water water = (StreamMessage.Water) reader(new StreamBytes().message("WATR", body)).next();
+
+        assertThat(water.body()).isEqualTo(ByteBuffer.wrap(body));
+        assertThat(water.body().isReadOnly()).isTrue();
+        assertThat(water.body().order()).isEqualTo(ByteOrder.LITTLE_ENDIAN);
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", new byte[60]),
+                "WATR of 60 bytes; expected 64 to 268435456");
+        body[8] = 4;
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", body),
+                "WATR of 160 bytes; expected 192 for its cells");
+        body[11] = (byte) 0xff;
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", body),
+                "WATR of 160 bytes; expected 136902082752 for its cells");
+    }
+
     @Test
     void aNewSceneChangesTheSizeOfFrames() throws IOException {
         ObjectNode second = StreamBytes.scene().put("number", 2);
@@ -161,7 +181,7 @@ class StreamReaderTest {
     @Test
     void otherLettersAreToldOf() {
         assertThatAllOfItThrows(begun().message("\u0001RAM", new byte[4]),
-                "message begins with \"?RAM\"; expected SCEN, FRAM, ANSW or STOP");
+                "message begins with \"?RAM\"; expected SCEN, FRAM, WATR, ANSW or STOP");
     }
 
     @Test

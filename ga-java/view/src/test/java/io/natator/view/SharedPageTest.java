@@ -45,7 +45,7 @@ class SharedPageTest extends BrowserTest {
         Map<String, String> facts = new LinkedHashMap<>();
         facts.put("verdict", "swims: as told");
         facts.put("half step", "<slower>");
-        swim = new Replay(swim.title(), swim.scene(), swim.json(), swim.frames(), facts);
+        swim = swim.with(swim.title(), facts);
         new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
     }
 
