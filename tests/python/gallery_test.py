@@ -34,7 +34,7 @@ class GalleryTest(unittest.TestCase):
     def test_by_default_all_that_have_a_swimmer(self):
         found = gallery.scenes()
         self.assertIn("plane/loach", found)
-        with mock.patch.object(gallery, "scenes", return_value=["pool/water", TANKS[0]]), tempfile.TemporaryDirectory() as folder:
+        with mock.patch.object(gallery, "scenes", return_value=["pool/water", "endless/water", TANKS[0]]), tempfile.TemporaryDirectory() as folder:
             told = []
             self.assertEqual(gallery.write(Path(folder, "page.html"), duration=0.05, told=told.append), 1)
         self.assertEqual([line.split(":")[0] for line in told], TANKS[:1])

@@ -60,7 +60,7 @@ def parser():
     about = "Simulates all bundled scenes that have a swimmer, or some, and writes a page with a moving picture of each."
     command = commands.add_parser("gallery", help=about, description=about)
     command.set_defaults(work=shown, command=command)
-    command.add_argument("scenes", metavar="SCENE", nargs="*", help="default: all, which takes hours of a core, those of lake/ nearly all of it")
+    command.add_argument("scenes", metavar="SCENE", nargs="*", help="default: all; those of lake/ take longest")
     command.add_argument("--duration", type=float, default=2, metavar="SECONDS", help="of each swim; default: %(default)s")
     command.add_argument("-o", "--output", metavar="FILE", default="gallery.html", help="default: %(default)s")
     return all_commands

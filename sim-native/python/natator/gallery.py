@@ -60,8 +60,12 @@ def write(file, names=None, duration=2.0, told=lambda line: None):
 
 
 def _swims(name):
-    with Stream(name) as stream:
-        return stream.actuators > 0
+    """Whether it has a swimmer; without one some can't run at all."""
+    try:
+        with Stream(name) as stream:
+            return stream.actuators > 0
+    except InputError:
+        return False
 
 
 def _description(one):

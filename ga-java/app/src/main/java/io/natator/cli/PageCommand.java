@@ -127,7 +127,8 @@ final class PageCommand implements Callable<Integer> {
         ReplayHtml.Written written = new ReplayHtml(heading, swims, !noWater).write(output,
                 (long) (maxSize * MEGABYTE));
         String precision = written.largestError() > 0
-                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError()) : "no water";
+                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError())
+                : !noWater && swims.stream().anyMatch(swim -> !swim.waters().isEmpty()) ? "with the wake" : "no water";
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
                 written.bytes() / MEGABYTE, written.framesPerSecond(),
                 written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", precision);

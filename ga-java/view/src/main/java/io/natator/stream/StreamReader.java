@@ -112,8 +112,9 @@ public final class StreamReader {
         double expected = WATER_HEAD_BYTES + CELL_BYTES * (double) Integer.toUnsignedLong(body.getInt(8))
                 * Integer.toUnsignedLong(body.getInt(12)) * Integer.toUnsignedLong(body.getInt(16));
         if (length != expected) {
-            throw new StreamException(String.format(Locale.ROOT, "WATR of %d bytes; expected %.0f for its cells", length,
-                    expected));
+            throw new StreamException(
+                    String.format(Locale.ROOT, "WATR of %d bytes; expected %.0f for its cells", length,
+                            expected));
         }
         return new StreamMessage.Water(body);
     }
