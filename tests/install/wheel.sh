@@ -78,7 +78,8 @@ printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
 grep -q 'is not a supported wheel on this platform' <<<"$said"
 forced=/tried/${name%%-manylinux*}-any.whl  # as by someone who insists
 cp "$wheel" "$root$forced"
-inside /tried/venv/bin/pip install --quiet --ignore-requires-python "$forced"
+inside /tried/venv/bin/pip install --quiet numpy
+inside /tried/venv/bin/pip install --quiet --no-deps --ignore-requires-python "$forced"
 said=$(inside /tried/venv/bin/natator-sim --version 2>&1) && exit 1
 printf '… and its program: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 && $said == *': needs glibc 2.'*', this system has 2.31: '* ]]
