@@ -78,12 +78,13 @@ printf 'Debian 11, glibc 2.31: %s\n' "$(head -1 <<<"$said")"
 grep -q 'is not a supported wheel on this platform' <<<"$said"
 forced=/tried/${name%%-manylinux*}-any.whl  # as by someone who insists
 cp "$wheel" "$root$forced"
-inside /tried/venv/bin/pip install --quiet --ignore-requires-python "$forced"
+inside /tried/venv/bin/pip install --quiet numpy
+inside /tried/venv/bin/pip install --quiet --no-deps --ignore-requires-python "$forced"
 said=$(inside /tried/venv/bin/natator-sim --version 2>&1) && exit 1
 printf '… and its program: %s\n' "$said"
 [[ $(wc -l <<<"$said") == 1 && $said == *': needs glibc 2.'*', this system has 2.31: '* ]]
-said=$(inside /tried/venv/bin/python -c "$swim" 2>&1 | tail -1)
-printf '… and its client: %s\n' "$said"
+said=$(inside /tried/venv/bin/python -c "$swim" 2>&1) && exit 1
+printf '… and its client: %s\n' "$(tail -1 <<<"$said")"
 grep -q "C library is too old for it; build it here" <<<"$said"
 
 if $with_extras; then
@@ -100,6 +101,9 @@ print(natator.evolve('bench/small-tank', optimizer='$optimizer', generations=1, 
     use_extra export 'from natator.export import export
 for format in "vtp", "ply", "usd", "usdc", "glb", "csv", "npz":
     print(format, export("bench/small-tank", format, format, duration=0.1)["frames"])'
+    use_extra notebook 'import nbclient, nbformat
+book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("import natator; natator.swim(\"eel\", duration=0.2)")])
+nbclient.NotebookClient(book).execute(); print(*book.cells[0].outputs[0].data)'
     use_extra report 'import matplotlib.pyplot, natator.report'
     use_extra runs 'import mlflow, optuna, tensorboard'
     picture='import natator.picture; print(natator.picture.picture("bench/small-tank", "t.png"))'
