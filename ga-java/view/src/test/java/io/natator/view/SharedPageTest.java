@@ -12,6 +12,7 @@ import io.natator.config.Scheme;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
+import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
@@ -35,18 +36,20 @@ class SharedPageTest extends BrowserTest {
     @TempDir
     private static Path folder;
     private static Path file;
+    private static Replay swim;
+    private static double largestError;
 
     @BeforeAll
     static void write() throws IOException, InterruptedException {
         JsonNode gait = Json.parse(ViewFixture.GAIT.replace('\'', '"'), JsonNode.class);
-        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
+        swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
                 .recording("thesis/creature-1", null, gait, SECONDS).with(Scheme.CONSERVING, null));
         file = folder.resolve("swim.html");
         Map<String, String> facts = new LinkedHashMap<>();
         facts.put("verdict", "swims: as told");
         facts.put("half step", "<slower>");
         swim = new Replay(swim.title(), swim.scene(), swim.json(), swim.frames(), facts);
-        new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
+        largestError = new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000).largestError();
     }
 
     @Override
@@ -70,6 +73,33 @@ class SharedPageTest extends BrowserTest {
                 .containsText(new String[] {"swims: as told", "<slower>", "thesis/creature-1"});
         await("natator.time() > 0.9");
         await("natator.time() < 0.5");
+    }
+
+    /** From the simulator through the packed file into the browser. */
+    @Test
+    void itShowsThePlacesThatWereSimulated() {
+        page.navigate(file.toUri().toString());
+        await("window.natator && natator.time() > 0");
+        page.getByTestId("play").click();
+
+        for (int frame : new int[] {0, 7, 15}) {
+            StreamFrame recorded = swim.frames().get(frame);
+            page.evaluate("""
+                    time => {
+                      const scrub = document.getElementById('scrub');
+                      scrub.value = time;
+                      scrub.dispatchEvent(new Event('input'));
+                    }""", recorded.time());
+            await("Math.abs(natator.time() - " + recorded.time() + ") < 1e-6");
+
+            List<?> shown = (List<?>) page.evaluate("() => natator.position()");
+
+            assertThat(shown).hasSize(3 * swim.scene().particles());
+            for (int i = 0; i < shown.size(); i++) {
+                assertThat(((Number) shown.get(i)).doubleValue())
+                        .isCloseTo(recorded.position()[i], within(1.05 * largestError));
+            }
+        }
     }
 
     @Test
