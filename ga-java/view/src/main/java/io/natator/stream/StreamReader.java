@@ -135,7 +135,7 @@ public final class StreamReader {
         if (!stop.path("reason").isTextual()) {
             throw new StreamException("STOP: expected a reason, found " + shown(json));
         }
-        return new StreamMessage.Stop(stop.get("reason").textValue(), stop, json);
+        return new StreamMessage.Stop(stop.get("reason").textValue(), json);
     }
 
     private static JsonNode object(String letters, String json) throws StreamException {
