@@ -2,10 +2,10 @@
 
 import {byId, make} from './element.js';
 
-const LIVE = ['What you see', 'A soft creature and the water around it, both made of particles and computed while you watch. Nothing is '
+const LIVE = ['What you see', 'A soft creature and the water around it, computed while you watch. Nothing is '
     + 'animated by hand: muscles in the body get shorter and longer to a rhythm, its gait, and all else follows. The gait was '
     + 'evolved, or is set with the sliders.'];
-const REPLAYED = ['What you see', 'A soft creature and the water around it, both made of particles. Nothing is animated by hand: '
+const REPLAYED = ['What you see', 'A soft creature and the water around it, as they were computed. Nothing is animated by hand: '
     + 'muscles in the body get shorter and longer to a rhythm, its gait, and all else followed when it was simulated. This file '
     + 'holds that swim and plays it again; it needs no network and no program.'];
 const PARTS = [
