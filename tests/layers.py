@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks who includes whom in sim-native, or in the folder FOLDER. Its folders stand on floors: no file includes one of a higher floor. And
-no two folders of src/ include each other, be it by others, unless one lies in the other. Prints one line per offence, and ends with exit
-code 1 if there is any. usage: layers.py [FOLDER]"""
+"""Checks who includes whom in this checkout, or in the folder FOLDER. Folders of sim-native/ stand on floors: no file includes one of a
+higher floor. No two folders of src/ include each other, be it by others, unless one lies in the other; nor do two Java packages of a module
+need each other. Prints one line per offence, and ends with exit code 1 if there is any. usage: layers.py [FOLDER]"""
 import re
 import sys
 from pathlib import Path
@@ -67,11 +67,22 @@ def offences(root):
     yield from (", ".join(sorted(ring)) + ": include each other" for ring in rings(edges))
 
 
+def java_offences(module):
+    """The packages of a module that need each other, by the names that their sources import or write out; comments do not count."""
+    edges, sources = {}, module / "src/main/java"
+    for file in sources.rglob("*.java"):
+        code = re.sub(r"/\*.*?\*/|//[^\n]*", " ", file.read_text(), flags=re.DOTALL)
+        own = str(file.parent.relative_to(sources)).replace("/", ".")
+        edges.setdefault(own, set()).update(set(re.findall(r"\b(io\.natator(?:\.[a-z]\w*)*)\.[A-Z]\w*", code)) - {own})
+    yield from (", ".join(sorted(ring)) + ": need each other" for ring in rings(edges))
+
+
 def main(root):
-    found = sorted(set(offences(root.resolve())))
+    found = sorted({*offences((root / "sim-native").resolve()),
+                    *(offence for module in (root / "ga-java").iterdir() for offence in java_offences(module))})
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parents[1] / "sim-native"))
+    sys.exit(main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parents[1]))

@@ -1,5 +1,6 @@
 /** Elements of the page that are more than any element, by their id: index.html, replay.html and live-page.html. */
 interface PageElements {
+  'dye': HTMLInputElement;
   'front-other': HTMLSelectElement;
   'gait-file': HTMLInputElement;
   'gait-load': HTMLButtonElement;
@@ -13,7 +14,6 @@ interface PageElements {
   'scene': HTMLSelectElement;
   'scheme': HTMLSelectElement;
   'scrub': HTMLInputElement;
-  'shown': HTMLInputElement;
   'speed': HTMLSelectElement;
   'swim': HTMLSelectElement;
   'theme': HTMLSelectElement;
@@ -96,4 +96,25 @@ interface Frame {
   position: Float32Array | null;
   velocities: Float32Array | null;
   density: Float32Array | null;
+  /** How far the tank has moved along with its swimmer: by that much places are greater than in the stream. */
+  origin?: number[];
+}
+
+/** Water on a grid, a WATR of the stream. Arrays have x vary fastest, and are views into what was received. */
+interface Water {
+  /** Number of the SCEN that it belongs to. */
+  scene: number;
+  frame: number;
+  /** s. */
+  time: number;
+  /** Their number along x, y and z; the edge of one, length; and the lowest corner of all in the tank. */
+  cells: number[];
+  cell: number;
+  corner: number[];
+  /** 3 numbers for each cell, length/s. */
+  velocity: Float32Array;
+  /** In rest densities. */
+  density: Float32Array;
+  /** How far the tank had moved, see Frame. */
+  origin?: number[];
 }

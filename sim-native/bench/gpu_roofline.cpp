@@ -37,17 +37,9 @@ Row row_of(const Row& key, double bytes_of_pair, double pairs, double seconds, c
 }  // namespace
 
 Row gpu_roofline_columns() {
-    return {"kind",
-            "name",
-            "scene",
-            "evaluations",
-            "device",
-            "bytes_per_pair",
-            "pairs",
-            "seconds",
-            "million_pairs_per_second",
-            "gbytes_per_second",
-            "share"};
+    return fields(
+        "kind,name,scene,evaluations,device,bytes_per_pair,pairs,seconds,million_pairs_per_second,"
+        "gbytes_per_second,share");
 }
 
 void run_gpu_roofline_study(const GpuRooflineStudy& study, ResultTable& table,

@@ -26,21 +26,9 @@ Row figures(const Scene& scene, std::size_t evaluations, int repeats, const Time
 }  // namespace
 
 Row gpu_speed_columns() {
-    return {"scene",
-            "scheme",
-            "precision",
-            "evaluations",
-            "device",
-            "particles",
-            "fluid_particles",
-            "substeps",
-            "iterations",
-            "repeats",
-            "kernel_seconds",
-            "settling_seconds",
-            "whole_seconds",
-            "million_particle_iterations_per_second",
-            "hash"};
+    return fields(
+        "scene,scheme,precision,evaluations,device,particles,fluid_particles,substeps,iterations,repeats,"
+        "kernel_seconds,settling_seconds,whole_seconds,million_particle_iterations_per_second,hash");
 }
 
 Row gpu_speed_profile_columns() {

@@ -48,21 +48,10 @@ Setting reference_setting(Scheme scheme) {
 }
 
 Row precision_columns() {
-    return {"scene",
-            "scheme",
-            "precision",
-            "substeps",
-            "iterations",
-            "status",
-            "repeats",
-            "run_time",
-            "path_error_0.1",
-            "path_error_0.25",
-            "density_error_mean",
-            "density_error_max",
-            "linear_momentum_error",
-            "angular_momentum_error",
-            "hash"};
+    return fields(
+        "scene,scheme,precision,substeps,iterations,status,repeats,run_time,path_error_0.1,"
+        "path_error_0.25,density_error_mean,density_error_max,linear_momentum_error,"
+        "angular_momentum_error,hash");
 }
 
 void run_precision_study(const PrecisionStudy& study, ResultTable& table,

@@ -17,17 +17,6 @@ std::string line_of(const Row& row) {
     return joined(row, ",") + "\n";
 }
 
-Row split(const std::string& line) {
-    Row row;
-    std::size_t begin = 0;
-    for (std::size_t comma = line.find(','); comma != std::string::npos; comma = line.find(',', begin)) {
-        row.push_back(line.substr(begin, comma - begin));
-        begin = comma + 1;
-    }
-    row.push_back(line.substr(begin));
-    return row;
-}
-
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
     throw InputError("file " + natator::quoted(path) + ": " + what + "; must be a table of this study, or a new name");
 }
@@ -60,7 +49,7 @@ std::uintmax_t ResultTable::take_over(const std::string& path) {
     if (file.eof() || line + "\n" != columns) refuse(path, "holds other columns than this study writes");
     std::uintmax_t whole_lines = line.size() + 1;
     while (std::getline(file, line) && !file.eof()) {
-        const Row row = split(line);
+        const Row row = fields(line);
         if (row.size() != columns_.size()) refuse(path, "a row has another number of fields: " + line);
         keep(row);
         whole_lines += line.size() + 1;
@@ -92,6 +81,17 @@ void ResultTable::write(const std::string& path) const {
     WholeFile file(path);
     file.stream() << text();
     if (!file.finish()) throw cannot_be_written(path);
+}
+
+Row fields(const std::string& line) {
+    Row row;
+    std::size_t begin = 0;
+    for (std::size_t comma = line.find(','); comma != std::string::npos; comma = line.find(',', begin)) {
+        row.push_back(line.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    row.push_back(line.substr(begin));
+    return row;
 }
 
 std::string joined(const Row& row, const std::string& separator) {

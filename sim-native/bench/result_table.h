@@ -59,6 +59,9 @@ inline std::string yes_or_no(bool value) {
 /// The fields of one row, then those of another.
 Row joined_rows(Row key, const Row& rest);
 
+/// The fields of a line, which commas separate.
+Row fields(const std::string& line);
+
 /// The fields with a separator between them.
 std::string joined(const Row& row, const std::string& separator);
 

@@ -197,8 +197,9 @@ void add_stages(const RooflineStudy& study, Scheme scheme, ResultTable& table, c
 }  // namespace
 
 Row roofline_columns() {
-    return {"kind",           "name",  "scheme",  "instruction_set", "machine",           "flops_per_pair",
-            "bytes_per_pair", "pairs", "seconds", "gflops",          "gbytes_per_second", "intensity"};
+    return fields(
+        "kind,name,scheme,instruction_set,machine,flops_per_pair,bytes_per_pair,pairs,seconds,gflops,"
+        "gbytes_per_second,intensity");
 }
 
 void run_roofline_study(const RooflineStudy& study, ResultTable& table,

@@ -148,19 +148,14 @@ std::vector<std::string> speed_scene_names() {
 }
 
 Row speed_columns() {
-    return {"scene",          "scheme",
-            "precision",      "instruction_set",
-            "threads",        "machine",
-            "particles",      "fluid_particles",
-            "substeps",       "iterations",
-            "repeats",        "seconds_least",
-            "seconds_median", "million_particle_iterations_per_second",
-            "peak_mb",        "hash"};
+    return fields(
+        "scene,scheme,precision,instruction_set,threads,machine,particles,fluid_particles,substeps,"
+        "iterations,repeats,seconds_least,seconds_median,million_particle_iterations_per_second,peak_mb,"
+        "hash");
 }
 
 Row speed_profile_columns() {
-    return {"scene",   "scheme", "precision", "instruction_set", "threads",
-            "machine", "stage",  "calls",     "seconds",         "share"};
+    return fields("scene,scheme,precision,instruction_set,threads,machine,stage,calls,seconds,share");
 }
 
 void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,

@@ -78,9 +78,9 @@ std::vector<StabilityPoint> stability_points(const std::vector<std::string>& nam
 }
 
 Row stability_columns() {
-    return {"scheme",       "precision", "backend", "scene",       "axis",   "value", "second_axis",
-            "second_value", "status",    "law",     "particle",    "stage",  "time",  "particle_energy",
-            "energy",       "depth",     "reach",   "compression", "largest"};
+    return fields(
+        "scheme,precision,backend,scene,axis,value,second_axis,second_value,status,law,particle,stage,"
+        "time,particle_energy,energy,depth,reach,compression,largest");
 }
 
 void run_stability_study(const StabilityStudy& study, ResultTable& table,

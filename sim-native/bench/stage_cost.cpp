@@ -129,17 +129,9 @@ std::vector<std::string> stage_feature_names() {
 }
 
 Row stage_cost_columns() {
-    return {"feature",
-            "scheme",
-            "state",
-            "machine",
-            "stage",
-            "calls",
-            "stage_ms_per_frame",
-            "ms_per_frame",
-            "hash",
-            "unskipped_ms_per_frame",
-            "unskipped_hash"};
+    return fields(
+        "feature,scheme,state,machine,stage,calls,stage_ms_per_frame,ms_per_frame,hash,"
+        "unskipped_ms_per_frame,unskipped_hash");
 }
 
 void run_stage_cost_study(const StageCostStudy& study, ResultTable& table,

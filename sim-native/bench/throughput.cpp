@@ -172,27 +172,11 @@ int pair_passes(const Model& model) {
 }
 
 Row throughput_columns() {
-    return {"scheme",
-            "precision",
-            "fluid_particles",
-            "evaluations",
-            "device",
-            "path",
-            "particles",
-            "substeps",
-            "iterations",
-            "modified_pressure",
-            "frames",
-            "repeats",
-            "neighbours",
-            "pair_passes",
-            "kernel_seconds",
-            "ms_per_frame",
-            "million_particle_iterations_per_second",
-            "million_pairs_per_second",
-            "at_a_time",
-            "bytes_per_particle",
-            "hash"};
+    return fields(
+        "scheme,precision,fluid_particles,evaluations,device,path,particles,substeps,iterations,"
+        "modified_pressure,frames,repeats,neighbours,pair_passes,kernel_seconds,ms_per_frame,"
+        "million_particle_iterations_per_second,million_pairs_per_second,at_a_time,bytes_per_particle,"
+        "hash");
 }
 
 void run_throughput_study(const ThroughputStudy& study, ResultTable& table,

@@ -95,25 +95,10 @@ const std::vector<DamBreakCase>& dam_break_cases() {
 }
 
 Row validation_columns() {
-    return {"part",
-            "case",
-            "width",
-            "scheme",
-            "precision",
-            "substeps",
-            "iterations",
-            "status",
-            "particles",
-            "run_time",
-            "particle_iterations",
-            "start_height",
-            "front_error",
-            "arrival_error",
-            "lag",
-            "front_error_after_lag",
-            "density_error_mean",
-            "density_error_max",
-            "density_deviation"};
+    return fields(
+        "part,case,width,scheme,precision,substeps,iterations,status,particles,run_time,"
+        "particle_iterations,start_height,front_error,arrival_error,lag,front_error_after_lag,"
+        "density_error_mean,density_error_max,density_deviation");
 }
 
 Row front_columns() {

@@ -1,6 +1,7 @@
 // Simulations on a GPU, saved and gone on from.
 #include <cmath>
 
+#include "../native/coarse_lake.h"
 #include "../native/refusal_of.h"
 #include "gpu_test.h"
 #include "natator/measure.h"
@@ -12,18 +13,10 @@ namespace {
 using nlohmann::json;
 using GpuState = test::OnGpu<>;
 
-const json coarse_lake{{"solver", {{"substeps", 16}}},
-                       {"fluid",
-                        {{"count", {60, 24, 24}},
-                         {"spacing", 0.075},
-                         {"origin", {0.0375, 0.0375, 0.0375}},
-                         {"mass", {{"bottom", 0.421875}}},
-                         {"disorder", 0}}}};
-
 /// Of each scheme one, by its name.
 SimulationSetup setup_of(const std::string& scheme) {
     const bool lake = scheme == "lattice";
-    const json overrides = lake ? coarse_lake : json{{"scheme", scheme}, {"settling", {{"updates", 2}}}};
+    const json overrides = lake ? test::coarse_lake : json{{"scheme", scheme}, {"settling", {{"updates", 2}}}};
     return {lake ? "lake/creature-2" : "bench/small-tank", overrides.dump()};
 }
 

@@ -161,6 +161,12 @@ class PictureTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (2, "python -m natator: a picture: the Python package pyvista is missing: "
                                                           "pip install pyvista\n"))
 
+    @unittest.skipUnless(sys.platform == "linux", "other systems bring what draws")
+    def test_where_nothing_draws_one_line_tells_the_way_out(self):
+        done = self.command(TANK, env={"__EGL_VENDOR_LIBRARY_DIRS": str(self.folder), "DISPLAY": ""})  # no driver
+        self.assertEqual((done.returncode, done.stderr), (2, "python -m natator: a picture: nothing here can draw it; expected Mesa or a "
+                                                          "graphics driver, with EGL (Debian: apt-get install libegl1 libgl1)\n"))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -7,7 +7,7 @@ command -v debootstrap >/dev/null || { echo "${0##*/}: debootstrap is missing: a
 # Makes system NAME of SUITE, with these PACKAGES (a,b,…) besides its smallest, unless it is there, and `root` the folder of it.
 make_root() {
     local name=$1 suite=$2 packages=${3:-} base=$roots/base/$2 mirror=(http://deb.debian.org/debian) components=main
-    if [[ $suite == noble ]]; then
+    if [[ $suite == jammy || $suite == noble ]]; then
         mirror=(http://archive.ubuntu.com/ubuntu gutsy)  # the script of all later ones
         components=main,universe  # as Ubuntu's own sources.list
     fi

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "coarse_lake.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
@@ -22,14 +23,8 @@ using nlohmann::json;
 
 /// Creature 2 in a lake of coarse cells, for so long, s.
 Scene lake(const json& changes = json::object(), double duration = 0.5) {
-    json overrides = {{"duration", duration},
-                      {"solver", {{"substeps", 16}}},
-                      {"fluid",
-                       {{"count", {60, 24, 24}},
-                        {"spacing", 0.075},
-                        {"origin", {0.0375, 0.0375, 0.0375}},
-                        {"mass", {{"bottom", 0.421875}}},
-                        {"disorder", 0}}}};
+    json overrides = test::coarse_lake;
+    overrides["duration"] = duration;
     overrides.merge_patch(changes);
     return load_scene("lake/creature-2", overrides);
 }

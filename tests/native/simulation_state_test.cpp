@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "coarse_lake.h"
 #include "natator/error.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
@@ -97,15 +98,6 @@ TEST_P(SavedSwim, GoesOnWithTheSameBits) {
     expect_to_go_on<float>(GetParam());
 }
 
-/// Few cells, and bodies of few of them.
-const json coarse{{"solver", {{"substeps", 16}}},
-                  {"fluid",
-                   {{"count", {60, 24, 24}},
-                    {"spacing", 0.075},
-                    {"origin", {0.0375, 0.0375, 0.0375}},
-                    {"mass", {{"bottom", 0.421875}}},
-                    {"disorder", 0}}}};
-
 json merged(json all, const json& more) {
     all.merge_patch(more);
     return all;
@@ -113,20 +105,19 @@ json merged(json all, const json& more) {
 
 INSTANTIATE_TEST_SUITE_P(
     Schemes, SavedSwim,
-    testing::Values(Swim{"flex", "bench/small-tank", merged(hardly_settled, {{"scheme", "flex"}})},
-                    Swim{"conserving", "bench/small-tank", merged(hardly_settled, {{"scheme", "conserving"}})},
-                    Swim{"vacuum", "thesis/creature-1-vacuum", json::object()},
-                    Swim{"effects", "bench/small-tank",
-                         merged(hardly_settled,
-                                {{"scheme", "conserving"}, {"solver", {{"cohesion", 0.02}, {"surfaceTension", 0.1}}}})},
-                    Swim{"lattice", "lake/creature-2", coarse},
-                    Swim{"lattice_in_a_moving_tank", "lake/creature-2",
-                         merged(coarse, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
-                    Swim{"companions", "company/school", hardly_settled},
-                    Swim{"goal_in_a_current", "goals/hold",
-                         merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
-                    Swim{"goal", "goals/reach", hardly_settled},
-                    Swim{"periodic", "open-water/periodic", hardly_settled}),
+    testing::Values(
+        Swim{"flex", "bench/small-tank", merged(hardly_settled, {{"scheme", "flex"}})},
+        Swim{"conserving", "bench/small-tank", merged(hardly_settled, {{"scheme", "conserving"}})},
+        Swim{"vacuum", "thesis/creature-1-vacuum", json::object()},
+        Swim{"effects", "bench/small-tank",
+             merged(hardly_settled,
+                    {{"scheme", "conserving"}, {"solver", {{"cohesion", 0.02}, {"surfaceTension", 0.1}}}})},
+        Swim{"lattice", "lake/creature-2", test::coarse_lake},
+        Swim{"lattice_in_a_moving_tank", "lake/creature-2",
+             merged(test::coarse_lake, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
+        Swim{"companions", "company/school", hardly_settled},
+        Swim{"goal_in_a_current", "goals/hold", merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
+        Swim{"goal", "goals/reach", hardly_settled}, Swim{"periodic", "open-water/periodic", hardly_settled}),
     [](const auto& swim) { return swim.param.name; });
 
 /// That a step of the tank lies between, and one after, is worth saying.
@@ -140,7 +131,7 @@ TEST(SavedSimulation, ATankHasMovedInTheseTests) {
 TEST(SavedSimulation, GoesOnWithTheSameBitsInDoublePrecision) {
     for (const char* scheme : {"flex", "conserving"})
         expect_to_go_on<double>({scheme, "bench/small-tank", merged(hardly_settled, {{"scheme", scheme}})});
-    expect_to_go_on<double>({"lattice", "lake/creature-2", coarse});
+    expect_to_go_on<double>({"lattice", "lake/creature-2", test::coarse_lake});
 }
 
 TEST(SavedSimulation, TheStartIsOneToGoBackTo) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../native/coarse_lake.h"
 #include "stream_runs.h"
 
 namespace natator::test {
@@ -28,14 +29,12 @@ std::vector<std::string> all_fields(const std::string& scheme, const std::string
 }
 
 TEST(StreamStateTest, AnotherProcessGoesOnWithTheSameBits) {
-    const std::string lake = R"({"solver":{"substeps":16},"fluid":{"count":[60,24,24],"spacing":0.075,
-        "origin":[0.0375,0.0375,0.0375],"mass":{"bottom":0.421875},"disorder":0}})";
     const std::string gait_of_8 = R"({"frequency":2,"amplitude":[0.1,0.2,0.3,0.4,0.4,0.5,0.5,0.5],
         "phase":[0,0.9,0.8,0.7,0.6,0.5,0.4,0.3]})";
     for (const auto& [scheme, scene, overrides] :
          {std::tuple<std::string, std::string, std::string>{"flex", small_tank, "{}"},
           {"conserving", small_tank, R"({"settling":{"updates":5}})"},
-          {"lattice", "lake/creature-2", lake}}) {
+          {"lattice", "lake/creature-2", coarse_lake.dump()}}) {
         std::vector<std::string> arguments = all_fields(scheme, overrides);
         arguments.insert(arguments.begin(), {scene, "--paused", "--gait", scheme == "lattice" ? gait_of_8 : gait});
         StreamClient first(arguments);

@@ -47,6 +47,33 @@ class DocumentsTest(unittest.TestCase):
             with self.subTest(f"{page}: {line}"):
                 parser.parse_args(shlex.split(line, comments=True))
 
+    def test_every_command_of_the_simulator_has_its_options(self):
+        root, helps, shown = PACKAGE.parents[1], {}, set()
+        pages = [root / "README.md", root / "CONTRIBUTING.md", *(root / "results").rglob("measure*.sh"),
+                 *(page for folder in ("sim-native/docs", "sim-native/protocol", "sim-native/python", "ga-java/docs", "results")
+                   for page in (root / folder).rglob("*.md"))]
+        for page in pages:
+            fenced = page.suffix == ".sh"
+            for line in re.sub(r"\\\n\s*", "", page.read_text()).splitlines():
+                fenced ^= line.startswith("```")
+                found = re.match(r"(?:\$ )?(?:build/release/bin/)?natator-sim ([a-z]+)(.*)", re.sub(r" +# .*$", "", line.strip()))
+                if found and (fenced or line.startswith("    ")) and not re.search(r"[\[…]", found[0]):
+                    shown.add((page.name, found[1], re.sub("'[^']*'", "TEXT", found[2])))
+        self.assertGreater(len(shown), 15)
+        for page, command, rest in sorted(shown):
+            helps[command] = helps.get(command) or self.help_of(command)
+            for option in re.findall(r"(?<= )--[a-z-]+", rest):
+                self.assertRegex(helps[command], option + r"[ ,\n]", f"{page}: natator-sim {command}{rest}")
+
+    def help_of(self, command):
+        """What a command of the simulator says of itself, and each of its own commands."""
+        def said(*arguments):
+            return subprocess.run([os.environ["NATATOR_SIM"], *arguments, "--help"], capture_output=True, text=True, check=True).stdout
+
+        own = said(command)
+        below = re.findall(r"^  ([a-z]+) {2,}\S", own.partition("Subcommands:")[2], re.MULTILINE)
+        return "".join([own, *(said(command, each) for each in below)])
+
     def test_examples_refuse_in_one_line(self):
         for command, message in [
                 ("steer.py --duration -1", "duration = -1.0: must be a number above 0 (s)"),

@@ -1,9 +1,11 @@
 """The Gymnasium environments, by Gymnasium's own checker and against each other."""
 
+import tempfile
 import unittest
 import warnings
 
 import gymnasium
+import imageio_ffmpeg
 import natator
 import natator.gym
 import numpy as np
@@ -180,6 +182,18 @@ class EnvironmentTest(unittest.TestCase):
         self.assertRegex(str(told[0].message), r"\[1.0000001, -3.0\] is clipped to \[-1, 1\]")
         for one in (env, limited):
             one.close()
+
+    def test_a_video_is_recorded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            env = gymnasium.make("natator/Swimmer-v0", **TANK, render_mode="rgb_array")
+            env = gymnasium.wrappers.RecordVideo(env, f"{folder}/film", episode_trigger=lambda episode: True)
+            env.reset(seed=1)
+            while not env.step(np.ones(2))[3]:
+                pass
+            env.close()
+            pictures, seconds = imageio_ffmpeg.count_frames_and_secs(f"{folder}/film/rl-video-episode-0.mp4")
+        self.assertEqual(pictures, 5)  # one before the four steps
+        self.assertAlmostEqual(seconds, 0.25)
 
     def test_it_is_drawn(self):
         with self.assertRaisesRegex(natator.InputError, 'render_mode = \'ansi\': must be None or "rgb_array"'):

@@ -94,6 +94,14 @@ class DrawingTest(unittest.TestCase):
         length = first[:, 0].max() - first[:, 0].min()
         np.testing.assert_allclose((last - first)[:, 0] / length, 0.9, atol=1e-3)
 
+    def test_nor_to_its_side(self):
+        swim = crossing([0, 0, 0], [self.BODY + [0, 0, z] for z in (0, 0.1, -0.2)])  # the tank went 0.4 to the side
+        swim.trajectory.scene["definition"] = {"movingTank": {"along": "xz", "step": 0.4}}
+        first, second, last = self.places(swim)
+        length = first[:, 0].max() - first[:, 0].min()
+        np.testing.assert_allclose((last - first)[:, 1] / length, 0.2, atol=1e-3)
+        np.testing.assert_allclose((second - first)[:, 1] / length, 0.1, atol=1e-3)
+
     def test_who_beats_up_and_down_is_seen_from_the_side(self):
         up = self.BODY[:, [0, 2, 1]]
         first, second = self.places(crossing([0, 0], [up, up + [0, 0.3, 0] * np.array([[1], [1], [0], [0]])]))

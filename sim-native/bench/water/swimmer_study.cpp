@@ -242,10 +242,10 @@ double at_zero(std::vector<Eigen::Vector2d> points) {
 }  // namespace
 
 Row swimmer_columns() {
-    Row columns{"case",      "variant", "resolution", "box",        "pressure",          "beats",   "scheme",
-                "precision", "backend", "substeps",   "iterations", "modified_pressure", "support", "start",
-                "mach",      "status",  "across",     "steps",      "viscosity"};
-    columns = joined_rows(columns, swim_quantities());
+    Row columns =
+        joined_rows(fields("case,variant,resolution,box,pressure,beats,scheme,precision,backend,substeps,iterations,"
+                           "modified_pressure,support,start,mach,status,across,steps,viscosity"),
+                    swim_quantities());
     return joined_rows(columns, {"particles", "run_time", "reference", "deviation", "met", "confirmed"});
 }
 

@@ -76,14 +76,15 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
 }  // namespace
 
 Row water_columns() {
-    return {"case",    "resolution", "scheme",   "precision", "backend", "substeps",  "iterations", "modified_pressure",
-            "support", "start",      "quantity", "status",    "value",   "reference", "least",      "greatest",
-            "met",     "particles",  "run_time"};
+    return fields(
+        "case,resolution,scheme,precision,backend,substeps,iterations,modified_pressure,support,start,"
+        "quantity,status,value,reference,least,greatest,met,particles,run_time");
 }
 
 Row water_curve_columns() {
-    return {"case",       "resolution",        "scheme",  "precision", "backend", "substeps",
-            "iterations", "modified_pressure", "support", "time",      "value"};
+    return fields(
+        "case,resolution,scheme,precision,backend,substeps,iterations,modified_pressure,support,time,"
+        "value");
 }
 
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,

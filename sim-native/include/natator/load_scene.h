@@ -19,7 +19,7 @@ struct SceneOptions {
 };
 
 /// Reads and validates a scene. `name` is a named scene (`thesis/creature-1`) or the path of a file ending in `.json`,
-/// relative to the working directory. Keys that are absent take the values of thesis_tank(), but for planes and fluid,
+/// relative to the working directory. Keys that are absent take the values of thesis_tank(), except planes and fluid,
 /// of which there are none. Throws InputError naming the scene, the field's path, its value and what is allowed.
 Scene load_scene(const std::string& name, const SceneOptions& options = {});
 

@@ -172,8 +172,8 @@ State<Real> initial_state(const Model& model);
 /// actuator with |offset| + amplitude at most 2.
 void check_gait(const Gait& gait, int actuators);
 
-/// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, but in scheme
-/// `flex` times the start ramp. The gait must fit the model (check_gait). Throws InputError if it has not one value for
+/// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, times the start
+/// ramp, except in scheme `flex`. The gait must fit the model (check_gait). Throws InputError if it has not one value for
 /// each actuator.
 std::vector<double> drive(const Model& model, const Gait& gait, double time);
 

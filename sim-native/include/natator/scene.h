@@ -35,7 +35,7 @@ struct FlexParameters {
     int maxNeighborsPerParticle = 96;  ///< fluid neighbours kept per particle, the first found in cell order
 };
 
-/// What scheme `conserving` alone has, and `lattice` of it but for the kernel and the pressure.
+/// Used by scheme `conserving`; by `lattice` too, except the kernel and the pressure.
 struct ConservingParameters {
     /// Times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's stiffness and the
     /// strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.

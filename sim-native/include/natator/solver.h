@@ -181,7 +181,7 @@ public:
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
     /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and
-    /// on a GPU, but for scheme `lattice`.
+    /// on a GPU, except in scheme `lattice`.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each

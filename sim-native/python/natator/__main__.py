@@ -5,7 +5,7 @@ import re
 import signal
 import sys
 
-from natator import export, picture, report
+from natator import export, gallery, picture, report
 from natator.errors import InputError
 from natator.export.runs import RUN_FORMATS, export_run
 from natator.script import run
@@ -57,7 +57,18 @@ def parser():
     command.set_defaults(work=reported, command=command)
     command.add_argument("run", metavar="RUN", help="a run folder of natator evolve")
     command.add_argument("--output-dir", metavar="DIR", help="default: RUN/report")
+    about = "Simulates all bundled scenes that have a swimmer, or some, and writes a page with a moving picture of each."
+    command = commands.add_parser("gallery", help=about, description=about)
+    command.set_defaults(work=shown, command=command)
+    command.add_argument("scenes", metavar="SCENE", nargs="*", help="default: all; those of lake/ take longest")
+    command.add_argument("--duration", type=float, default=2, metavar="SECONDS", help="of each swim; default: %(default)s")
+    command.add_argument("-o", "--output", metavar="FILE", default="gallery.html", help="default: %(default)s")
     return all_commands
+
+
+def shown(given):
+    count = gallery.write(given.output, given.scenes or None, given.duration, lambda line: print(line, file=sys.stderr, flush=True))
+    print(f"{given.output}: {count} swim" + "s" * (count != 1))
 
 
 def reported(given):

@@ -23,6 +23,7 @@ NEARLY_ALL = 0.7  # a tank of which this share would be shown is shown whole
 VORTICES = 0.01  # share of the water whose Q is highest
 STRONGEST = 0.985  # share of the cells of plane flow that turn less than what the colours end with
 RESTS = "vortices: the water does not turn anywhere; expected a swim that has gone on for a while"
+NOTHING_DRAWS = "a picture: nothing here can draw it; expected Mesa or a graphics driver, with EGL (Debian: apt-get install libegl1 libgl1)"
 SIDES, ABOVE, BELOW = 0.03, 0.04, 0.07  # margins, in widths of the picture
 FLATTEST, HIGHEST = 0.3, 0.75
 
@@ -37,9 +38,13 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     and OSError.
     """
     pyvista = package("pyvista", "pyvista", "a picture")
+    from vtkmodules import vtkRenderingOpenGL2
     from vtkmodules.vtkCommonCore import vtkLogger
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news
+    if hasattr(vtkRenderingOpenGL2, "vtkEGLRenderWindow") and vtkRenderWindow().GetClassName() == "vtkOSOpenGLRenderWindow":
+        raise InputError(NOTHING_DRAWS)  # VTK would try OSMesa, and crash
     if not Path(file).parent.is_dir():
         raise InputError(f"{file} cannot be written: there is no folder {Path(file).parent}")
     if water and not vortices:

@@ -179,6 +179,11 @@ class _Drawing:
         own = body[:, swim.trajectory.body].mean(1)
         body[:, :, 0] += (own[0, 0] + swim.trajectory.distance - own[:, 0])[:, None]  # a moving tank takes its places along
         own[:, 0] = own[0, 0] + swim.trajectory.distance
+        tank = scene.get("definition", {}).get("movingTank") or {}
+        if "z" in tank.get("along", "x"):  # by whole steps, each more than the body goes in a frame
+            moved = -np.cumsum(np.round(np.diff(own[:, 2], prepend=own[0, 2]) / tank["step"])) * tank["step"]
+            body[:, :, 2] += moved[:, None]
+            own[:, 2] += moved
         axis = 1 if np.ptp(body - own[:, None], axis=0)[scene["body"], 1:].mean(0).argmax() == 0 else 2
         body[:, :, 1] *= -1
         self.legend, self.duration = f"{swim!r}; the bar is {BAR} body lengths", swim.duration

@@ -5,14 +5,14 @@ namespace natator::physics {
 
 // Muscles and early stopping.
 inline constexpr double muscle_strain = 0.5;     ///< epsilon, largest relative change of length at amplitude 1 (2.8)
-inline constexpr double start_ramp_time = 0.25;  ///< s, over which muscles start but in scheme `flex`
+inline constexpr double start_ramp_time = 0.25;  ///< s, over which muscles start, except in scheme `flex`
 inline constexpr double measured_touch = 1e-6;   ///< of 1 + |plane offset|: rounding allowed where a touch is measured
 
 // Shape matching.
 inline constexpr int flex_fit_steps = 4;     ///< of the rotation fit, per iteration
 inline constexpr double fit_epsilon = 1e-9;  ///< rotation that is not worth a further step, rad
-inline constexpr int max_fit_steps = 20;     ///< but in scheme `flex`, whose fit takes two or three
-/// but in scheme `flex`: the last step's rotation, rad; the next is of its square
+inline constexpr int max_fit_steps = 20;     ///< except in scheme `flex`
+/// the fit ends below this rotation, rad, except in scheme `flex`: a further step would be of its square
 inline constexpr double fit_tolerance = 1e-6;
 inline constexpr double min_fit_determinant = 1e-9;  ///< of the fit's matrix, of its trace cubed
 inline constexpr double centre_dead_band = 1e-5;     ///< of scheme `flex`: less does not move a stored centre, length

@@ -46,12 +46,12 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double wet_density = 0.9;  ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr double max_excess = 0.05;  ///< of rest density that the velocities take off in a substep
-inline constexpr double expansion = 0.25;   ///< rate at which they may, times sqrt(s / g)
-/// deeper water expands more slowly, by the square of its depth in rest distances,
+inline constexpr double expansion = 0.25;   ///< rate at which velocities take it off, times sqrt(s / g)
+/// depth in rest distances beyond which that rate falls, with the square of the depth
 inline constexpr double shallow_layers = 40;
-inline constexpr double min_expansion = 0.1;   ///< as far as to this, times sqrt(s / g)
-inline constexpr double max_overlap = 0.5;     ///< of rest density that a substep takes off without them
-inline constexpr int separation_passes = 4;    ///< on overlaps
+inline constexpr double min_expansion = 0.1;   ///< the least rate, times sqrt(s / g)
+inline constexpr double max_overlap = 0.5;     ///< of rest density that a substep separates without velocities
+inline constexpr int separation_passes = 4;    ///< over overlaps, in a substep
 inline constexpr double max_separation = 0.5;  ///< of the rest distance, a substep
 inline constexpr double max_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
 /// of the viscosity between water and solids, see wall_viscosity_factor

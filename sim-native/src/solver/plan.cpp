@@ -128,6 +128,7 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(model.water_box.has_value(), once("impulses of the water on the body"));
     add(plan.water, once("find fluid neighbours"));
     add(plan.water, once("density and gradients"));
+    add(plan.water, once(name(Stage::overlaps)));
     add(plan.water, once(name(Stage::divergence)) + about_weight(model));
     add(plan.water && plan.viscosity, once(name(Stage::viscosity)));
     if (plan.water) forces();
@@ -146,6 +147,8 @@ std::vector<std::string> describe_plan(const Model& model) {
     const bool local = model.parameters.flex.relaxationMode == RelaxationMode::local;
     add(flex, each(Stage::relaxation, local ? "local " : "global "));
     add(plan.planes, each_of_solids(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
+    add(plan.water, once(name(Stage::walls)));
+    add(plan.water, once(name(Stage::water_motion)));
     std::string velocities = once(name(Stage::velocities));
     if (!flex && (plan.springs || plan.clusters)) velocities += ", body momentum";
     if (flex && plan.viscosity) velocities += ", viscosity";
@@ -158,8 +161,8 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(plan.adhesion, once(name(Stage::adhesion)));
     add(plan.restitution, once(name(Stage::restitution)));
     add(plan.sleep, once(name(Stage::sleep)));
-    add(model.water_box.has_value(), once("lattice: cells that the body covers, collision and streaming"));
     add(true, once("check finite"));
+    add(model.water_box.has_value(), once("lattice: cells that the body covers, collision and streaming"));
     return lines;
 }
 

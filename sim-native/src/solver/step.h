@@ -22,7 +22,7 @@ namespace natator {
 /// How often a substep iterates over its constraints.
 struct Iterations {
     int all;            ///< iterations of a substep; at least as many where it goes on until it has converged
-    int of_solids = 1;  ///< times that solids are solved in each of them, but for scheme `flex`
+    int of_solids = 1;  ///< times that solids are solved in each of them, except in scheme `flex`
     int max = 0;        ///< of Stages that go on until they have converged; 0: these go no further than `all`
 };
 
@@ -55,7 +55,7 @@ NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStag
 /// (Jacobi), the sum is relaxed and applied, planes come last and one after the other.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
+NATATOR_STEP void iterate_flex(Stages& stages, const Plan& plan, const AfterStage& after) {
     if constexpr (Stages::grouping == Grouping::fused) {
         stages.compute_density_and_fits();
         after(Stage::density_and_fits);
@@ -84,11 +84,11 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
 }
 
 /// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the
-/// last one left; those of the solids `solid_iterations` times, a number that Stages that solve them together take from
-/// the model.
+/// last one left; those of the solids `solid_iterations` times. Backends that solve all solids at once
+/// (Grouping::fused) read that number from the model.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
+NATATOR_STEP void iterate_conserving(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
     if (plan.water) {
         stages.compute_density_impulses();
         stages.apply_density_impulses();
@@ -199,9 +199,9 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iteration
         if constexpr (requires { stages.has_converged(); })
             if (i >= iterations.all && stages.has_converged()) break;
         if constexpr (Stages::scheme != Scheme::flex)
-            iterate_in_turn(stages, plan, iterations.of_solids, after);
+            iterate_conserving(stages, plan, iterations.of_solids, after);
         else
-            iterate_summed(stages, plan, after);
+            iterate_flex(stages, plan, after);
         after(Stage::iteration);
     }
     if constexpr (Stages::scheme != Scheme::flex)

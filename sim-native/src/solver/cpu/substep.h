@@ -84,7 +84,7 @@ public:
     /// Writes the substep's outcome into the state; particles of infinite mass keep theirs.
     void commit();
 
-    // Scheme flex knows no forces: what follows is for scheme conserving to hide.
+    // Defaults for scheme flex, which knows no forces; ConservingStages hides them.
     /// Work of the last substep's changes of rest length, mass length^2/s^2.
     double spring_work(const std::vector<Real>&) const { return 0; }
     void measure_divergence(Residuals&) {}

@@ -5,7 +5,7 @@ import {test} from 'node:test';
 import {SCALES} from '#page/colours.js';
 
 test('colours are even, but where a scale turns to the next of its stops', () => {
-  assert.equal(Object.keys(SCALES).length, 2);
+  assert.equal(Object.keys(SCALES).length, 3);
   for (const [name, scale] of Object.entries(SCALES)) {
     const steps = scale.slice(1).map((colour, i) => Math.hypot(...colour.map((value, k) => value - scale[i][k])));
     const uneven = steps.filter(step => step < 0.97 * Math.max(...steps));

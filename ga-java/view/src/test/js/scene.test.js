@@ -28,6 +28,13 @@ test('a tank with walls has twelve edges', () => {
   assert.equal(tankLines(walled).edges.length / 6, 12);
 });
 
+test('a tank of cells is as deep as they are', () => {
+  const plane = {...scene, scheme: 'lattice', definition: {fluid: {count: [20, 1, 10], spacing: 0.1, origin: [0.05, 0.05, 0.05]}}};
+
+  const {min, max} = tankBounds(plane, [0.5, 0.05, 0.5]);
+  assert.deepEqual([min[1], max[1]], [0, 0.1]);
+});
+
 test('a periodic tank without a body is shown from its start', () => {
   assert.deepEqual(plain(tankBounds({...scene, body: []}, [0.5, 0.5, 0.5]).min), [0, 0, 0]);
 });

@@ -13,9 +13,10 @@ test('a wave goes from head to tail', () => {
 });
 
 test('gaits are such as the simulator accepts', () => {
-  for (const {wave} of SWIMMERS) {
+  for (const {wave, actuators} of SWIMMERS) {
     for (const waves of [-1.5, -0.333, 0, 1e-9, wave.waves, 1.5]) {
-      const {amplitude, phase} = waveGait({...wave, waves}, 8);
+      const {amplitude, phase} = waveGait({...wave, waves}, actuators);
+      assert.equal(amplitude.length, actuators);
       assert.ok(amplitude.every(one => one >= 0 && one <= 2));
       assert.ok(phase.every(one => one >= 0 && one < 1), String(phase));
     }

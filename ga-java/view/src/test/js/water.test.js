@@ -68,6 +68,19 @@ test('water ends at a wall in a smooth line', () => {
   assert.equal(new Waterline().add(numbers, count, {min: [-1e9, 0, -1e9], max: [1e9, 1e9, 1e9]}, spacing), count, 'none without walls');
 });
 
+/** Depths are kept in less digits than they are computed in, which once lost the nearest. */
+test('each particle comes once', () => {
+  const sorted = new NearestFirst();
+  for (let i = 1; i <= 200; i++) {
+    const position = Float32Array.from({length: 21}, (_, k) => Math.sin(12.9898 * (21 * i + k)) * 43758.5453 % 1);
+
+    const left = sorted.sort(position, 0, 7, {x: 0.1, y: 0.2, z: 2.3}, {x: 0.36, y: 0.48, z: -0.8}, 0.05);
+
+    assert.deepEqual(Array.from(sorted.order.subarray(0, left)).sort(), [0, 1, 2, 3, 4, 5, 6]);
+    sorted.order.fill(9);
+  }
+});
+
 /** Counted from the second particle; the last lies behind. */
 test('the nearest comes first', () => {
   const position = new Float32Array([9, 9, 9, 0, 0, 5, 0, 0, 1, 0, 0, 3, 0, 0, -2]);

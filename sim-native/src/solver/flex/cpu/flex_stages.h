@@ -52,17 +52,13 @@ private:
     using Substep<Real>::ws_;
     using Substep<Real>::state_;
     using Substep<Real>::h_;
-    using Substep<Real>::spring_rules_;
     using Substep<Real>::cluster_offset_;
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;
-    using Substep<Real>::team_;
-    using Substep<Real>::min_part;
     using Substep<Real>::kernels_;
     using Substep<Real>::motion_kernels_;
     using Substep<Real>::fluid_view;
     using Substep<Real>::position_of_slot;
-    using Substep<Real>::start_of_slot;
 };
 
 }  // namespace natator::cpu

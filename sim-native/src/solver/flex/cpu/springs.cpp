@@ -9,7 +9,7 @@ void FlexStages<Real>::solve_springs() {
         const int b = ws_.slot_of[model_.springs[s].b];
         const Real wa = ws_.inverse_mass[a], wb = ws_.inverse_mass[b];
         const Vec3<Real> push = physics::spring_push(position_of_slot(a) - position_of_slot(b), wa + wb,
-                                                     state_->spring_rest_length[s], spring_rules_[s]);
+                                                     state_->spring_rest_length[s], this->spring_rules_[s]);
         add_correction(a, wa * push);
         add_correction(b, -wb * push);
     }

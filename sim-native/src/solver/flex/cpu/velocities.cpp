@@ -25,7 +25,7 @@ void FlexStages<Real>::update_velocities() {
                                            .max_speed = constants_.max_speed};
     this->on_all_threads(
         all, [&](const MotionView<Real>& slots) { motion_kernels_->finish_velocity(slots, ws_.blocks(), rule); });
-    team_->for_parts(ws_.particles, min_part * lanes, [this](int, int begin, int end) {
+    this->team_->for_parts(ws_.particles, this->min_part * lanes, [this](int, int begin, int end) {
         for (int i = begin; i < end; ++i) this->new_velocity_[i] = ws_.velocity.at(ws_.slot_of[i]);
     });
 }

@@ -5,8 +5,8 @@
 
 namespace natator::cuda {
 
-/// So many threads share a slot where slots do not fill the GPU, and else so few: what each begins with takes time,
-/// too. The sums are the same to the last bit.
+/// Threads that share a slot: many_lanes where slots do not fill the GPU, few_lanes where they do, since each thread has
+/// a cost of its own. The sums are the same to the last bit.
 inline constexpr int many_lanes = water_lists, few_lanes = 2;
 
 /// Values that lie side by side.
@@ -15,7 +15,7 @@ struct Several {
     T of[count];
 };
 
-// Read at once, and but once in a kernel: see read_once.
+// Read at once, and only once in a kernel: see read_once.
 template <int count, class T>
 __device__ Several<T, count> read_several(const T* place) {
     Several<T, count> values;

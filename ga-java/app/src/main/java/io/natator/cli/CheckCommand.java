@@ -42,10 +42,7 @@ final class CheckCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @Mixin
-    private ExecutionOptions executionOptions;
-
-    @Mixin
-    private CacheOptions cacheOptions;
+    private CachedExecutionOptions executionOptions;
 
     @Section(Topic.EXTENT)
     @Option(names = "--starts", paramLabel = "K", defaultValue = "4",
@@ -61,8 +58,8 @@ final class CheckCommand implements Callable<Integer> {
         RunReader run = RunReader.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(
-                cacheOptions.in(executionOptions.execution(settings.budget().backend())), settings);
+        ExecutionSettings execution = EvolutionRun
+                .withTimeLimit(executionOptions.execution(settings.budget().backend()), settings);
         run.checkUnchanged(execution.simulator());
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
         Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),

@@ -42,10 +42,7 @@ final class CompareCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @Mixin
-    private ExecutionOptions executionOptions;
-
-    @Mixin
-    private CacheOptions cacheOptions;
+    private CachedExecutionOptions executionOptions;
 
     @Section(Topic.EXTENT)
     @Option(names = "--starts", paramLabel = "N", defaultValue = "8",
@@ -104,8 +101,7 @@ final class CompareCommand implements Callable<Integer> {
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
         Backend backend = settings.stream().map(one -> one.budget().backend()).distinct().count() == 1
                 ? settings.get(0).budget().backend() : Backend.CPU;
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)),
-                settings);
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(backend), settings);
         RunComparison comparison = new RunComparison(folders, starts, json != null);
         PrintWriter err = spec.commandLine().getErr();
         err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");

@@ -51,10 +51,7 @@ final class EvolveCommand implements Callable<Integer> {
     private SceneOptions sceneOptions;
 
     @Mixin
-    private ExecutionOptions executionOptions;
-
-    @Mixin
-    private CacheOptions cacheOptions;
+    private CachedExecutionOptions executionOptions;
 
     @Mixin
     private SceneChoice choice;
@@ -93,7 +90,7 @@ final class EvolveCommand implements Callable<Integer> {
         if (stopAfter != null) {
             Limits.checkSeconds("--stop-after", stopAfter);
         }
-        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
+        ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         EvolutionSettings settings = settings(execution);
         if (seeds != null) {
             return evolveAll(settings, execution);

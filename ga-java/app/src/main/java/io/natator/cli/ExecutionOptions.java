@@ -14,7 +14,7 @@ import picocli.CommandLine.Option;
 
 /** Options that say how evaluations are carried out. */
 @Section(Topic.COMPUTING)
-final class ExecutionOptions {
+class ExecutionOptions {
 
     /** Set by spark-submit. */
     private static final String SUBMITTED = "spark.master";

@@ -127,7 +127,8 @@ final class PageCommand implements Callable<Integer> {
         ReplayHtml.Written written = new ReplayHtml(heading, swims, !noWater).write(output,
                 (long) (maxSize * MEGABYTE));
         String precision = written.largestError() > 0
-                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError()) : "no water";
+                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError())
+                : !noWater && swims.stream().anyMatch(swim -> !swim.waters().isEmpty()) ? "with the wake" : "no water";
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
                 written.bytes() / MEGABYTE, written.framesPerSecond(),
                 written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", precision);
@@ -191,9 +192,8 @@ final class PageCommand implements Callable<Integer> {
         }
         String name = swimmer.run() == null ? swimmer.name()
                 : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
-                + " s", swim.scene(), swim.json(), swim.frames(),
-                stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));
+        return swim.with(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
+                + " s", stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));
     }
 
     private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {

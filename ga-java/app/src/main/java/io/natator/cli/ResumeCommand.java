@@ -34,10 +34,7 @@ final class ResumeCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @Mixin
-    private ExecutionOptions executionOptions;
-
-    @Mixin
-    private CacheOptions cacheOptions;
+    private CachedExecutionOptions executionOptions;
 
     @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N",
@@ -65,8 +62,7 @@ final class ResumeCommand implements Callable<Integer> {
         EvolutionSettings settings = RunReader.settings(directory);
         Backend before = settings.budget().backend();
         // Asks the simulator, so that where there is none nothing is changed.
-        ExecutionSettings execution = EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(before)),
-                settings);
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(before), settings);
         SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
         RunWriter folder = RunWriter.open(directory);
         if (generations != null) {

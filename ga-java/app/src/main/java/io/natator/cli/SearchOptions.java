@@ -78,10 +78,6 @@ final class SearchOptions {
             description = "Genetic operators: corrected, or stock (as JGAP ships them). Default: ${DEFAULT-VALUE}.")
     private OperatorSet operators;
 
-    @Option(names = "--gaussian-deviation", paramLabel = "X", defaultValue = "0.05",
-            description = "Deviation of the Gaussian mutation as a share of a gene's range. Default: ${DEFAULT-VALUE}.")
-    private double gaussianDeviation;
-
     @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
@@ -126,7 +122,7 @@ final class SearchOptions {
         return settings.withSize(population != null ? population : preset.population(), last)
                 .withEvaluations(evaluations)
                 .withStarts(starts != null ? starts : preset.starts(), judge).withSeed(seed)
-                .withOptimizer(settings.search().optimizer(), operators, gaussianDeviation)
+                .withOptimizer(settings.search().optimizer(), operators, settings.search().gaussianDeviation())
                 .withFitness(fitness, vacuumCheck)
                 .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
                 .withEvolve(body(settings.problem().scene(), overrides, simulator));

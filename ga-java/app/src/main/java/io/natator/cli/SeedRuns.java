@@ -4,21 +4,30 @@ import io.natator.base.Numbers;
 import io.natator.checkpoint.RunWriter;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionStoppedException;
 import io.natator.evolution.Individual;
 import io.natator.process.Evaluator;
 import io.natator.run.EvolutionRun;
 import io.natator.run.PlannedRun;
-import io.natator.run.RunQueue;
 import java.io.PrintWriter;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
-import java.util.function.Supplier;
+import java.util.Queue;
+import java.util.concurrent.ConcurrentLinkedQueue;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Future;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.IntStream;
 import java.util.stream.LongStream;
 
 /** Evolutions that differ in their seeds, as far as they are not finished: tells of each, and every few seconds of all. */
-final class SeedRuns implements RunQueue.Watcher {
+final class SeedRuns {
 
     private static final double INTERVAL_SECONDS = 10;
     private static final double NANOSECONDS = 1e9;
@@ -30,8 +39,6 @@ final class SeedRuns implements RunQueue.Watcher {
     private final long started = System.nanoTime();
     private long said = started;
     private long done;
-    private Supplier<EvolutionListener> late = () -> new EvolutionListener() {
-    };
 
     /**
      * From the settings' seed on.
@@ -62,24 +69,73 @@ final class SeedRuns implements RunQueue.Watcher {
      * @param stopAfter seconds, or null
      */
     void run(ExecutionSettings execution, int atOnce, Double stopAfter) throws InterruptedException {
-        RunQueue queue = new RunQueue(runs, execution.simulator());
+        for (PlannedRun run : runs) {
+            run.checkScene(execution.simulator());
+        }
+        Queue<PlannedRun> waiting = new ConcurrentLinkedQueue<>(
+                runs.stream().filter(run -> !run.isFinished()).toList());
         try (Evaluator evaluator = EvolutionRun.open(execution);
                 ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
                         () -> say("interrupted; the same command continues"))) {
-            if (execution.inBatches()) {
-                late = shutdown::beforeLateGenerations;
+            ExecutorService threads = Executors.newFixedThreadPool(atOnce);
+            try {
+                List<Future<?>> lanes = IntStream.range(0, atOnce)
+                        .<Future<?>>mapToObj(
+                                i -> threads.submit(() -> carryOut(waiting, execution, evaluator, shutdown)))
+                        .toList();
+                for (Future<?> lane : lanes) {
+                    lane.get();
+                }
+            } finally {
+                threads.shutdown();
+                threads.awaitTermination(1, TimeUnit.MINUTES);
             }
-            queue.run(execution, evaluator, atOnce, this);
+        } catch (ExecutionException e) {
+            if (e.getCause() instanceof RuntimeException cause) {
+                throw cause;
+            }
+            throw new IllegalStateException(e.getCause());
         }
     }
 
-    @Override
-    public EvolutionListener forRun() {
-        return late.get();
+    /** One after another as long as any wait, or until the evaluator is closed; if one fails, this closes it. */
+    private void carryOut(Queue<PlannedRun> waiting, ExecutionSettings execution, Evaluator evaluator,
+            ShutdownHandler shutdown) {
+        try {
+            for (PlannedRun run = waiting.poll(); run != null; run = waiting.poll()) {
+                carryOut(run, execution, evaluator, shutdown);
+            }
+        } catch (EvolutionStoppedException | InterruptedException e) {
+            return;
+        } catch (RuntimeException | Error e) {
+            evaluator.close();
+            throw e;
+        }
     }
 
-    @Override
-    public synchronized void evaluated() {
+    private void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, ShutdownHandler shutdown)
+            throws InterruptedException {
+        try (RunWriter folder = run.open()) {
+            long recorded = folder.recorded().end();
+            List<EvolutionListener> listeners = new ArrayList<>(List.of(new EvolutionListener() {
+                @Override
+                public void evaluated(EvaluationRecord evaluation) {
+                    if (evaluation.result().id() >= recorded) {
+                        count();
+                    }
+                }
+            }));
+            if (execution.inBatches()) {
+                listeners.add(shutdown.beforeLateGenerations());
+            }
+            Individual best = new EvolutionRun(folder)
+                    .run(execution, evaluator, listeners.toArray(EvolutionListener[]::new)).state().best();
+            say(folder.directory() + "  best " + Numbers.fixed(best == null ? 0 : best.result().score(), 4));
+        }
+    }
+
+    /** Counts an evaluation that was not recorded before. */
+    private synchronized void count() {
         done++;
         long now = System.nanoTime();
         if ((now - said) / NANOSECONDS >= INTERVAL_SECONDS) {
@@ -91,13 +147,7 @@ final class SeedRuns implements RunQueue.Watcher {
         }
     }
 
-    @Override
-    public synchronized void finished(RunWriter run, EvolutionRun.Outcome outcome) {
-        Individual best = outcome.state().best();
-        say(run.directory() + "  best " + Numbers.fixed(best == null ? 0 : best.result().score(), 4));
-    }
-
-    private void say(String line) {
+    private synchronized void say(String line) {
         err.println(line);
         err.flush();
     }

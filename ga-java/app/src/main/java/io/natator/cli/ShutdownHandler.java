@@ -5,7 +5,8 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.process.Evaluator;
-import io.natator.process.ProgramEnd;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 
 /**
  * Ends evolutions early, after a time or when this program is told to end: it closes their evaluator. Then they stop
@@ -13,9 +14,13 @@ import io.natator.process.ProgramEnd;
  */
 final class ShutdownHandler implements AutoCloseable {
 
+    /** For the evolutions to be put in order when this program is told to end. */
+    private static final long PATIENCE_SECONDS = 10;
+
     private final Runnable stop;
     private final Long deadline;
-    private final ProgramEnd end;
+    private final CountDownLatch closed = new CountDownLatch(1);
+    private final Thread atExit;
     private volatile boolean timeIsUp;
 
     /**
@@ -33,7 +38,8 @@ final class ShutdownHandler implements AutoCloseable {
     ShutdownHandler(Runnable stop, Double seconds, Runnable farewell) {
         this.stop = stop;
         this.deadline = seconds == null ? null : System.nanoTime() + Math.round(seconds * 1e9);
-        this.end = new ProgramEnd(stop, farewell);
+        this.atExit = new Thread(() -> atExit(farewell), "stop-work");
+        Runtime.getRuntime().addShutdownHook(atExit);
         if (deadline != null) {
             Thread timer = new Thread(this::waitForDeadline, "stop-after");
             timer.setDaemon(true);
@@ -41,9 +47,19 @@ final class ShutdownHandler implements AutoCloseable {
         }
     }
 
+    private void atExit(Runnable farewell) {
+        stop.run();
+        try {
+            closed.await(PATIENCE_SECONDS, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+        farewell.run();
+    }
+
     private void waitForDeadline() {
         try {
-            if (!end.isClosedWithin(deadline - System.nanoTime())) {
+            if (!closed.await(deadline - System.nanoTime(), TimeUnit.NANOSECONDS)) {
                 timeIsUp = true;
                 stop.run();
             }
@@ -85,6 +101,11 @@ final class ShutdownHandler implements AutoCloseable {
     /** Ends the watch; to be called when everything is written. */
     @Override
     public void close() {
-        end.close();
+        closed.countDown();
+        try {
+            Runtime.getRuntime().removeShutdownHook(atExit);
+        } catch (IllegalStateException e) {
+            // This program is ending already, and runs the hook itself.
+        }
     }
 }

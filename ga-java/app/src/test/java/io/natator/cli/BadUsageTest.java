@@ -59,13 +59,6 @@ class BadUsageTest extends FakeSimulatorTest {
         }
     }
 
-    @Test
-    void refusesAFolderThatIsNotEmpty() {
-        ok(evolve("run"));
-
-        refused(evolve("run")).hasLineCount(1).contains("is not empty");
-    }
-
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
             "--population 1|population is 1",
@@ -74,7 +67,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "--seed 9223372036854775808|--seed is 9223372036854775808; expected a whole number from -9223372036854775808 to 9223372036854775807",
             "--duration abc|--duration is abc; expected a number of seconds; see natator evolve --help",
             "--duration 0x1p3|--duration is 0x1p3; expected a number of seconds; see natator evolve --help",
-            "--gaussian-deviation NaN|--gaussian-deviation is NaN; expected a number; see",
+            "--duration NaN|--duration is NaN; expected a number of seconds; see natator evolve --help",
             "--optimizer nsga2 --objectives distance=0x1p3,work|--objectives has 'distance=0x1p3'; expected a weight above 0",
             "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
             "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
@@ -104,7 +97,6 @@ class BadUsageTest extends FakeSimulatorTest {
             "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
             "--duration -1|duration is -1.0",
             "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
-            "--gaussian-deviation 0|gaussian-deviation is 0.0",
             "--operators magic|expected corrected or stock",
             "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
             "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",

@@ -8,14 +8,10 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
-import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
@@ -23,18 +19,10 @@ import org.junit.jupiter.params.provider.MethodSource;
 class DocumentedCommandsTest {
 
     private static final Path ROOT = Path.of("../..").toAbsolutePath().normalize();
-    private static final Path SIMULATOR = Path
-            .of(System.getProperty("natator.simulator", ROOT + "/build/release/bin/natator-sim"));
     private static final Pattern NATATOR = Pattern
             .compile("^(?:\\$ )?(?:build/release/bin/natator|natator|java -jar ga-java/target/natator\\.jar"
                     + "|\\S*spark-submit .*natator-spark\\.jar) (.*)$");
-    private static final Pattern SIMULATES = Pattern
-            .compile("^(?:\\$ )?(?:build/release/bin/)?natator-sim ([a-z]+)(.*)$");
-    private static final Pattern OPTION = Pattern.compile("(?<= )--[a-z-]+");
     private static final Pattern WORD = Pattern.compile("'([^']*)'|\"([^\"]*)\"|([^\\s'\"]+)");
-
-    @TempDir
-    private Path folder;
 
     /** A command and where it stands. */
     record Shown(String file, String line) {
@@ -78,14 +66,10 @@ class DocumentedCommandsTest {
         return lines;
     }
 
-    private static List<Shown> matching(Pattern pattern) throws IOException {
-        return documents().flatMap(file -> code(file).stream())
-                .filter(shown -> pattern.matcher(shown.line).matches() && !shown.line.matches(".*[\\[…].*")).distinct()
-                .toList();
-    }
-
     static List<Shown> commands() throws IOException {
-        return matching(NATATOR);
+        return documents().flatMap(file -> code(file).stream())
+                .filter(shown -> NATATOR.matcher(shown.line).matches() && !shown.line.matches(".*[\\[…].*")).distinct()
+                .toList();
     }
 
     private static List<String> words(String command) {
@@ -106,50 +90,5 @@ class DocumentedCommandsTest {
 
         assertThatCode(() -> Main.commandLine().parseArgs(words(matcher.group(1)).toArray(String[]::new)))
                 .doesNotThrowAnyException();
-    }
-
-    @Test
-    void aCommandOfTheSimulatorHasItsOptions() throws IOException, InterruptedException {
-        Map<String, String> help = new HashMap<>();
-        List<Shown> all = matching(SIMULATES);
-        assertThat(all).hasSizeGreaterThan(15);
-        for (Shown shown : all) {
-            Matcher matcher = SIMULATES.matcher(shown.line.replaceAll("'[^']*'", "TEXT"));
-            assertThat(matcher.matches()).isTrue();
-            String command = matcher.group(1);
-            if (!help.containsKey(command)) {
-                help.put(command, helpOf(command));
-            }
-            Matcher options = OPTION.matcher(matcher.group(2));
-            while (options.find()) {
-                assertThat(help.get(command)).as(shown.toString()).containsPattern(options.group() + "[ ,\\n]");
-            }
-        }
-    }
-
-    /** What a command says of itself, and each of its own commands. */
-    private String helpOf(String command) throws IOException, InterruptedException {
-        StringBuilder text = new StringBuilder(run(command, "--help"));
-        Matcher below = Pattern.compile("(?m)^  ([a-z]+) {2,}\\S")
-                .matcher(text.substring(Math.max(0, text.indexOf("Subcommands:"))));
-        List<String> commands = new ArrayList<>();
-        while (text.indexOf("Subcommands:") >= 0 && below.find()) {
-            commands.add(below.group(1));
-        }
-        for (String each : commands) {
-            text.append(run(command, each, "--help"));
-        }
-        return text.toString();
-    }
-
-    private String run(String... arguments) throws IOException, InterruptedException {
-        List<String> command = new ArrayList<>(List.of(SIMULATOR.toString()));
-        command.addAll(List.of(arguments));
-        Path output = folder.resolve("output");
-        int status = new ProcessBuilder(command).redirectOutput(output.toFile()).redirectErrorStream(true).start()
-                .waitFor();
-        String said = Files.readString(output);
-        assertThat(status).as(String.join(" ", arguments) + ": " + said).isZero();
-        return said;
     }
 }

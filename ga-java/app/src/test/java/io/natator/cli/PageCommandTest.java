@@ -29,6 +29,12 @@ class PageCommandTest extends CommandTest {
     }
 
     @Test
+    void planeFlowComesWithItsWake() {
+        ok(natator("page", "plane/loach", "--duration", "0.1", "--output", path("page.html")))
+                .endsWith(", with the wake\n");
+    }
+
+    @Test
     void theBestOfARun() throws IOException {
         Path run = folder.resolve("run");
         ok(natator("evolve --creature 1 --population 6 --generations 1 --duration 0.1", "--output-dir",

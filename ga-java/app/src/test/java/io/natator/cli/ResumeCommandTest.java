@@ -186,16 +186,6 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(file("run", "config.json")).isEqualTo(config);
     }
 
-    @Test
-    void resumingAFinishedRunChangesNothing() throws IOException {
-        ok(evolve("run"));
-        String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
-
-        ok(natator("resume", path("run"), "--workers", "3"));
-        assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
-                .isEqualTo(before);
-    }
-
     /** Neither an idle resume changes anything, nor one that is refused, nor one whose simulator would refuse. */
     @Test
     void aCompactRunStaysAsItIs() throws IOException {

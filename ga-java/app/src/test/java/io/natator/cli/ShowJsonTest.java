@@ -12,28 +12,23 @@ import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
 /** What {@code natator show --json} tells of a winner that does not swim: its report is made of it. */
-class ShowJsonTest {
+class ShowJsonTest extends CommandTest {
 
-    private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
-
-    @TempDir
-    private Path folder;
     private Path run;
 
     /** A tenth of a second is not enough to get anywhere. */
     @BeforeEach
     void evolve() {
         run = folder.resolve("run");
-        Commands.natator("evolve", "--simulator-path", SIMULATOR, "--scene", "pool/creature-1", "--population", "4",
-                "--generations",
-                "1", "--duration", "0.1", "--output-dir", run.toString());
+        ok(natator("evolve --scene pool/creature-1 --population 4 --generations 1 --duration 0.1 --output-dir",
+                run.toString()));
     }
 
     private JsonNode shown() throws IOException {
-        return Json.parse(Commands.natator("show", "--json", run.toString()), JsonNode.class);
+        ok(natator("show", "--json", run.toString()));
+        return Json.parse(out.toString(), JsonNode.class);
     }
 
     private static List<String> outcomes(JsonNode shown) {
@@ -50,7 +45,7 @@ class ShowJsonTest {
 
     @Test
     void ofAWinnerThatGetsNowhereByAllItsControls() throws IOException {
-        Commands.natator("check", "--simulator-path", SIMULATOR, "--starts", "2", run.toString());
+        ok(natator("check", "--starts", "2", run.toString()));
 
         JsonNode shown = shown();
 

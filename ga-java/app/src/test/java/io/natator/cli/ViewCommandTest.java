@@ -56,6 +56,15 @@ class ViewCommandTest extends CommandTest {
         return URI.create(address);
     }
 
+    /** Evolves a scene's creature for three generations of eight, with another scheme than the scene's and no real simulator. */
+    private Path evolve(String scene) {
+        ok(with(FakeSimulator.in(folder),
+                "evolve --no-cache --population 8 --generations 3 --seed 5 --optimizer random "
+                        + "--scheme conserving --scene",
+                scene, "--output-dir", path("run")));
+        return folder.resolve("run");
+    }
+
     private static JsonNode start(URI server) throws IOException, InterruptedException {
         return setup(server).get("start");
     }
@@ -152,8 +161,7 @@ class ViewCommandTest extends CommandTest {
 
     @Test
     void aRunsSceneCanBeChangedToo() throws IOException, InterruptedException {
-        Path run = folder.resolve("run");
-        Commands.evolve(FakeSimulator.in(folder), run);
+        Path run = evolve("thesis/creature-1");
 
         JsonNode start = start(start("--run", run.toString(), "--overrides", "{\"solver\":{\"substeps\":2}}"));
 
@@ -163,8 +171,7 @@ class ViewCommandTest extends CommandTest {
 
     @Test
     void ofARunTheBestSwims() throws IOException, InterruptedException {
-        Path run = folder.resolve("run");
-        Commands.evolve(FakeSimulator.in(folder), run);
+        Path run = evolve("thesis/creature-1");
 
         JsonNode start = start(start("--run", run.toString()));
 
@@ -177,8 +184,7 @@ class ViewCommandTest extends CommandTest {
     @ParameterizedTest
     @CsvSource({"1, true", "2, false"})
     void ofARunInTheNamedSceneTheBestSwims(int creature, boolean isIts) throws IOException, InterruptedException {
-        Path run = folder.resolve("run");
-        Commands.evolve(FakeSimulator.in(folder), run);
+        Path run = evolve("thesis/creature-1");
 
         JsonNode start = start(start("--creature", "" + creature, "--run", run.toString()));
 
@@ -191,8 +197,7 @@ class ViewCommandTest extends CommandTest {
     /** As {@code evolve} has a creature without more options: in another scene than where it is shown without a run. */
     @Test
     void ofARunOfTheNumberedCreatureTheBestSwimsWhereItWasFound() throws IOException, InterruptedException {
-        Path run = folder.resolve("run");
-        Commands.evolve(FakeSimulator.in(folder), run, "pool/creature-1");
+        Path run = evolve("pool/creature-1");
 
         JsonNode start = start(start("--creature", "1", "--run", run.toString()));
 

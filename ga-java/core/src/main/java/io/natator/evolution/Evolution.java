@@ -47,7 +47,7 @@ public final class Evolution {
      *
      * @param evaluator carries out the simulations; stays open
      * @param listeners told of everything in this order
-     * @param recorded  simulations that an interrupted run had finished, but for the first where it has dropped them; none for a new run
+     * @param recorded  simulations that an interrupted run had finished (a compacted run lacks the oldest); none for a new run
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             RecordedEvaluations recorded) {
@@ -190,8 +190,8 @@ public final class Evolution {
     }
 
     /**
-     * What is to be simulated of a proposal: where an optimizer outside this program may propose otherwise than before an interruption, first
-     * what was begun then.
+     * What is to be simulated of a proposal. An optimizer outside this program may propose something else than before an interruption; then
+     * what was begun before it comes first.
      */
     private List<List<Double>> asRecorded(List<List<Double>> proposed) {
         if (!settings.search().optimizer().isOutside()) {

@@ -72,7 +72,7 @@ final class GeneticAlgorithm implements Optimizer {
         configuration.lockSettings();
     }
 
-    /** All whose genes are not those of a parent, each once: a child that crossover or mutation left unchanged is none of them. */
+    /** The distinct genomes of the children, without those that equal a parent. */
     @Override
     public List<List<Double>> propose(int generation, List<Individual> parents) {
         random.setSeed(Seeds.of(settings.search().seed(), generation));

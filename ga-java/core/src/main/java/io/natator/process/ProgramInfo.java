@@ -55,13 +55,24 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         }
     }
 
-    /** What {@code natator-sim --version} says of its version; null of a program that says none within a second. */
+    /**
+     * What {@code natator-sim --version} says of its version; null of a program that says none within a second.
+     *
+     * @throws RequestRejectedException if it fails, or does not start
+     */
     static String version(Path simulator) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, VERSION_TIMEOUT)) {
-            Matcher said = VERSION.matcher(program.call(List.of("--version"), "", line -> {
-            }).text());
-            return said.lookingAt() ? said.group(1) : null;
-        } catch (SimulatorFailure | RequestRejectedException e) {
+            NativeProgram.Output output = program.call(List.of("--version"), "", line -> {
+            });
+            Matcher said = VERSION.matcher(output.text());
+            if (said.lookingAt()) {
+                return said.group(1);
+            }
+            if (output.exitStatus() != 0) {
+                throw new RequestRejectedException(simulator + " --version: exit status " + output.exitStatus(), false);
+            }
+            return null;
+        } catch (SimulatorFailure e) {
             return null;
         }
     }

@@ -1,6 +1,7 @@
 package io.natator.process;
 
 import io.natator.base.InvalidInputException;
+import io.natator.protocol.RequestRejectedException;
 import java.io.File;
 import java.io.IOException;
 import java.io.InputStream;
@@ -11,7 +12,9 @@ import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.security.CodeSource;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
+import java.util.Map;
 
 /**
  * Finds the native program: the first of
@@ -35,6 +38,8 @@ public final class SimulatorLocator {
     private static final Path BUILT = Path.of("build", "release", "bin", NAME);
     private static final Path DATA = Path.of("share", "natator");
     private static final Path BIN = Path.of("bin", NAME);
+    private static final byte[] ELF = {0x7f, 'E', 'L', 'F'};
+    private static final Map<String, Integer> MACHINES = Map.of("amd64", 0x3e, "aarch64", 0xb7);
 
     private SimulatorLocator() {
     }
@@ -152,17 +157,50 @@ public final class SimulatorLocator {
     }
 
     /**
-     * Refuses a program of another version. One that does not say its version is told at its first use.
+     * Refuses a program of another version, and one of machine code that does not run on this system. Others that do not say
+     * their version are told at their first use.
      *
      * @param version this jar's; null of classes outside one, for which any program will do
      */
     static void requireVersion(Path program, String version) throws InterruptedException {
-        String expected = version == null ? null : version.replaceFirst("-SNAPSHOT$", "");
-        String found = expected == null ? null : ProgramInfo.version(program);
+        if (version == null) {
+            return;
+        }
+        String expected = version.replaceFirst("-SNAPSHOT$", "");
+        Integer machine = machine(program);
+        if (machine != null && !machine.equals(MACHINES.getOrDefault(System.getProperty("os.arch"), machine))) {
+            throw runsElsewhere(program, null);  // Started, it would be taken for a script.
+        }
+        String found = null;
+        try {
+            found = ProgramInfo.version(program);
+        } catch (RequestRejectedException e) {
+            if (machine != null) {
+                throw runsElsewhere(program, e);
+            }
+        }
         if (found != null && !found.equals(expected)) {
             throw new InvalidInputException(program + " is " + NAME + " " + found + ", this is natator " + expected
                     + "; expected the same version: install or build both again, or name another program by --simulator-path or "
                     + VARIABLE);
+        }
+    }
+
+    private static InvalidInputException runsElsewhere(Path program, Exception cause) {
+        return new InvalidInputException(program + " does not run here; expected " + NAME
+                + " for this kind of processor and a C library no newer than this system's: build it on this machine by mvn compile in a "
+                + "checkout, or name another program by --simulator-path or " + VARIABLE, cause);
+    }
+
+    /** The kind of processor that machine code is for, e_machine of ELF; null of what is none. */
+    private static Integer machine(Path program) {
+        try (InputStream file = Files.newInputStream(program)) {
+            byte[] header = file.readNBytes(20);
+            return header.length == 20 && Arrays.equals(header, 0, ELF.length, ELF, 0, ELF.length)
+                    ? (header[18] & 0xff) + ((header[19] & 0xff) << 8)
+                    : null;
+        } catch (IOException e) {
+            return null;
         }
     }
 }

@@ -26,7 +26,7 @@ import java.util.Objects;
  * @param error     with {@code error}, {@code failed} and {@code refused}: why, in one line; with {@code unstable} that it was in
  *                  vacuum; else null
  * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
- * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
+ * @param work      mechanical work of the muscles, in mass times length squared over seconds squared; null if it was not measured
  * @param course    where it went by its own heading, or null: not of every program
  * @param goals     what became of the scene's goals, or null where it has none
  * @param vacuumDrift with fitness net: signed distance of the same gait in vacuum in the same time; else null. Never

@@ -53,7 +53,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
      *
      * @throws InvalidInputException if that was changed
      */
-    void checkScene(Path simulator) throws InterruptedException {
+    public void checkScene(Path simulator) throws InterruptedException {
         if (RunReader.exists(directory) && !isFinished()) {
             SceneDigest.check(directory, settings, SceneDigest.of(settings, simulator));
         }

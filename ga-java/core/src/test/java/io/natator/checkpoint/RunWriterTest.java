@@ -248,21 +248,6 @@ class RunWriterTest {
     }
 
     @Test
-    void aFileIsNoFolder() throws IOException {
-        Files.writeString(run, "a file");
-
-        assertThatThrownBy(() -> RunWriter.create(run, settings(OperatorSet.CORRECTED)))
-                .isInstanceOf(InvalidInputException.class).hasMessageContaining("cannot be made");
-    }
-
-    /** Root may write anywhere, so the folder is one in which nobody can. */
-    @Test
-    void aFolderThatCannotBeWrittenIsTold() {
-        assertThatThrownBy(() -> RunWriter.create(Path.of("/proc/self/fdinfo"), settings(OperatorSet.CORRECTED)))
-                .isInstanceOf(InvalidInputException.class).hasMessageContaining("output folder /proc/self/fdinfo");
-    }
-
-    @Test
     void aGenerationThatFailedIsSimulatedAnew() throws IOException {
         evolve(RunWriter.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
         RunWriter broken = RunWriter.create(run, settings(OperatorSet.CORRECTED));

@@ -103,18 +103,4 @@ class OptimizerTest {
         assertThat(recorder.evaluations).allSatisfy(one -> GeneRange.check(ranges, one.genes()));
         assertThat(whole.best().genes()).hasSize(4 + new BodyGenome(Bodies.bundled("eel")).genes().size());
     }
-
-    @ParameterizedTest
-    @EnumSource(OptimizerKind.class)
-    void genesStayWithinTheirRanges(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        ToyEvolution.run(settings(optimizer, 400, 2), 2, null, List.of(), recorder);
-
-        var ranges = EncodingKind.DENSE.forActuators(5).genes();
-        assertThat(recorder.evaluations).allSatisfy(evaluation -> {
-            for (int i = 0; i < ranges.size(); i++) {
-                assertThat(ranges.get(i).contains(evaluation.genes().get(i))).isTrue();
-            }
-        });
-    }
 }

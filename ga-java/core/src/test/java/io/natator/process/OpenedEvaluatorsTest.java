@@ -20,12 +20,14 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
 
-/** What every simulator mode of this machine does alike when something goes wrong. */
+/** What simulator modes of this machine do when something goes wrong, and what is particular to resident processes. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class OpenedEvaluatorsTest {
 
@@ -121,5 +123,68 @@ class OpenedEvaluatorsTest {
             }
             assertThatOpenFilesAreAtMost(before + 6);
         }
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+            "PROCESS|fault/crash|exit status 139", "PROCESS|fault/exit|out of luck",
+            "PROCESS|fault/silent|no valid result", "PROCESS|fault/garbage|buffer overflow",
+            "PROCESS|fault/half|no valid result", "PROCESS|fault/loud|more than 1048576 bytes",
+            "PROCESS|fault/wrong-id|id is 8, not 7", "PROCESS|fault/wrong-exit|status ok with exit status 3",
+            "PROCESS|fault/nan|NaN", "PROCESS|fault/infinite|found the number 1e999",
+            "PROCESS|fault/two-lines|no valid result", "PROCESS|fault/held-open|output still open",
+            "RESIDENT|fault/crash|exit status 139", "RESIDENT|fault/killed|exit status 137",
+            "RESIDENT|fault/exit|out of luck", "RESIDENT|fault/silent|output ended",
+            "RESIDENT|fault/garbage|buffer overflow", "RESIDENT|fault/half|output ended within a line",
+            "RESIDENT|fault/loud|no valid result",
+            "RESIDENT|fault/loud-line|more than 1048576 bytes in one line",
+            "RESIDENT|fault/wrong-id|id is 8, not 7", "RESIDENT|fault/nan|NaN",
+            "RESIDENT|fault/infinite|found the number 1e999", "RESIDENT|fault/deaf|but the program runs on"})
+    void aFaultyAnswerIsAFailedResultWithTheReason(SimulatorMode mode, String scene, String reason)
+            throws InterruptedException {
+        SimulationResult result = evaluate(execution(mode), scene);
+
+        assertThat(result.status()).isEqualTo(Status.FAILED);
+        assertThat(result.error()).contains(reason).doesNotContain("\n");
+        assertThat(result.fitness()).isZero();
+        assertThat(result.id()).isEqualTo(7);
+    }
+
+    @Test
+    void oneResidentProcessServesManyEvaluations() throws InterruptedException {
+        try (Evaluator simulator = Evaluator.open(execution(SimulatorMode.RESIDENT))) {
+            SimulationResult first = simulator.evaluate(FakeSimulator.request(1, "thesis/creature-1"));
+            long[] processes = ProcessHandle.current().children().mapToLong(ProcessHandle::pid).toArray();
+            SimulationResult second = simulator.evaluate(FakeSimulator.request(2, "thesis/creature-1"));
+
+            assertThat(first.distance()).isEqualTo(-1.3925);
+            assertThat(second.distance()).isEqualTo(-1.3925);
+            assertThat(processes).hasSize(1);
+            assertThat(ProcessHandle.current().children().mapToLong(ProcessHandle::pid)).containsExactly(processes[0]);
+        }
+    }
+
+    @Test
+    void anUnstableResultKeepsTheResidentProcess() throws InterruptedException {
+        assertThat(evaluate(execution(SimulatorMode.RESIDENT), "fault/unstable").status()).isEqualTo(Status.UNSTABLE);
+    }
+
+    @Test
+    void aResidentProcessThatSaysTooMuchCostsTheNextEvaluationNothing() throws InterruptedException {
+        try (Evaluator simulator = Evaluator.open(execution(SimulatorMode.RESIDENT))) {
+            simulator.evaluate(FakeSimulator.request(1, "fault/two-lines"));
+            Thread.sleep(100);
+
+            assertThat(simulator.evaluate(FakeSimulator.request(2, "thesis/creature-1")).status())
+                    .isEqualTo(Status.OK);
+        }
+    }
+
+    @Test
+    void aResidentProgramThatDiesAtItsStartIsAFailedResult() throws InterruptedException, IOException {
+        Files.createFile(folder.resolve("dies-at-start"));
+
+        assertThat(evaluate(execution(SimulatorMode.RESIDENT), "thesis/creature-1").error())
+                .isEqualTo("output ended; exit status 1");
     }
 }

@@ -98,11 +98,33 @@ class SimulatorLocatorTest {
                         + "again, or name another program by --simulator-path or NATATOR_SIM");
     }
 
+    /** The first is for 32-bit ARM, and would be run as a script; the second for a processor that this may be, but damaged. */
+    @Test
+    void machineCodeThatDoesNotRunIsRefusedInOneLineWithTheWayOut() throws IOException, InterruptedException {
+        String header = "\u007fELF" + "\0".repeat(14);
+        Path ran = folder.resolve("ran");
+        for (String machine : List.of("(\0", System.getProperty("os.arch").equals("amd64") ? ">\0" : "\1\0")) {
+            Path program = program("natator-sim", header + machine + "\nexit 1\n");
+            SimulatorLocator.requireVersion(program, null);
+
+            assertThatThrownBy(() -> SimulatorLocator.requireVersion(program, "0.2.0"))
+                    .isInstanceOf(InvalidInputException.class)
+                    .hasMessage(program
+                            + " does not run here; expected natator-sim for this kind of processor and a C library no newer than "
+                            + "this system's: build it on this machine by mvn compile in a checkout, or name another program by "
+                            + "--simulator-path or NATATOR_SIM");
+        }
+        Path script = program("natator-sim", header + "(\0\n: >" + ran + "\n");
+        assertThatThrownBy(() -> SimulatorLocator.requireVersion(script, "0.2.0"))
+                .isInstanceOf(InvalidInputException.class);
+        assertThat(ran).doesNotExist();
+    }
+
     /** Its first use tells more. */
     @Test
     @Timeout(30)
     void aProgramThatSaysNoVersionPasses() throws IOException, InterruptedException {
-        for (String text : List.of("#!/bin/sh\n", "#!/bin/sh\nexec sleep 3600\n", "#!/bin/sh\nexit 1\n", "\u007fELF")) {
+        for (String text : List.of("#!/bin/sh\n", "#!/bin/sh\nexec sleep 3600\n", "#!/bin/sh\nexit 1\n")) {
             SimulatorLocator.requireVersion(program("natator-sim", text), "0.3.0");
         }
     }

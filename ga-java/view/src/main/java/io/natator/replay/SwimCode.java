@@ -15,14 +15,17 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
+import java.util.DoubleSummaryStatistics;
 import java.util.List;
+import java.util.Map;
 import java.util.function.Function;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
 /**
  * A swim as bytes for the page: length of a text (u32), the text (JSON: what the rest is), tables. All little-endian, the
  * whole compressed by zlib. Tables are {@code float32} in rows of {@value #SCALARS} and the activations; places of the
- * water, places of all others, and densities of the water as {@link TimeCode}.
+ * water, places of all others, densities of the water, and of plane flow its velocities along x and z, as {@link TimeCode}.
  */
 final class SwimCode {
 
@@ -33,6 +36,9 @@ final class SwimCode {
     /** Bits of a coordinate of the body. */
     static final int BODY_BITS = 20;
     static final int DENSITY_BITS = 8;
+    static final int FLOW_BITS = 8;
+    /** Bytes of a {@code WATR} before its velocities. */
+    private static final int WATER_HEAD_BYTES = 64;
     private static final int AXES = 3;
     /** Rows that are coded to find the better code of a table. */
     private static final int TRIED_ROWS = 40;
@@ -45,6 +51,7 @@ final class SwimCode {
     private final Replay swim;
     private final int[] water;
     private final int[] others;
+    private final List<ByteBuffer> flows;
 
     /**
      * The code of a swim.
@@ -57,6 +64,7 @@ final class SwimCode {
         int first = scene.firstFluid();
         int end = first + scene.fluidCount();
         water = withWater ? IntStream.range(first, end).toArray() : new int[0];
+        flows = withWater ? swim.waters() : List.of();
         others = IntStream.range(0, scene.particles()).filter(i -> i < first || i >= end).toArray();
     }
 
@@ -90,6 +98,9 @@ final class SwimCode {
         addPlaces(frames, water, WATER_BITS, "water", described, tables);
         addPlaces(frames, others, BODY_BITS, "others", described, tables);
         addDensity(frames, described, tables);
+        if (!flows.isEmpty()) {
+            addFlow(frames, head, described, tables);
+        }
         byte[] text = head.toString().getBytes(StandardCharsets.UTF_8);
         return Zlib.compressed(ByteBuffer.allocate(Integer.BYTES + text.length + tables.size())
                 .order(ByteOrder.LITTLE_ENDIAN).putInt(text.length).put(text).put(tables.toByteArray()).array());
@@ -105,6 +116,11 @@ final class SwimCode {
         }
         ObjectNode scene = JsonNodeFactory.instance.objectNode();
         SCENE_KEYS.forEach(key -> scene.set(key, whole.get(key)));
+        ObjectNode definition = scene.putObject("definition");
+        definition.set("movingTank", whole.path("definition").get("movingTank"));
+        if (!flows.isEmpty()) {
+            definition.set("fluid", whole.get("definition").get("fluid"));
+        }
         ArrayNode mass = scene.putArray("mass");
         for (Double one : swim.scene().mass()) {
             if (one == null) {
@@ -158,6 +174,49 @@ final class SwimCode {
                 .map(frame -> IntStream.of(water).map(i -> steps.of(frame.density()[i])).toArray())
                 .toArray(int[][]::new);
         add(rows, new Quantiser[] {steps}, 1, "density", described, out);
+    }
+
+    /** Water stays as it is until that of another frame is there. */
+    private void addFlow(List<StreamFrame> frames, ObjectNode head, ArrayNode described, ByteArrayOutputStream out) {
+        ByteBuffer first = little(flows.get(0));
+        int cells = first.getInt(8) * first.getInt(12) * first.getInt(16);
+        ObjectNode flow = head.putObject("flow").put("cell", first.getDouble(32));
+        ArrayNode counts = flow.putArray("cells");
+        ArrayNode corner = flow.putArray("corner");
+        for (int axis = 0; axis < AXES; axis++) {
+            counts.add(first.getInt(8 + Integer.BYTES * axis));
+            corner.add(first.getDouble(40 + Double.BYTES * axis));
+        }
+        Map<Long, ByteBuffer> byFrame = flows.stream().map(SwimCode::little)
+                .collect(Collectors.toMap(one -> Integer.toUnsignedLong(one.getInt(4)), Function.identity()));
+        ArrayNode starts = flow.putArray("starts");
+        Quantiser[] axes = {flowAlong(0), flowAlong(2)};
+        int[][] rows = new int[frames.size()][];
+        for (int time = 0; time < rows.length; time++) {
+            ByteBuffer body = byFrame.get(frames.get(time).frame());
+            if (body != null) {
+                starts.add(time);
+            }
+            rows[time] = body == null ? rows[time - 1] : IntStream.range(0, 2 * cells)
+                    .map(i -> axes[i / cells].of(velocity(body, i % cells, 2 * (i / cells)))).toArray();
+        }
+        add(rows, axes, 1, "flow", described, out);
+    }
+
+    private Quantiser flowAlong(int axis) {
+        DoubleSummaryStatistics all = flows.stream().map(SwimCode::little)
+                .flatMapToDouble(body -> IntStream.range(0, (body.capacity() - WATER_HEAD_BYTES) / (4 * Float.BYTES))
+                        .mapToDouble(cell -> velocity(body, cell, axis)))
+                .summaryStatistics();
+        return Quantiser.over(all.getMin(), all.getMax(), FLOW_BITS);
+    }
+
+    private static float velocity(ByteBuffer body, int cell, int axis) {
+        return body.getFloat(WATER_HEAD_BYTES + Float.BYTES * (AXES * cell + axis));
+    }
+
+    private static ByteBuffer little(ByteBuffer body) {
+        return body.duplicate().order(ByteOrder.LITTLE_ENDIAN);
     }
 
     /** Adds a table in the code that makes its beginning shorter. */

@@ -30,6 +30,14 @@ public sealed interface StreamMessage {
     }
 
     /**
+     * {@code WATR}: the water on a grid.
+     *
+     * @param body as the simulator wrote it, from {@code number} on, little-endian; read-only
+     */
+    record Water(ByteBuffer body) implements StreamMessage {
+    }
+
+    /**
      * {@code ANSW}: the answer to one command.
      *
      * @param id    the command's; a null node without one
@@ -48,10 +56,9 @@ public sealed interface StreamMessage {
      * {@code STOP}: the simulation has stopped by itself.
      *
      * @param reason {@code until} or {@code unstable}
-     * @param detail the whole message, with particle, stage, time and law of what became unstable
-     * @param json   the same as the simulator wrote it, one line
+     * @param json   the whole message as the simulator wrote it, one line, with particle, stage, time and law of what became unstable
      */
-    record Stop(String reason, JsonNode detail, String json) implements StreamMessage {
+    record Stop(String reason, String json) implements StreamMessage {
 
         /** Whether the wanted time is over; the program ends. */
         public boolean isEnd() {

@@ -47,6 +47,11 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
         return new StreamOptions(scene, overrides, gait, scheme, precision, newFields, rate, until, lossless, paused);
     }
 
+    /** These options, waiting for {@code run}. */
+    public StreamOptions waiting() {
+        return new StreamOptions(scene, overrides, gait, scheme, precision, fields, rate, until, lossless, true);
+    }
+
     /** The arguments after the program's name. */
     List<String> arguments() {
         List<String> arguments = new ArrayList<>(List.of("stream", scene));

@@ -11,6 +11,7 @@ import java.io.InputStream;
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 import java.nio.charset.StandardCharsets;
+import java.util.Locale;
 
 /**
  * Reads the messages of one stream, each in one piece and no further than the protocol allows, so that a broken program
@@ -20,6 +21,10 @@ public final class StreamReader {
 
     /** A scene of 100 000 particles is some 3 MB. */
     static final int MAX_TEXT_BYTES = 256 << 20;
+    /** Water of 16 million cells: more than any page shows. */
+    static final int MAX_WATER_BYTES = 256 << 20;
+    private static final int WATER_HEAD_BYTES = 64;
+    private static final int CELL_BYTES = 16;
     private static final int HEAD_BYTES = 8;
     private static final int LETTERS = 4;
 
@@ -56,10 +61,11 @@ public final class StreamReader {
         return switch (letters) {
             case "SCEN" -> scene(text(letters, length));
             case "FRAM" -> frame(length);
+            case "WATR" -> water(length);
             case "ANSW" -> answer(text(letters, length));
             case "STOP" -> stop(text(letters, length));
             default -> throw new StreamException("message begins with " + shown(letters)
-                    + "; expected SCEN, FRAM, ANSW or STOP");
+                    + "; expected SCEN, FRAM, WATR, ANSW or STOP");
         };
     }
 
@@ -95,6 +101,24 @@ public final class StreamReader {
         return new StreamMessage.Frame(scene, body);
     }
 
+    private StreamMessage water(long length) throws IOException {
+        if (length < WATER_HEAD_BYTES || length > MAX_WATER_BYTES) {
+            throw new StreamException(
+                    "WATR of " + length + " bytes; expected " + WATER_HEAD_BYTES + " to " + MAX_WATER_BYTES);
+        }
+        byte[] bytes = in.readNBytes((int) length);
+        whole("WATR", bytes.length, length);
+        ByteBuffer body = ByteBuffer.wrap(bytes).asReadOnlyBuffer().order(ByteOrder.LITTLE_ENDIAN);
+        double expected = WATER_HEAD_BYTES + CELL_BYTES * (double) Integer.toUnsignedLong(body.getInt(8))
+                * Integer.toUnsignedLong(body.getInt(12)) * Integer.toUnsignedLong(body.getInt(16));
+        if (length != expected) {
+            throw new StreamException(
+                    String.format(Locale.ROOT, "WATR of %d bytes; expected %.0f for its cells", length,
+                            expected));
+        }
+        return new StreamMessage.Water(body);
+    }
+
     private static StreamMessage answer(String json) throws StreamException {
         JsonNode answer = object("ANSW", json);
         boolean ok = answer.path("ok").asBoolean(false);
@@ -111,7 +135,7 @@ public final class StreamReader {
         if (!stop.path("reason").isTextual()) {
             throw new StreamException("STOP: expected a reason, found " + shown(json));
         }
-        return new StreamMessage.Stop(stop.get("reason").textValue(), stop, json);
+        return new StreamMessage.Stop(stop.get("reason").textValue(), json);
     }
 
     private static JsonNode object(String letters, String json) throws StreamException {

@@ -8,6 +8,8 @@ import io.natator.stream.StreamException;
 import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamProcess;
 import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayDeque;
@@ -215,11 +217,19 @@ final class StreamSession implements AutoCloseable {
             send("SCEN", scene.json());
         } else if (message instanceof StreamMessage.Frame frame) {
             send(done -> socket.sendBinary(frame.body(), done));
+        } else if (message instanceof StreamMessage.Water water) {
+            send(done -> socket.sendBinary(withHead(water.body()), done));
         } else if (message instanceof StreamMessage.Answer answer) {
             send("ANSW", answer.json());
         } else if (message instanceof StreamMessage.Stop stop) {
             send("STOP", stop.json());
         }
+    }
+
+    /** With the head that it had in the stream, which tells it from a frame: those go without. */
+    private static ByteBuffer withHead(ByteBuffer body) {
+        return ByteBuffer.allocate(8 + body.remaining()).order(ByteOrder.LITTLE_ENDIAN)
+                .put("WATR".getBytes(StandardCharsets.US_ASCII)).putInt(body.remaining()).put(body.duplicate()).flip();
     }
 
     private void lost(String reason, boolean restarted) throws SocketGoneException {

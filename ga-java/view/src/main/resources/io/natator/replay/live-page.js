@@ -6,21 +6,20 @@ import {Figures} from './figures.js';
 import {CAMERAS} from './cameras.js';
 import {listen} from './keys.js';
 import {Legend} from './legend.js';
-import {errorOf} from './live.js';
 import {listenToBanner, showBanner, showStatus} from './notices.js';
 import {figures} from './probe.js';
 import {expanded} from './recording.js';
 import {sliderRow} from './sliders.js';
-import {contents} from './scene.js';
+import {contents, isParticles, waterShown, watersOf} from './scene.js';
 import {SolverSocket} from './solver-socket.js';
 import {firstLook} from './stage.js';
 import {SWIMMERS, WAVE, stiffened, waveGait} from './swimmers.js';
 import {Theme} from './theme.js';
 import {View} from './view.js';
 
-const SCENE = 'endless/small';
 const SLOW_MS = 200;
 const USUAL = {stiffness: 1, viscosity: 1};
+const WATERS = ['surface', 'vorticity', 'vortices', 'none'];
 
 const SLIDERS = [
   {group: 'gait', id: 'frequency', label: 'Beats per second', min: 0.2, max: 3, step: 0.05},
@@ -46,13 +45,18 @@ class LivePage {
 
   constructor(openSocket) {
     this.#theme = new Theme('auto', () => this.#themeChanged());
-    const first = {scene: SCENE, overrides: null, gait: waveGait(this.#settings, 8)};
-    this.#view = new View(document.querySelector('.picture'), first, null, [SCENE], {
+    const {scene} = this.#swimmer;
+    const first = {scene, overrides: null, gait: this.#gait};
+    this.#view = new View(document.querySelector('.picture'), first, null, SWIMMERS.map(one => one.scene), {
       scene: () => this.#sceneChanged(),
       status: (state, text) => showStatus(state, state === 'open' ? 'computed here' : text),
       notice: showBanner,
       range: range => {
         this.#legend.range = range;
+        this.#showLegend();
+      },
+      turning: range => {
+        this.#legend.turning = range;
         this.#showLegend();
       },
     }, openSocket);
@@ -61,6 +65,8 @@ class LivePage {
     this.#view.stage.rig.onMode = mode => choose(byId('cameras'), mode);
     SLIDERS.forEach(setting => this.#addSlider(setting));
     fillSegments(byId('swimmers'), 'swimmer', SWIMMERS.map(({title}) => [title, title]), title => this.#choose(title));
+    fillSegments(byId('shown'), 'water', WATERS.map(name => [name, name, 'key w']), name => this.#setWater(name));
+    this.#setWater(WATERS[0]);
     fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.#setCamera(mode));
     this.#show();
     this.#setCamera('top');
@@ -90,13 +96,13 @@ class LivePage {
   }
 
   get #gait() {
-    return waveGait(this.#settings, this.#view.scene?.actuators ?? 8);
+    return waveGait(this.#settings, this.#swimmer.actuators);
   }
 
   /** What a slider changes in the scene. */
   #patch(id) {
     if (id === 'viscosity') {
-      return {solver: {kinematicViscosity: this.#water * this.#settings.viscosity}};
+      return {solver: {kinematicViscosity: this.#swimmer.viscosity * this.#settings.viscosity}};
     }
     return {creature: Object.fromEntries(['clusterStiffness', 'springStiffness']
         .map(key => [key, stiffened(this.#own[key], this.#settings.stiffness)]))};
@@ -108,8 +114,7 @@ class LivePage {
     this.#settings = {...this.#settings, ...this.#swimmer.wave, stiffness: 1};
     this.#own = null;
     const overrides = {creature: this.#swimmer.creature, ...this.#patch('viscosity')};
-    const error = await this.#view.setScene(SCENE, overrides, null) ?? errorOf(await this.#view.setGait(this.#gait));
-    this.#report(error);
+    this.#report(await this.#view.setScene(this.#swimmer.scene, overrides, this.#gait));
     this.#show();
   }
 
@@ -133,9 +138,8 @@ class LivePage {
     }
   }
 
-  /** The stiffness of a creature and the viscosity of the water before a slider was moved. */
+  /** The stiffness of a creature before a slider was moved. */
   #own = null;
-  #water = 0.002;
 
   #sceneChanged() {
     const {scene} = this.#view;
@@ -153,10 +157,26 @@ class LivePage {
     this.#showLegend();
   }
 
+  /** What WATERS names; without a graphics card the particles stand for their surface. */
+  #setWater(name) {
+    this.#setLook({water: name === 'surface' ? firstLook().water : name});
+  }
+
   #showLegend() {
     if (this.#view?.scene) {
-      this.#legend.show(this.#look, contents([this.#view.scene]));
+      const has = contents([this.#view.scene]);
+      this.#legend.show(this.#look, has);
+      const shown = waterShown(this.#look.water, has);
+      choose(byId('shown'), isParticles(shown) ? 'surface' : shown);
+      for (const input of byId('shown').querySelectorAll('input')) {
+        input.parentElement.hidden = !watersOf(has).includes(input.value);
+      }
     }
+  }
+
+  #nextWater() {
+    const shown = [...byId('shown').querySelectorAll('input')].filter(input => !input.parentElement.hidden);
+    this.#setWater(shown[(shown.findIndex(input => input.checked) + 1) % shown.length].value);
   }
 
   #tick(now) {
@@ -208,12 +228,14 @@ class LivePage {
     byId('run').addEventListener('click', () => this.#toggleRun());
     byId('reset').addEventListener('click', reset);
     byId('restore').addEventListener('click', () => this.#restore());
-    byId('shown').addEventListener('change', () => this.#setLook({water: byId('shown').checked ? firstLook().water : 'none'}));
+    byId('dye').addEventListener('change', () => this.#setLook({dye: byId('dye').checked}));
     byId('theme').addEventListener('change', () => this.#theme.choose(byId('theme').value));
     listen([
       [' ', 'swim or pause', () => this.#toggleRun()],
       ['r', 'back to the start', reset],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.#setCamera(CAMERAS[Number(key) - 1])],
+      ['w', 'water: surface, vorticity, vortices, none', () => this.#nextWater()],
+      ['y', 'dye from the tail', () => byId('dye').click()],
       ['d', 'light, dark', () => this.#theme.toggle()],
       ['?', 'this list', () => byId('help').showModal()],
     ]);

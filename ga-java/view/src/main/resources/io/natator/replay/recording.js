@@ -1,5 +1,7 @@
 /** Swims that `natator page` packed: expanded, and any time of them as a frame. */
 
+import {MovingTank} from './moving-tank.js';
+
 /** @typedef {{rows: Int32Array[], columns: {low: number, step: number}[], numbers: number}} Table whole numbers, and what they stand for */
 
 /** Expands text (base64 of zlib) to bytes. */
@@ -41,6 +43,11 @@ export class Recording {
   #columns;
   #positions;
   #density;
+  #origins;
+  #flow;
+  #start = -1;
+  /** @type {Water|null} */
+  #water = null;
   #work;
 
   /** Unpacks a swim from the text of the page. */
@@ -62,6 +69,8 @@ export class Recording {
     const tables = this.#tables(head, bytes, scalarBytes);
     this.#positions = this.#places(tables);
     this.#density = this.#densities(tables.density);
+    this.#origins = this.#follow();
+    this.#flow = tables.flow === undefined ? null : {...head.flow, ...tables.flow};
     this.#work = this.#emptyFrame();
   }
 
@@ -98,7 +107,46 @@ export class Recording {
     }
     this.#move(frame, this.#positions[first], this.#positions[second], share);
     frame.density.set(this.#density[share < 0.5 ? first : second]);
+    frame.origin = this.#origins[share < 0.5 ? first : second];
     return frame;
+  }
+
+  /**
+   * The water at a time, of the last frame that it is known of; null where it is not in the page. The same object until it is
+   * another.
+   */
+  waterAt(time) {
+    const place = Math.min(this.frames - 1, Math.max(0, Math.floor(time / this.interval + 1e-6)));
+    const start = this.#flow?.starts.findLast(one => one <= place) ?? -1;
+    if (start !== this.#start) {
+      this.#start = start;
+      this.#water = this.#waterOf(start);
+    }
+    return this.#water;
+  }
+
+  #waterOf(start) {
+    const {rows, columns, numbers, cells, cell, corner} = this.#flow;
+    const velocity = new Float32Array(3 * numbers);
+    columns.forEach(({low, step}, i) => {
+      for (let at = 0; at < numbers; at++) {
+        velocity[3 * at + 2 * i] = low + rows[start][i * numbers + at] * step;
+      }
+    });
+    return {scene: 1, frame: start, time: this.#scalar(start, 0), cells, cell, corner, velocity,
+      density: new Float32Array(numbers).fill(1), origin: this.#origins[start]};
+  }
+
+  /** Puts places where they are over ground; gives how far the tank has moved, for each frame. */
+  #follow() {
+    const tank = new MovingTank();
+    tank.setScene(this.scene);
+    return this.#positions.map((position, i) => {
+      const [time, distance, ...velocity] = [0, 1, 2, 3, 4].map(column => this.#scalar(i, column));
+      const frame = {time, distance, velocity, position};
+      tank.follow(/** @type {any} */ (frame));
+      return /** @type {any} */ (frame).origin;
+    });
   }
 
   #move(frame, from, to, share) {
@@ -115,7 +163,7 @@ export class Recording {
   }
 
   #tables(head, bytes, start) {
-    const tables = /** @type {Record<'water' | 'others' | 'density', Table>} */ ({});
+    const tables = /** @type {Record<'water' | 'others' | 'density' | 'flow', Table>} */ ({});
     let at = start;
     for (const table of head.tables) {
       const numbers = table.numbers * table.columns.length;
@@ -158,7 +206,7 @@ export class Recording {
       scene: 1, frame: 0, dropped: 0, running: true, touching: false, time: 0, wallTime: 0, distance: 0,
       velocity: new Float32Array(3), momentum: 0, angularMomentum: 0, densityMean: 0, densityMax: 0,
       activation: new Float32Array(actuators), position: new Float32Array(3 * particles),
-      velocities: new Float32Array(3 * particles), density: new Float32Array(particles),
+      velocities: new Float32Array(3 * particles), density: new Float32Array(particles), origin: [0, 0, 0],
     };
   }
 }

@@ -34,6 +34,7 @@ class Player {
     this.#stage.rig.isOrbiting = isOn;
   });
   #recording = null;
+  #water = null;
   #time = 0;
   #speed = 1;
   #isPaused = false;
@@ -51,6 +52,7 @@ class Player {
   constructor() {
     this.#look = new LookControls(firstLook(), look => this.#stage.setLook(look));
     this.#stage.onRange = range => this.#look.showRange(range);
+    this.#stage.onTurning = range => this.#look.showTurning(range);
     this.#charts = [
       new TimeChart(byId('chart-distance'), ['distance'], 0.01),
       new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed'], 0.02),
@@ -105,6 +107,7 @@ class Player {
     }
     byId('scrub').max = String(duration);
     this.#stage.setScene(scene);
+    this.#water = null;
     this.#look.has = contents([scene]);
     this.#figures.name(this.#recording.title, `${scene.scheme}, ${scene.particles} particles`);
     this.#showFacts();
@@ -140,6 +143,11 @@ class Player {
         this.#isMoved = false;
         this.frame = this.#recording.at(this.#time);
         this.#stage.setFrame(this.frame);
+        const water = this.#recording.waterAt(this.#time);
+        if (water !== this.#water) {
+          this.#water = water;
+          this.#stage.setWater(water);
+        }
         this.#meter.drawn(this.frame.time);
       }
       this.#stage.draw(now, this.#isPaused);
@@ -219,12 +227,13 @@ class Player {
       [[',', '.'], 'frame before, after', key => this.step(key === '.' ? 1 : -1)],
       ['r', 'back to the start', () => this.seek(0)],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.#setCamera(CAMERAS[Number(key) - 1])],
-      ['w', 'water: spheres, surface, none', () => this.#look.next('water')],
+      ['w', 'water: spheres, surface, vorticity, none', () => this.#look.next('water')],
       ['c', 'colour: speed, density, mass, nothing', () => this.#look.next('colour')],
       ['k', 'body: skin, particles', () => this.#look.next('body')],
       ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],
       ['m', 'muscles', () => this.#look.toggle('muscles')],
       ['t', 'trace of the spine', () => this.#look.toggle('trace')],
+      ['y', 'dye from the tail', () => this.#look.toggle('dye')],
       ['p', 'presentation: the picture alone', () => this.#presentation.toggle()],
       ['a', 'about this', () => this.#openAbout()],
       ['d', 'light, dark', () => this.#theme.toggle()],

@@ -2,8 +2,8 @@
 
 /**
  * Runs the simulator (sim-native/cli/live.cpp) for who holds the other end of a port. First comes the module (ArrayBuffer),
- * answered by 'ready'; then commands as text. Frames go back as ArrayBuffer, all else as text {type, body}: as the server
- * of natator view has them. Stands behind the script that emscripten makes, in a worker or in the page itself.
+ * answered by 'ready'; then commands as text. Frames go back as ArrayBuffer, water so with its head, all else as text
+ * {type, body}: as the server of natator view has them. Stands behind the script that emscripten makes, in a worker or in the page itself.
  */
 function serveSolver(port) {
   let solver = null;
@@ -35,11 +35,11 @@ function serveSolver(port) {
 
   function give(bytes) {
     const type = String.fromCharCode(...bytes.subarray(0, 4));
-    const body = bytes.slice(8);
-    if (type === 'FRAM') {
-      port.postMessage(body.buffer, [body.buffer]);
+    if (type === 'FRAM' || type === 'WATR') {
+      const {buffer} = bytes.slice(type === 'FRAM' ? 8 : 0);
+      port.postMessage(buffer, [buffer]);
     } else {
-      port.postMessage(JSON.stringify({type, body: JSON.parse(new TextDecoder().decode(body))}));
+      port.postMessage(JSON.stringify({type, body: JSON.parse(new TextDecoder().decode(bytes.subarray(8)))}));
     }
   }
 

@@ -1,14 +1,19 @@
 /** The swimmers of the page that simulates by itself, and how its sliders make gaits of them. */
 
+const POOL = {scene: 'endless/small', viscosity: 0.002};
+
 /**
- * What each is called, its part of the scene, and the wave that it begins with: see `waveGait`. The first is the scene's own.
+ * What each is called, its scene with the kinematic viscosity there, its part of that, its actuators, and the wave that it
+ * begins with: see `waveGait`.
  */
 export const SWIMMERS = [
-  {title: 'Eel', creature: {name: 'eel'}, wave: {frequency: 1.5, head: 0.25, tail: 0.8, waves: 1}},
-  {title: 'Plank', creature: {name: 'creature-2', particleMass: 0.421875, clusterStiffness: 0.6, springStiffness: 0.4},
-    wave: {frequency: 1.5, head: 0.2, tail: 0.6, waves: 0.6}},
-  {title: 'Tadpole', creature: {name: 'tadpole'}, wave: {frequency: 1.5, head: 0.6, tail: 1, waves: 0.6}},
-  {title: 'Tuna', creature: {name: 'tuna'}, wave: {frequency: 2.5, head: 0.7, tail: 1.2, waves: 0.6}},
+  {...POOL, title: 'Eel', creature: {name: 'eel'}, actuators: 8, wave: {frequency: 1.5, head: 0.25, tail: 0.8, waves: 1}},
+  {...POOL, title: 'Plank', creature: {name: 'creature-2', particleMass: 0.421875, clusterStiffness: 0.6, springStiffness: 0.4},
+    actuators: 8, wave: {frequency: 1.5, head: 0.2, tail: 0.6, waves: 0.6}},
+  {...POOL, title: 'Tadpole', creature: {name: 'tadpole'}, actuators: 5, wave: {frequency: 1.5, head: 0.6, tail: 1, waves: 0.6}},
+  {...POOL, title: 'Tuna', creature: {name: 'tuna'}, actuators: 4, wave: {frequency: 2.5, head: 0.7, tail: 1.2, waves: 0.6}},
+  {scene: 'plane/loach', viscosity: 0.0004, title: 'Loach', creature: {name: 'loach'},
+    actuators: 5, wave: {frequency: 2, head: 0.4, tail: 0.2, waves: 0.5}},
 ];
 
 /** The settings that make a wave. */

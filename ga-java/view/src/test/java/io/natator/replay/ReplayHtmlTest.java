@@ -70,8 +70,8 @@ class ReplayHtmlTest {
             for (int i = 0; i < water; i++) {
                 density[i] = random.nextFloat();
             }
-            all.add(new StreamFrame(1, frame, 0, true, false, 0.0125 * frame, 0, 0.1 * frame, new float[] {1, 2, 3}, 4,
-                    5, 6, 7, new float[] {0.5f}, position, new float[0], density));
+            all.add(new StreamFrame(frame, 0.0125 * frame, 0.1 * frame, new float[] {1, 2, 3}, 4, 5, 6, 7,
+                    new float[] {0.5f}, position, density));
         }
         try {
             return new Replay(title, Json.parse(json.toString(), StreamScene.class), json.toString(), all);

@@ -50,8 +50,6 @@ class StreamReaderTest {
         assertThat(scene.mass()).containsExactly(2.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, null);
         assertThat(scene.firstFluid()).isZero();
         assertThat(scene.fluidCount()).isEqualTo(4);
-        assertThat(scene.slices()).containsExactly(List.of(4, 5), List.of(6, 7));
-        assertThat(scene.muscles()).containsExactly(new StreamScene.Muscle(4, 6, 0, -1, 0.075));
         assertThat(scene.frameBytes()).isEqualTo(72 + 4 * FLOATS);
     }
 
@@ -63,20 +61,14 @@ class StreamReaderTest {
         StreamMessage.Frame message = (StreamMessage.Frame) reader.next();
         StreamFrame frame = message.decode();
 
-        assertThat(frame.scene()).isEqualTo(1);
         assertThat(frame.frame()).isEqualTo(5);
-        assertThat(frame.dropped()).isEqualTo(3);
-        assertThat(frame.running()).isFalse();
-        assertThat(frame.touchesPlane()).isTrue();
         assertThat(frame.time()).isEqualTo(0.0625);
-        assertThat(frame.frameSeconds()).isEqualTo(0.002);
         assertThat(frame.distance()).isEqualTo(-0.25);
         assertThat(frame.centreVelocity()).containsExactly(0.125f, 0.25f, 0.375f);
         assertThat(List.of(frame.linearMomentum(), frame.angularMomentum(), frame.meanDensityError(),
                 frame.maxDensityError())).containsExactly(0.5f, 0.625f, 0.75f, 0.875f);
         assertThat(frame.activation()).containsExactly(5000.5f);
         assertThat(frame.position()).hasSize(24).startsWith(5001.5f).endsWith(5024.5f);
-        assertThat(frame.velocity()).hasSize(24).startsWith(5025.5f).endsWith(5048.5f);
         assertThat(frame.density()).hasSize(8).startsWith(5049.5f).endsWith(5056.5f);
         assertThat(message.body()).isEqualTo(ByteBuffer.wrap(StreamBytes.frameBody(1, 5, FLOATS)));
         assertThat(message.body().isReadOnly()).isTrue();
@@ -95,7 +87,6 @@ class StreamReaderTest {
         StreamFrame frame = ((StreamMessage.Frame) reader.next()).decode();
 
         assertThat(frame.position()).hasSize(24);
-        assertThat(frame.velocity()).isEmpty();
         assertThat(frame.density()).hasSize(8).endsWith(32.5f);
     }
 
@@ -114,9 +105,29 @@ class StreamReaderTest {
         assertThat(bad.id().isNull()).isTrue();
         StreamMessage.Stop unstable = (StreamMessage.Stop) reader.next();
         assertThat(unstable.isEnd()).isFalse();
-        assertThat(unstable.detail().get("particle").asInt()).isEqualTo(7);
+        assertThat(unstable.json()).isEqualTo("{\"reason\":\"unstable\",\"particle\":7}");
         assertThat(((StreamMessage.Stop) reader.next()).isEnd()).isTrue();
         assertThat(reader.next()).isNull();
+    }
+
+    /** Of 3 by 1 by 2 cells. */
+    @Test
+    void waterIsReadWhole() throws IOException {
+        byte[] body = ByteBuffer.allocate(64 + 16 * 6).order(ByteOrder.LITTLE_ENDIAN).putInt(8, 3).putInt(12, 1)
+                .putInt(16, 2).putFloat(64, 0.5f).array();
+        StreamMessage.Water water = (StreamMessage.Water) reader(new StreamBytes().message("WATR", body)).next();
+
+        assertThat(water.body()).isEqualTo(ByteBuffer.wrap(body));
+        assertThat(water.body().isReadOnly()).isTrue();
+        assertThat(water.body().order()).isEqualTo(ByteOrder.LITTLE_ENDIAN);
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", new byte[60]),
+                "WATR of 60 bytes; expected 64 to 268435456");
+        body[8] = 4;
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", body),
+                "WATR of 160 bytes; expected 192 for its cells");
+        body[11] = (byte) 0xff;
+        assertThatAllOfItThrows(new StreamBytes().message("WATR", body),
+                "WATR of 160 bytes; expected 136902082752 for its cells");
     }
 
     @Test
@@ -161,7 +172,7 @@ class StreamReaderTest {
     @Test
     void otherLettersAreToldOf() {
         assertThatAllOfItThrows(begun().message("\u0001RAM", new byte[4]),
-                "message begins with \"?RAM\"; expected SCEN, FRAM, ANSW or STOP");
+                "message begins with \"?RAM\"; expected SCEN, FRAM, WATR, ANSW or STOP");
     }
 
     @Test
@@ -183,15 +194,14 @@ class StreamReaderTest {
     @Test
     void aSceneThatGoesOnTellsOnlyWhatHasChanged() throws IOException {
         StreamReader reader = reader(
-                begun().json("SCEN", "{\"number\":2,\"restarted\":false,\"duration\":9}").frame(2, 1));
+                begun().json("SCEN", "{\"number\":2,\"restarted\":false,\"timeStep\":9}").frame(2, 1));
 
         StreamScene first = ((StreamMessage.Scene) reader.next()).scene();
         StreamMessage.Scene second = (StreamMessage.Scene) reader.next();
 
-        assertThat(second.scene().duration()).isEqualTo(9);
-        assertThat(second.scene().restarted()).isFalse();
+        assertThat(second.scene().timeStep()).isEqualTo(9);
         assertThat(second.scene().mass()).isEqualTo(first.mass());
-        assertThat(second.json()).isEqualTo("{\"number\":2,\"restarted\":false,\"duration\":9}");
+        assertThat(second.json()).isEqualTo("{\"number\":2,\"restarted\":false,\"timeStep\":9}");
         assertThat(((StreamMessage.Frame) reader.next()).decode().frame()).isOne();
     }
 
@@ -226,15 +236,7 @@ class StreamReaderTest {
             "mass|null|mass has 0 numbers; expected 8",
             "fields|[\"density\",\"position\"]|fields are [DENSITY, POSITION]; expected some of position, velocity, density in this order",
             "fluid|[5,4]|fluid is [5, 4]; expected [first, count] of at most 8 particles",
-            "fluid|[2147483647,2147483647]|fluid is [2147483647, 2147483647]; expected [first, count] of at most 8 particles",
-            "body|[8]|body: expected indices below 8",
-            "slices|[[0],[-1]]|slices: expected indices below 8",
-            "clusters|[null]|clusters: expected indices below 8",
-            "joints|[2]|joints: expected indices below 2",
-            "planes|[[0,1,0]]|planes: expected four numbers each",
-            "periodic|{\"y\":[0,1]}|periodic: expected x or z with two numbers each",
-            "periodic|{\"x\":[0]}|periodic: expected x or z with two numbers each",
-            "muscles|[{\"a\":0,\"b\":1,\"actuator\":1,\"lateral\":0,\"restLength\":1}]|muscle Muscle[a=0, b=1, actuator=1, lateral=0.0, restLength=1.0]; expected particles below 8 and an actuator below 1"})
+            "fluid|[2147483647,2147483647]|fluid is [2147483647, 2147483647]; expected [first, count] of at most 8 particles"})
     void aSceneThatContradictsItselfIsToldOf(String key, String value, String message) throws IOException {
         ObjectNode scene = StreamBytes.scene();
         scene.set(key, Json.parse("[" + value + "]", JsonNode.class).get(0));
@@ -249,29 +251,5 @@ class StreamReaderTest {
 
         assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
                 .isInstanceOf(StreamException.class).hasMessageContaining("particles").message().doesNotContain("\n");
-    }
-
-    /** Two clusters of four particles each, and three vertices: of one, between both, of the other. */
-    @Test
-    void aSkinThatDoesNotFitItsBodyIsRefused() throws IOException {
-        ObjectNode scene = StreamBytes.scene();
-        scene.set("body", Json.parse("[0,1,2,3,4,5,6,7]", JsonNode.class));
-        scene.set("clusters", Json.parse("[[0,1,2,3],[4,5,6,7]]", JsonNode.class));
-        String skin = """
-                {"file":"fish.obj","vertices":[[2,0,0],[0,0.5,0],[-2,0,1]],"triangles":[[0,1,2]],"cluster":[0,0,1],
-                 "share":[1,0.25,1],"rest":[[1,0,0],[2,0,0],[1,1,0],[1,0,1],[-1,0,0],[-2,0,0],[-1,1,0],[-1,0,1]]}""";
-        scene.set("skin", Json.parse(skin, JsonNode.class));
-        assertThat(((StreamMessage.Scene) reader(new StreamBytes().json("SCEN", scene)).next()).scene().skin())
-                .isNotNull();
-        for (String[] change : new String[][] {{"[[0,1,2]]", "[[0,1,3]]"},
-                {"\"cluster\":[0,0,1]", "\"cluster\":[0,0,2]"},
-                {"\"share\":[1,0.25,1]", "\"share\":[1,0.25]"}, {"\"share\":[1,0.25,1]", "\"share\":[1,0.25,0.5]"},
-                {"[-1,0,1]]}", "[-1,0]]}"}, {",[-1,0,1]]}", "]}"}}) {
-            String wrong = skin.replace(change[0], change[1]);
-            assertThat(wrong).isNotEqualTo(skin);
-            scene.set("skin", Json.parse(wrong, JsonNode.class));
-            assertThatThrownBy(() -> reader(new StreamBytes().json("SCEN", scene)).next())
-                    .isInstanceOf(StreamException.class).hasMessageContaining("skin");
-        }
     }
 }

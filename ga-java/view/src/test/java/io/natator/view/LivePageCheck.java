@@ -81,6 +81,26 @@ class LivePageCheck extends BrowserTest {
         assertThat(get("run").innerText()).isEqualTo("Swim");
     }
 
+    /** Asked for of the simulator in the page, by keyboard in a tank of particles, by itself in plane flow. */
+    @Test
+    void theWakeIsSeen() {
+        open("?drawing=plain");
+        page.keyboard().press("w");
+        assertThat(get("water-vorticity").isChecked()).isTrue();
+        await("document.querySelector('[data-testid=legend-turns]').checkVisibility()");
+        await("!document.querySelector('[data-testid=legend-turns]').textContent.includes('-1')");
+        get("swimmer-Loach").check();
+        await("natator.scene().scene === 'plane/loach' && natator.scene().gait.frequency === 2 && natator.time() > 0.4");
+
+        assertThat(get("water-surface").isHidden()).isTrue();
+        await("/[1-9]0/.test(document.querySelector('[data-testid=legend-turns]').textContent)");
+        get("viscosity-number").fill("2");
+        get("viscosity-number").press("Enter");
+        await("Math.abs(natator.scene().definition.solver.kinematicViscosity - 0.0008) < 1e-9");
+        get("water-none").check();
+        assertThat(get("legend-turns").isHidden()).isTrue();
+    }
+
     /** As where workers are not allowed. */
     @Test
     void itRunsWithoutAWorker() {

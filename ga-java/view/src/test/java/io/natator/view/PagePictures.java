@@ -22,7 +22,6 @@ class PagePictures extends BrowserTest {
 
     private static final Path RESULTS = Path.of("..", "..", "results");
     private static final Path GAITS = Path.of("..", "..", "sim-native", "examples", "gaits");
-    private static final int FRAMES = 90;
 
     private static final List<ViewServer> SERVERS = new ArrayList<>();
     private String authority;
@@ -38,11 +37,15 @@ class PagePictures extends BrowserTest {
         return address.getScheme().matches("blob|data") || authority.equals(address.getAuthority());
     }
 
-    /** What is drawn: the name of the picture, a scene, and a gait of sim-native/examples/gaits. */
+    /** What is drawn: the name of the picture, a scene, a gait of sim-native/examples/gaits, frames, and how. */
     @ParameterizedTest
-    @CsvSource({"creature-2, open-water/creature-2, fish-like", "evolved-eel, endless/evolved-eel, evolved-eel",
-            "hoop, company/hoop, fish-like", "school, company/school, fish-like"})
-    void aCreatureSwims(String name, String scene, String gait) throws Exception {
+    @CsvSource({"creature-2, open-water/creature-2, fish-like, 90, surface, follow",
+            "evolved-eel, endless/evolved-eel, evolved-eel, 90, surface, follow",
+            "hoop, company/hoop, fish-like, 90, surface, follow",
+            "school, company/school, fish-like, 90, surface, follow",
+            "loach, plane/loach, loach, 240, vorticity, top"})
+    void aCreatureSwims(String name, String scene, String gait, int frames, String shown, String camera)
+            throws Exception {
         ObjectNode keys = (ObjectNode) Json.read(GAITS.resolve(gait + ".json"), JsonNode.class, "gait");
         keys.remove("$schema");
         InitialScene start = new InitialScene(scene, null, Json.tree(keys, Gait.class));
@@ -52,10 +55,12 @@ class PagePictures extends BrowserTest {
         authority = server.address().getAuthority();
         page.setViewportSize(1400, 900);
         page.navigate(server.address().toString());
-        await("window.natator && natator.frame() >= " + FRAMES);
+        await("window.natator && natator.frame() >= 0");
+        get("camera-" + camera).click();
+        get("water-" + shown).click();
+        await("natator.frame() >= " + frames);
         get("run").click();
         get("trace").uncheck();
-        get("water-surface").click();
         get("drawing").selectOption("webgl");
         await("natator.samples() === 16");
         String file = "page-" + name;

@@ -12,6 +12,7 @@ import io.natator.config.Scheme;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
+import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
@@ -31,28 +32,32 @@ import org.junit.jupiter.api.io.TempDir;
 class SharedPageTest extends BrowserTest {
 
     private static final double SECONDS = 1;
+    private static final String LOACH = """
+            {"frequency":2,"amplitude":[0.4,0.35,0.3,0.25,0.2],"phase":[0,0.902,0.804,0.706,0.608]}""";
 
     @TempDir
     private static Path folder;
     private static Path file;
+    private static Replay swim;
+    private static double largestError;
 
     @BeforeAll
     static void write() throws IOException, InterruptedException {
         JsonNode gait = Json.parse(ViewFixture.GAIT.replace('\'', '"'), JsonNode.class);
-        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
+        swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
                 .recording("thesis/creature-1", null, gait, SECONDS).with(Scheme.CONSERVING, null));
         file = folder.resolve("swim.html");
         Map<String, String> facts = new LinkedHashMap<>();
         facts.put("verdict", "swims: as told");
         facts.put("half step", "<slower>");
-        swim = new Replay(swim.title(), swim.scene(), swim.json(), swim.frames(), facts);
-        new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
+        swim = swim.with(swim.title(), facts);
+        largestError = new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000).largestError();
     }
 
     @Override
     boolean isOwn(URI address) {
-        return address.equals(file.toUri()) || address.toString().matches("file://" + file + "(#.*)?")
-                || address.getScheme().matches("blob|data");
+        return address.getScheme().matches("blob|data")
+                || address.toString().matches("file://" + folder + "/\\w+\\.html([?#].*)?");
     }
 
     @Test
@@ -70,6 +75,68 @@ class SharedPageTest extends BrowserTest {
                 .containsText(new String[] {"swims: as told", "<slower>", "thesis/creature-1"});
         await("natator.time() > 0.9");
         await("natator.time() < 0.5");
+    }
+
+    /** From the simulator through the packed file into the browser. */
+    @Test
+    void itShowsThePlacesThatWereSimulated() {
+        page.navigate(file.toUri().toString());
+        await("window.natator && natator.time() > 0");
+        page.getByTestId("play").click();
+
+        for (int frame : new int[] {0, 7, 15}) {
+            StreamFrame recorded = swim.frames().get(frame);
+            seek(recorded);
+
+            List<?> shown = (List<?>) page.evaluate("() => natator.position()");
+
+            assertThat(shown).hasSize(3 * swim.scene().particles());
+            for (int i = 0; i < shown.size(); i++) {
+                assertThat(((Number) shown.get(i)).doubleValue())
+                        .isCloseTo(recorded.position()[i], within(1.05 * largestError));
+            }
+        }
+    }
+
+    /** Goes to a frame; the mean x of its body. */
+    private double seek(StreamFrame recorded) {
+        page.evaluate("""
+                time => {
+                  const scrub = document.getElementById('scrub');
+                  scrub.value = time;
+                  scrub.dispatchEvent(new Event('input'));
+                }""", recorded.time());
+        await("Math.abs(natator.time() - " + recorded.time() + ") < 1e-6");
+        return number("natator.scene().body.reduce((sum, i) => sum + natator.position()[3 * i], 0)"
+                + " / natator.scene().body.length");
+    }
+
+    /** Plane flow is recorded with its water, and the body goes on where the tank has moved along. */
+    @Test
+    void theWakeIsSeenInPlaneFlow() throws IOException, InterruptedException {
+        Replay loach = new ReplayRecorder(ViewFixture.SIMULATOR).record("loach",
+                StreamOptions.recording("plane/loach", null, Json.parse(LOACH, JsonNode.class), 0.7));
+        assertThat(loach.waters()).as("before the end").hasSize(7);
+        Path plane = folder.resolve("loach.html");
+        new ReplayHtml("loach", List.of(loach), true).write(plane, 10_000_000);
+        page.navigate(plane.toUri() + "?drawing=plain");
+        await("window.natator && natator.time() > 0");
+        get("play").click();
+
+        double first = seek(loach.frames().get(0));
+        StreamFrame last = loach.frames().get(loach.frames().size() - 1);
+        assertThat(last.distance()).isGreaterThan(0.3);
+        assertThat(seek(last) - first).as("mean x of the body").isCloseTo(last.distance(), within(1e-4));
+        assertThat(get("water-vorticity").isChecked()).isTrue();
+        assertThat(get("water-surface").isHidden()).isTrue();
+        await("/[1-9]0/.test(document.querySelector('[data-testid=legend-turns]').textContent)");
+        assertThat(colours(stillPicture(get("picture-a")))).isGreaterThan(500);
+
+        new ReplayHtml("loach", List.of(loach), false).write(plane, 10_000_000);
+        page.navigate(plane.toUri() + "?drawing=plain");
+        await("window.natator && natator.time() > 0");
+        assertThat(get("water-vorticity").isHidden()).isTrue();
+        assertThat(get("legend-turns").isHidden()).isTrue();
     }
 
     @Test

@@ -8,6 +8,7 @@ import static org.assertj.core.api.Assertions.within;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.process.Processes;
 import java.nio.ByteBuffer;
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -83,6 +84,23 @@ class StreamSocketTest {
         assertThat(frame.getInt(0)).isEqualTo(scene.get("number").asInt());
         assertThat(frame.getDouble(16)).isCloseTo(2 * scene.get("timeStep").asDouble(), within(1e-9));
         assertThat(number(page.awaitFrame())).isEqualTo(3);
+    }
+
+    /** With its head: what begins otherwise is a frame. */
+    @Test
+    void waterComesWithItsHead() throws InterruptedException {
+        StreamClient page = open().start("plane/loach", "null", true);
+        int number = page.await("SCEN").get("number").asInt();
+
+        page.send("{'do':'water','id':5}");
+
+        assertThat(page.await("ANSW").toString()).isEqualTo("{\"id\":5,\"ok\":true}");
+        ByteBuffer water = page.awaitFrame();
+        int size = 64 + 16 * 160 * 80;
+        assertThat(StandardCharsets.US_ASCII.decode(water.duplicate().limit(4)).toString()).isEqualTo("WATR");
+        assertThat(water.remaining()).isEqualTo(8 + size);
+        assertThat(List.of(water.getInt(4), water.getInt(8), water.getInt(16), water.getInt(20), water.getInt(24)))
+                .containsExactly(size, number, 160, 1, 80);
     }
 
     @Test

@@ -2,16 +2,18 @@
 
 import {byId, make} from './element.js';
 
-const LIVE = ['What you see', 'A soft creature and the water around it, both made of particles and computed while you watch. Nothing is '
+const LIVE = ['What you see', 'A soft creature and the water around it, computed while you watch. Nothing is '
     + 'animated by hand: muscles in the body get shorter and longer to a rhythm, its gait, and all else follows. The gait was '
     + 'evolved, or is set with the sliders.'];
-const REPLAYED = ['What you see', 'A soft creature and the water around it, both made of particles. Nothing is animated by hand: '
+const REPLAYED = ['What you see', 'A soft creature and the water around it, as they were computed. Nothing is animated by hand: '
     + 'muscles in the body get shorter and longer to a rhythm, its gait, and all else followed when it was simulated. This file '
     + 'holds that swim and plays it again; it needs no network and no program.'];
 const PARTS = [
   ['The water', 'Each particle stands for a small cube of water. “Surface” lays a smooth surface around them, with light that '
     + 'is bent, taken up and mirrored: a picture, not a measurement; it is bluer than so little water would be. “Spheres” '
     + 'shows the particles themselves. Colours and their units are in the legend.'],
+  ['The wake', 'Vorticity is how the water turns, in a slice at the body’s height. Vortices are surfaces around the hundredth of '
+    + 'the water that turns most against how it is strained (Q-criterion). Both are interpolated from cells.'],
   ['The body', 'Its skin is the mesh that it was made of, or a smooth surface around its particles. Blue is where muscles '
     + 'shorten, orange where they lengthen; with muscles off the colours are its clusters, from the head to the tail. '
     + 'Lines show where the spine and the head have been.'],
@@ -19,7 +21,7 @@ const PARTS = [
     + 'get anywhere. What still moves forwards does so by an error of the method, not by swimming.'],
   ['Schemes', '“conserving” keeps momentum to rounding and is meant for swimming as physics. “flex” moves particles as NVIDIA '
     + 'Flex does, to repeat work made with it; momentum is not kept there, and bodies move even in vacuum. “lattice” has the '
-    + 'bodies of “conserving” in water on a lattice, which has no surface and is not drawn.'],
+    + 'bodies of “conserving” in water on a lattice, which has no surface: its vorticity is drawn.'],
 ];
 const CHARTS = [
   ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat.'],

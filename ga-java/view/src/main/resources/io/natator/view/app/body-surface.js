@@ -1,5 +1,7 @@
 /** A smooth surface around particles: where they have been averaged to a place that is a radius away. */
 
+import {surfaceNet} from './surface-net.js';
+
 /** Radius of the surface around a layer of particles, and the reach of the average, in spacings. */
 const RADIUS = 0.62;
 const REACH = 2;
@@ -9,8 +11,7 @@ const MOST_NODES = 3e6;
 const ROUNDS = 4;
 
 /**
- * The surface of Zhu and Bridson (Animating Sand as a Fluid, 2005), |x − mean of the places near x| = radius, by naive
- * surface nets (Gibson 1998): a vertex in each cell that it goes through; then evened out.
+ * The surface of Zhu and Bridson (Animating Sand as a Fluid, 2005), |x − mean of the places near x| = radius, evened out.
  *
  * @param {number[][]} places x, y, z of each particle
  * @param {number} spacing distance of neighbours, length
@@ -18,9 +19,7 @@ const ROUNDS = 4;
  *     triangle, counter-clockwise as seen from outside
  */
 export function surfaceAround(places, spacing) {
-  const grid = distances(places, spacing);
-  const {vertices, vertexOf} = net(grid);
-  const triangles = faces(grid, vertexOf);
+  const {vertices, triangles} = surfaceNet(distances(places, spacing));
   smooth(vertices, triangles);
   return {vertices, triangles};
 }
@@ -65,62 +64,6 @@ function distances(places, spacing) {
     }
   }
   return {values, size, low, cell};
-}
-
-/** A vertex in each cell whose corners lie on both sides: the mean of where its edges are crossed. */
-function net({values, size, low, cell}) {
-  const vertexOf = new Int32Array(values.length).fill(-1);
-  const vertices = [];
-  const [across, up, along] = size;
-  const steps = [1, across, across * up];
-  for (let z = 0; z + 1 < along; z++) {
-    for (let y = 0; y + 1 < up; y++) {
-      for (let x = 0; x + 1 < across; x++) {
-        const at = x + across * (y + up * z);
-        const sum = [0, 0, 0];
-        let crossed = 0;
-        for (let axis = 0; axis < 3; axis++) {
-          for (let corner = 0; corner < 4; corner++) {
-            const shift = [0, 0, 0];
-            shift[(axis + 1) % 3] = corner & 1;
-            shift[(axis + 2) % 3] = corner >> 1;
-            const from = at + shift[0] * steps[0] + shift[1] * steps[1] + shift[2] * steps[2];
-            const here = values[from];
-            const there = values[from + steps[axis]];
-            if (here < 0 !== there < 0) {
-              shift[axis] = here / (here - there);
-              shift.forEach((value, one) => sum[one] += value);
-              crossed++;
-            }
-          }
-        }
-        if (crossed > 0) {
-          vertexOf[at] = vertices.length / 3;
-          [x, y, z].forEach((value, axis) => vertices.push(low[axis] + cell * (value + sum[axis] / crossed)));
-        }
-      }
-    }
-  }
-  return {vertices: Float32Array.from(vertices), vertexOf};
-}
-
-/** Two triangles around each edge of the grid that goes through the surface. */
-function faces({values, size}, vertexOf) {
-  const steps = [1, size[0], size[0] * size[1]];
-  const triangles = [];
-  for (let at = 0; at < values.length; at++) {
-    for (let axis = 0; axis < 3; axis++) {
-      const isIn = values[at] < 0;
-      if (at + steps[axis] >= values.length || isIn === values[at + steps[axis]] < 0) {
-        continue;
-      }
-      const u = steps[(axis + 1) % 3];
-      const v = steps[(axis + 2) % 3];
-      const [a, b, c, d] = [vertexOf[at - u - v], vertexOf[at - v], vertexOf[at], vertexOf[at - u]];
-      triangles.push(...isIn ? [a, b, c, a, c, d] : [a, c, b, a, d, c]);
-    }
-  }
-  return Uint32Array.from(triangles);
 }
 
 /** Moves vertices to and fro along their neighbours' mean, which takes the steps of the grid away and keeps the volume (Taubin 1995). */

@@ -50,6 +50,7 @@ export class CameraRig {
   constructor(host) {
     this.#controls = new OrbitControls(this.camera, host);
     this.#controls.enabled = false;
+    this.#controls.autoRotateSpeed = -ORBIT * 30 / Math.PI;
     this.#controls.addEventListener('change', () => {
       this.hasMoved = true;
     });
@@ -119,11 +120,8 @@ export class CameraRig {
     const turn = this.#isOrbiting && !this.#still.matches ? ORBIT * seconds : 0;
     this.#angle += turn;
     if (this.#mode === 'free' && !this.#jump) {
-      if (turn > 0) {
-        this.camera.position.sub(this.#controls.target).applyAxisAngle(UP, turn).add(this.#controls.target);
-        this.hasMoved = true;
-      }
-      this.#controls.update();
+      this.#controls.autoRotate = turn > 0;
+      this.#controls.update(seconds);
       this.#target.copy(this.#controls.target);
       this.#eye.copy(this.camera.position);
       return;

@@ -1,6 +1,8 @@
 /** Colour scales that look even: equal steps in value are equal steps in the OKLab colour space. */
 
 const STEPS = 256;
+/** Power of the value that opacity is where a scale fades: what is weak is seen, too. */
+const FADING = 0.85;
 
 /**
  * OKLCH (lightness, chroma, hue in degrees) to OKLab.
@@ -64,6 +66,8 @@ export const SCALES = {
   sequential: even([[0.38, 0.125, 264], [0.53, 0.12, 240], [0.68, 0.105, 200], [0.83, 0.12, 155], [0.95, 0.12, 108]]),
   /** Contracted, at rest, stretched: blue, grey, orange. */
   diverging: even([[0.55, 0.17, 255], [0.92, 0, 255], [0.92, 0, 40], [0.62, 0.19, 40]]),
+  /** Turning right, not, left: violet, grey, green. */
+  turning: even([[0.6, 0.22, 305], [0.92, 0, 305], [0.92, 0, 150], [0.64, 0.18, 150]]),
 };
 
 /** The colours of a scale as RGBA bytes, for a texture. */
@@ -75,6 +79,29 @@ export function scaleBytes(scale) {
 export function colourAt(scale, share) {
   const index = Math.round(Math.min(1, Math.max(0, share)) * (STEPS - 1));
   return labToRgb(scale[index]).map(value => value / 255);
+}
+
+/**
+ * A scale that goes from one colour through nothing to another, by which what is behind shows through.
+ *
+ * @returns {Uint8ClampedArray} RGBA as `scaleBytes`, less and less opaque to the middle
+ */
+export function fadingBytes(scale) {
+  const ends = [0, scale.length - 1].map(i => labToRgb(scale[i]));
+  return Uint8ClampedArray.from(scale.flatMap((_, i) => {
+    const share = 2 * i / (scale.length - 1) - 1;
+    return [...ends[share < 0 ? 0 : 1], 255 * Math.abs(share) ** FADING];
+  }));
+}
+
+/** Such a scale as the CSS of a gradient from left to right. */
+export function fadingGradient(scale) {
+  const bytes = fadingBytes(scale);
+  const stops = Array.from({length: 17}, (_, i) => {
+    const [red, green, blue, alpha] = bytes.subarray(4 * Math.round(i * (STEPS - 1) / 16));
+    return `rgb(${red} ${green} ${blue} / ${(alpha / 255).toFixed(3)})`;
+  });
+  return `linear-gradient(to right, ${stops.join(', ')})`;
 }
 
 /** A scale as the CSS of a gradient from left to right. */

@@ -1,5 +1,7 @@
 /** One socket, which is one simulator: commands up, scenes and frames down, again after a loss. */
 
+import {decodeWater, isWater} from './protocol.js';
+
 /** Frames that may be under way or waiting to be drawn. */
 const CREDIT = 3;
 const FIRST_RETRY_MS = 400;
@@ -7,7 +9,7 @@ const LAST_RETRY_MS = 8000;
 
 /**
  * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), stop(STOP),
- * lost(LOST), saved(SAVED) if a scene's file was saved, refused(text) if what was to be shown cannot be.
+ * water(WATR), lost(LOST), saved(SAVED) if a scene's file was saved, refused(text) if what was to be shown cannot be.
  */
 export class Connection {
   #openSocket;
@@ -103,6 +105,10 @@ export class Connection {
   }
 
   #received(data) {
+    if (typeof data !== 'string' && isWater(data)) {
+      this.#handlers.water(decodeWater(data));
+      return;
+    }
     if (typeof data !== 'string') {
       this.#granted--;
       this.#frames.push(data);

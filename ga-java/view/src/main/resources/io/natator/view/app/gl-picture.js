@@ -3,11 +3,13 @@
 import * as THREE from 'three';
 import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
+import {GlDye} from './gl-dye.js';
 import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
 import {Layer} from './gl-layer.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
+import {GlWake} from './gl-wake.js';
 import {GlWater} from './gl-water.js';
 import {Refined} from './gl-refined.js';
 import {solids} from './scene.js';
@@ -36,6 +38,8 @@ export class GlPicture {
   #muscles = new GlMuscles();
   #tank = new GlTank();
   #trace;
+  #wake;
+  #dye;
   #background = new THREE.Color();
   #behind = new Layer();
   #bare = new Layer();
@@ -56,7 +60,7 @@ export class GlPicture {
   name = 'WebGL';
 
   /** @throws if the canvas has no context for WebGL */
-  constructor(canvas, trace, field) {
+  constructor(canvas, trace, field, wake, dye) {
     this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.#renderer.autoClear = false;
@@ -66,7 +70,10 @@ export class GlPicture {
     this.#tank.light = this.#map.texture;
     this.#body.lamp = LAMP;
     this.#trace = new GlTrace(trace);
-    this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
+    this.#wake = new GlWake(wake);
+    this.#dye = new GlDye(dye);
+    this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object,
+        this.#wake.object, this.#dye.object);
   }
 
   setScene(scene) {
@@ -100,6 +107,7 @@ export class GlPicture {
     }
     this.#tank.setColours(colours);
     this.#trace.setInk(colours.ink);
+    this.#dye.setColour(colours.dye);
   }
 
   /** The size in CSS pixels, the share of the screen's pixels along each side, and the angle of view in degrees. */
@@ -159,6 +167,8 @@ export class GlPicture {
     this.#body.update(frame);
     this.#muscles.update(frame);
     this.#trace.update();
+    this.#wake.update(this.#look.opacity);
+    this.#dye.update(frame.time);
     this.#water.update(frame, camera, this.#look, from);
     const isSurface = this.#water.isSurface(this.#look);
     this.#map.update(isSurface ? this.#water.shapes : null, this.#solids, frame.position);
@@ -189,6 +199,8 @@ export class GlPicture {
     this.#refined?.dispose();
     this.#water.dispose();
     this.#body.dispose();
+    this.#wake.dispose();
+    this.#dye.dispose();
     this.#map.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();

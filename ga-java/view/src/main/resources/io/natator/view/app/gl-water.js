@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import {SCALES, scaleBytes} from './colours.js';
-import {WATER_RADIUS} from './scene.js';
+import {WATER_RADIUS, isParticles} from './scene.js';
 import {NearestFirst} from './sort.js';
 import {PlaceBuffer, scaleTexture, sphereMaterial} from './gl-spheres.js';
 import {GlSurface} from './gl-surface.js';
@@ -56,12 +56,12 @@ export class GlWater {
   /**
    * Brings places and values of a frame to the GPU.
    *
-   * @param {object} look what is shown: water, colour, opacity, cut
+   * @param {object} look what is shown: water (spheres, surface or what is not drawn here), colour, opacity, cut
    * @param {number} from depth before which water is cut away
    */
   update(frame, camera, look, from) {
     const [first, count] = this.#scene.fluid;
-    const isShown = look.water !== 'none' && count > 0;
+    const isShown = isParticles(look.water) && count > 0;
     this.#points.visible = isShown && look.water === 'spheres';
     if (!isShown) {
       return;

@@ -4,11 +4,13 @@ import {byId, choose, fillSegments, fillSelect, make} from './element.js';
 import {FIELDS} from './fields.js';
 import {Legend} from './legend.js';
 import {LEVELS} from './quality.js';
+import {isParticles, waterShown, watersOf} from './scene.js';
 
-const WATERS = [['spheres', 'Spheres'], ['surface', 'Surface'], ['none', 'None']];
+const WATERS = [['spheres', 'Spheres'], ['surface', 'Surface'], ['vorticity', 'Vorticity', 'A slice at the body, coloured by how the water turns'],
+  ['vortices', 'Vortices', 'Surfaces around water that turns more than it strains (Q-criterion)'], ['none', 'None']];
 const BODIES = [['skin', 'Skin'], ['particles', 'Particles']];
 const SWITCHES = [
-  ['muscles', 'Muscles', 'm'], ['trace', 'Trace', 't'], ['cut', 'Cut open', 'x'],
+  ['muscles', 'Muscles', 'm'], ['trace', 'Trace', 't'], ['dye', 'Dye', 'y'], ['cut', 'Cut open', 'x'],
 ];
 
 /** Controls of the picture and its legend; for the live page and for replays. */
@@ -23,7 +25,7 @@ export class LookControls {
   #quality;
   #drawing;
   #switches = new Map();
-  #has = {water: true, muscles: true, bodies: true, others: false};
+  #has = {water: true, lattice: false, wake: true, vortices: true, muscles: true, bodies: true, others: false};
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
   constructor(look, onChange) {
@@ -74,8 +76,9 @@ export class LookControls {
 
   /** The next way to show water or the body, or to colour water. */
   next(name) {
-    const choices = {water: WATERS, body: BODIES}[name]?.map(([value]) => value) ?? Object.keys(FIELDS);
-    this.set({[name]: choices[(choices.indexOf(this.#look[name]) + 1) % choices.length]});
+    const choices = {water: watersOf(this.#has), body: BODIES.map(([value]) => value)}[name] ?? Object.keys(FIELDS);
+    const now = name === 'water' ? waterShown(this.#look.water, this.#has) : this.#look[name];
+    this.set({[name]: choices[(choices.indexOf(now) + 1) % choices.length]});
   }
 
   toggle(name) {
@@ -94,9 +97,21 @@ export class LookControls {
     this.#show();
   }
 
+  /** Ends of the colour scale of vorticity. */
+  showTurning(range) {
+    this.#legend.turning = range;
+    this.#show();
+  }
+
   #show() {
-    const {water, body, colour, opacity, quality, drawing} = this.#look;
+    const {body, colour, opacity, quality, drawing} = this.#look;
+    const water = waterShown(this.#look.water, this.#has);
     choose(this.#water, water);
+    for (const input of this.#water.querySelectorAll('input')) {
+      input.parentElement.hidden = !watersOf(this.#has).includes(input.value);
+    }
+    this.#colour.disabled = !isParticles(water);
+    this.#opacity.disabled = water === 'vorticity' || water === 'none';
     choose(this.#body, body);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
@@ -104,6 +119,7 @@ export class LookControls {
     this.#drawing.value = drawing;
     for (const [name, input] of this.#switches) {
       input.checked = this.#look[name];
+      input.disabled = name === 'dye' && !this.#has.wake;
     }
     this.#legend.show(this.#look, this.#has);
   }

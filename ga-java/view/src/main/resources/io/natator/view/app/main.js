@@ -41,7 +41,10 @@ export class Page {
   #charts;
   #runs;
   #lastFigures = 0;
-  #range = new SharedRange(range => this.#look.showRange(range));
+  #range = new SharedRange(range => this.#look.showRange(range), (view, range) => view.stage.shareRange(range),
+      view => view.scene?.fluid[1] > 0);
+  #turning = new SharedRange(range => this.#look.showTurning(range), (view, range) => view.stage.shareTurning(range),
+      view => view.stage.wantsWater);
   #transport = new Transport(this);
   #watching = new Watching(this);
   #capture = new Capture(() => this.#views.map(view => view.stage));
@@ -117,6 +120,7 @@ export class Page {
       status: showStatus,
       notice: showBanner,
       range: range => this.#range.changed(which, range, this.#views),
+      turning: range => this.#turning.changed(which, range, this.#views),
     });
     view.stage.setTheme(this.#theme.colours);
     view.stage.setLook(this.#look.look);
@@ -136,6 +140,7 @@ export class Page {
     this.#views[0].isLed = false;
     this.#figures.pop();
     this.#range.keepFirst(this.#views[0]);
+    this.#turning.keepFirst(this.#views[0]);
     const old = byId('stage-b').querySelector('.picture');
     old.replaceWith(old.cloneNode());
     /** @type {HTMLElement} */ (byId('stage-b').querySelector('.overlay')).hidden = false;

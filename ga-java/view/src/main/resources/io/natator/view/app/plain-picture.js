@@ -3,19 +3,22 @@
 import {Color} from 'three';
 import {SCALES, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
+import {dyeStrength} from './dye.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
 import {PlainSkin} from './plain-skin.js';
+import {PlainSlice} from './plain-slice.js';
 import {SphereLayer, shades} from './plain-spheres.js';
 import {SurfaceLayer} from './plain-surface.js';
 import {Projector} from './projector.js';
-import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, bodySpacing, distinctMuscles, muscleChange, solidKinds,
-  tankLines} from './scene.js';
+import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, bodySpacing, distinctMuscles, isParticles, muscleChange,
+  solidKinds, tankLines} from './scene.js';
 import {NearestFirst} from './sort.js';
 import {SPINES} from './trace.js';
 
 /** Colours of water. */
 const COLOURS = 256;
 const CHANGES = 33;
+const DYE_STEPS = 6;
 /** Pixels of the surface for each of the spheres' layer, along each side, while it moves. */
 const SURFACE_SHARE = 0.5;
 
@@ -33,6 +36,9 @@ export class PlainPicture {
   #surfaceColours = scaleBytes(SCALES.sequential);
   #discs = new Discs();
   #skin = new PlainSkin();
+  #slice = new PlainSlice();
+  #wake;
+  #dye;
   #order = new NearestFirst();
   #projector = new Projector();
   #lineProjector = new Projector();
@@ -51,19 +57,22 @@ export class PlainPicture {
   #colours = null;
   #sky = [255, 255, 255];
   #waterShades = null;
+  #turnShades = null;
   #bodyShades = null;
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
   #lineWidth = 1;
   #surfaceShare = SURFACE_SHARE;
   #place = [0, 0, 0];
 
-  constructor(canvas, trace, field) {
+  constructor(canvas, trace, field, wake, dye) {
     this.#canvas = canvas;
     this.#context = canvas.getContext('2d', {alpha: false});
     this.#layerContext = this.#layerCanvas.getContext('2d');
     this.#surfaceContext = this.#surfaceCanvas.getContext('2d');
     this.#trace = trace;
     this.#field = field;
+    this.#wake = wake;
+    this.#dye = dye;
   }
 
   /** What draws, for people. */
@@ -114,8 +123,10 @@ export class PlainPicture {
 
   setLook(look) {
     this.#look = look;
-    const colours = Array.from({length: COLOURS}, (_, i) => colourAt(SCALES.sequential, i / (COLOURS - 1)));
-    this.#waterShades = shades(colours, Math.min(look.opacity, 0.995));
+    const shadesOf = scale => shades(Array.from({length: COLOURS}, (_, i) => colourAt(scale, i / (COLOURS - 1))),
+        Math.min(look.opacity, 0.995));
+    this.#waterShades = shadesOf(SCALES.sequential);
+    this.#turnShades = shadesOf(SCALES.turning);
   }
 
   setTheme(colours) {
@@ -149,6 +160,9 @@ export class PlainPicture {
   draw(frame, camera, from) {
     this.#lineProjector.set(camera, this.#canvas.width, this.#canvas.height);
     this.#drawTank();
+    if (this.#wake.slice !== null) {
+      this.#slice.draw(this.#context, this.#canvas.width, this.#canvas.height, this.#lineProjector, this.#wake);
+    }
     this.#projector.set(camera, this.#layerCanvas.width, this.#layerCanvas.height);
     this.#surfaceProjector.set(camera, this.#surfaceCanvas.width, this.#surfaceCanvas.height);
     this.#drawParticles(frame, from);
@@ -162,6 +176,9 @@ export class PlainPicture {
     }
     if (this.#look.trace) {
       this.#drawTrace();
+    }
+    if (this.#dye.count > 0) {
+      this.#drawDye(frame.time);
     }
   }
 
@@ -196,14 +213,15 @@ export class PlainPicture {
   #drawParticles(frame, from) {
     const {particles, fluid} = this.#scene;
     const projector = this.#projector;
-    const isWater = this.#look.water !== 'none' && fluid[1] > 0;
+    const isWater = isParticles(this.#look.water) && fluid[1] > 0;
     const isSurface = this.#look.water === 'surface';
     if (isWater) {
       this.#field.read(this.#look.colour, this.#scene, frame, fluid[0], fluid[1], this.#values);
     }
     const [low, high] = this.#field.range;
     const perValue = (COLOURS - 1) / (high - low);
-    const count = this.#order.sort(frame.position, 0, particles, projector.eye, projector.forward, 0.05);
+    const places = this.#withVortices(frame.position);
+    const count = this.#order.sort(places, 0, places.length / 3, projector.eye, projector.forward, 0.05);
     this.#layer.clear();
     if (isSurface) {
       this.#surface.clear();
@@ -211,10 +229,11 @@ export class PlainPicture {
     for (let i = 0; i < count; i++) {
       const particle = this.#order.order[i];
       const kind = this.#kinds[particle];
-      projector.project(frame.position[3 * particle], frame.position[3 * particle + 1], frame.position[3 * particle + 2],
-          this.#place, 0);
+      projector.project(places[3 * particle], places[3 * particle + 1], places[3 * particle + 2], this.#place, 0);
       const [x, y, depth] = this.#place;
-      if (kind >= 0) {
+      if (particle >= particles) {
+        this.#vortexSphere(x, y, depth, particle - particles);
+      } else if (kind >= 0) {
         this.#bodySphere(x, y, depth, kind, particle, isSurface);
       } else if (isWater && depth >= from) {
         const value = Math.round((this.#values[particle - fluid[0]] - low) * perValue);
@@ -229,11 +248,29 @@ export class PlainPicture {
     this.#layerContext.putImageData(this.#layer.image, 0, 0);
   }
 
-  #waterSphere(x, y, depth, colour) {
-    const radius = WATER_RADIUS * this.#scene.fluidRestDistance / depth * this.#projector.pixels;
+  /** Places of all particles, and of what vortices are surrounded by. */
+  #withVortices(position) {
+    const {vortices} = this.#wake;
+    if (vortices === null) {
+      return position;
+    }
+    const places = new Float32Array(position.length + vortices.vertices.length);
+    places.set(position);
+    places.set(vortices.vertices, position.length);
+    return places;
+  }
+
+  #vortexSphere(x, y, depth, vertex) {
+    const {vortices: {turns, cell}, range: [, most]} = this.#wake;
+    const share = Math.min(1, Math.max(-1, turns[vertex] / most));
+    this.#waterSphere(x, y, depth, Math.round((COLOURS - 1) * (0.5 + 0.5 * share)), cell, this.#turnShades);
+  }
+
+  #waterSphere(x, y, depth, colour, spacing = this.#scene.fluidRestDistance, table = this.#waterShades) {
+    const radius = WATER_RADIUS * spacing / depth * this.#projector.pixels;
     if (isOn(this.#layerCanvas, x, y, radius)) {
       const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
-      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#waterShades, colour * LIGHTS);
+      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, table, colour * LIGHTS);
     }
   }
 
@@ -297,6 +334,27 @@ export class PlainPicture {
     }
     context.globalAlpha = 0.9;
     this.#polyline(head, 0, headPlaces);
+    context.globalAlpha = 1;
+  }
+
+  /** The older the fainter, in a few steps. */
+  #drawDye(time) {
+    const context = this.#context;
+    const {places, born, count} = this.#dye;
+    context.fillStyle = this.#colours.dye;
+    for (let step = 1; step <= DYE_STEPS; step++) {
+      context.globalAlpha = step / DYE_STEPS;
+      context.beginPath();
+      for (let i = 0; i < count; i++) {
+        if (Math.ceil(DYE_STEPS * dyeStrength(time - born[i])) === step) {
+          this.#lineProjector.project(places[3 * i], places[3 * i + 1], places[3 * i + 2], this.#place, 0);
+          if (this.#place[2] > 0.05) {
+            context.rect(this.#place[0] - 1, this.#place[1] - 1, 2, 2);
+          }
+        }
+      }
+      context.fill();
+    }
     context.globalAlpha = 1;
   }
 

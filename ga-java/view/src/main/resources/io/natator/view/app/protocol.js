@@ -1,4 +1,4 @@
-/** Binary frames of `natator-sim stream` (sim-native/protocol/stream.md): the body of a FRAM message. */
+/** Binary messages of `natator-sim stream` (sim-native/protocol/stream.md): bodies of FRAM, and WATR with its head. */
 
 /** Bytes before the activations. */
 const HEAD_BYTES = 72;
@@ -57,6 +57,38 @@ export function decodeFrame(buffer, scene) {
     position: fields.position,
     velocities: fields.velocity,
     density: fields.density,
+  };
+}
+
+/** "WATR" as a number; no scene has so high a one, which a frame begins with. */
+const WATER_LETTERS = 0x52544157;
+/** Bytes before the velocities: those of the message's head and its own. */
+const WATER_HEAD_BYTES = 8 + 64;
+
+/** Whether a message is of water, and else of a frame. */
+export function isWater(buffer) {
+  return sceneNumber(buffer) === WATER_LETTERS;
+}
+
+/**
+ * Decodes water on a grid. Arrays are views into the buffer.
+ *
+ * @param {ArrayBuffer} buffer a WATR with its head
+ * @returns {Water}
+ */
+export function decodeWater(buffer) {
+  const view = new DataView(buffer, 8);
+  const cells = [8, 12, 16].map(at => view.getUint32(at, true));
+  const count = cells[0] * cells[1] * cells[2];
+  return {
+    scene: view.getUint32(0, true),
+    frame: view.getUint32(4, true),
+    time: view.getFloat64(24, true),
+    cells,
+    cell: view.getFloat64(32, true),
+    corner: [40, 48, 56].map(at => view.getFloat64(at, true)),
+    velocity: new Float32Array(buffer, WATER_HEAD_BYTES, 3 * count),
+    density: new Float32Array(buffer, WATER_HEAD_BYTES + 12 * count, count),
   };
 }
 

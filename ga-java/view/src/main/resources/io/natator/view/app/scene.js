@@ -17,7 +17,7 @@ export const MARK_SPACING = 0.5;
 const MARGIN = 0.6;
 
 /**
- * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first. A periodic axis
+ * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first, or as its lattice. A periodic axis
  * has no walls: of it as much is shown around the body as the tank is long.
  *
  * @param {Scene} scene SCEN
@@ -41,7 +41,11 @@ export function tankBounds(scene, position) {
       walls++;
     }
   }
-  if (walls > 0) {
+  if (hasLattice(scene)) {
+    const {count, spacing, origin} = lattice(scene);
+    low[1] = origin[1] - spacing / 2;
+    high[1] = low[1] + count[1] * spacing;
+  } else if (walls > 0) {
     high[1] = max[1] + scene.solidRestDistance;
   }
   return boundsAround({min: low, max: high, walls: walls > 0, open: AXES.map(axis => axis in periodic(scene))}, scene, position);
@@ -65,6 +69,16 @@ function periodic(scene) {
  */
 export function hasOpenAxes(scene) {
   return Object.keys(periodic(scene)).length > 0;
+}
+
+/**
+ * The same bounds where a tank has moved to (`MovingTank`).
+ *
+ * @param {number[]} origin
+ */
+export function movedBounds(bounds, origin) {
+  return {...bounds, min: bounds.min.map((value, axis) => value + origin[axis]),
+    max: bounds.max.map((value, axis) => value + origin[axis])};
 }
 
 /**
@@ -165,10 +179,49 @@ export function muscleChange(muscle, frame) {
   return Math.max(-1, Math.min(1, muscle.lateral * frame.activation[muscle.actuator]));
 }
 
-/** What there is to be seen in some scenes: water, muscles, bodies, others (companions and obstacles). */
+/**
+ * Whether the water is on a lattice. The definition of a recording has `fluid` only where that water is in it.
+ *
+ * @param {Scene} scene
+ */
+function hasLattice(scene) {
+  return scene.scheme === 'lattice' && !!scene.definition?.fluid;
+}
+
+/** The cells of such water: `fluid` of a scene, with its defaults. */
+function lattice(scene) {
+  return {count: [50, 7, 17], spacing: 0.09, origin: [0.05, 0.05, 0.05], ...scene.definition.fluid};
+}
+
+/** Whether water is shown as its particles are, and else as it flows. */
+export function isParticles(water) {
+  return water === 'spheres' || water === 'surface';
+}
+
+/** The ways to show water, of what `contents` tells: on a lattice there are no particles, in plane flow no vortices in space. */
+export function watersOf({water, wake, vortices}) {
+  const has = {spheres: water, surface: water, vorticity: wake, vortices, none: true};
+  return Object.keys(has).filter(name => has[name]);
+}
+
+/** What is shown where a look asks for a way to show water: vorticity if that is not there. */
+export function waterShown(water, has) {
+  return watersOf(has).includes(water) ? water : has.wake ? 'vorticity' : 'none';
+}
+
+/**
+ * What there is to be seen in some scenes: water of particles, water on a lattice, a wake (in any water), vortices in space,
+ * muscles, bodies, others (companions and obstacles). Of recordings a wake is known where their definition has `fluid`.
+ *
+ * @param {Scene[]} scenes
+ */
 export function contents(scenes) {
+  const isWet = scene => scene.fluid[1] > 0 || hasLattice(scene);
   return {
     water: scenes.some(({fluid}) => fluid[1] > 0),
+    lattice: scenes.some(hasLattice),
+    wake: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid),
+    vortices: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid && !(hasLattice(scene) && lattice(scene).count[1] === 1)),
     muscles: scenes.some(({muscles}) => muscles.length > 0),
     bodies: scenes.some(({body}) => body.length > 0),
     others: scenes.some(({particles, fluid, body}) => particles > fluid[1] + body.length),

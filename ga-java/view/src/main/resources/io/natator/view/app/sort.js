@@ -26,9 +26,9 @@ export class NearestFirst {
     let nearest = Infinity;
     let farthest = -Infinity;
     for (let i = 0, k = 3 * first; i < count; i++, k += 3) {
-      const d = (position[k] - eye.x) * forward.x + (position[k + 1] - eye.y) * forward.y
+      depth[i] = (position[k] - eye.x) * forward.x + (position[k + 1] - eye.y) * forward.y
           + (position[k + 2] - eye.z) * forward.z;
-      depth[i] = d;
+      const d = depth[i];  // rounded, as the bins have it
       if (d >= from) {
         nearest = d < nearest ? d : nearest;
         farthest = d > farthest ? d : farthest;

@@ -2,20 +2,22 @@
 
 import * as THREE from 'three';
 import {CameraRig} from './cameras.js';
+import {Dye} from './dye.js';
 import {FieldValues} from './fields.js';
 import {GlPicture} from './gl-picture.js';
 import {hasGraphicsCard} from './graphics-card.js';
 import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
-import {boundsAround, centreOf, hasOpenAxes, tankBounds} from './scene.js';
+import {boundsAround, centreOf, contents, hasOpenAxes, movedBounds, tankBounds, waterShown} from './scene.js';
 import {SpineTrace} from './trace.js';
+import {Wake} from './wake.js';
 
 /**
- * What can be chosen: water spheres, surface or none; body skin or particles; colour speed, density, mass or none; drawing
+ * What can be chosen: water spheres, surface, vorticity, vortices or none; body skin or particles; colour speed, density, mass or none; drawing
  * auto, webgl or plain.
  */
 const DEFAULT_LOOK = {
-  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
+  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, dye: false, quality: 'auto',
   drawing: 'auto',
 };
 
@@ -44,10 +46,13 @@ export class Stage {
   #drawing = null;
   #trace = new SpineTrace();
   #field = new FieldValues();
+  #wake = new Wake();
+  #dye = new Dye();
   /** @type {Scene|null} */
   #scene = null;
   /** @type {Frame|null} */
   #frame = null;
+  #tank = null;
   #bounds = null;
   #look = {...DEFAULT_LOOK};
   #colours = null;
@@ -59,6 +64,7 @@ export class Stage {
   #listening = new AbortController();
   #rested = 0;
   #samples = 0;
+  #origin = '';
   #isTooSlow = false;
   #share = 0;
   #width = 0;
@@ -69,6 +75,7 @@ export class Stage {
     this.#host = host;
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
+    this.#wake.onRange = range => this.onTurning(range);
     new ResizeObserver(() => {
       this.#isNew = true;
     }).observe(host);
@@ -82,9 +89,22 @@ export class Stage {
    */
   onRange = () => {};
 
+  /**
+   * Called with the ends of the scale of vorticity.
+   *
+   * @type {(range: number[]) => void}
+   */
+  onTurning = () => {};
+
   /** Ends of the colour scale that hold instead of this picture's own; null for its own. */
   shareRange(range) {
     this.#field.shared = range;
+    this.#isNew = true;
+  }
+
+  /** Likewise of vorticity. */
+  shareTurning(range) {
+    this.#wake.shared = range;
     this.#isNew = true;
   }
 
@@ -109,11 +129,14 @@ export class Stage {
    * @param {Scene} scene
    */
   setScene(scene) {
-    this.#bounds = this.#scene === null || scene.restarted ? null : this.#bounds;
+    this.#tank = this.#scene === null || scene.restarted ? null : this.#tank;
     this.#scene = scene;
+    this.#wake.setScene(scene);
+    this.#dye.setScene(scene);
     this.#frame = scene.restarted ? null : this.#frame;
     this.#trace.setScene(scene);
     this.#picture?.setScene(scene);
+    this.#showLook();
   }
 
   /**
@@ -123,26 +146,64 @@ export class Stage {
    */
   setFrame(frame) {
     this.#frame = frame;
-    if (this.#bounds === null) {
-      this.#bounds = tankBounds(this.#scene, frame.position);
+    const origin = frame.origin ?? [0, 0, 0];
+    if (this.#tank === null) {
+      this.#tank = tankBounds(this.#scene, frame.position);
+      this.#bounds = this.#tank;
       this.#picture?.setBounds(this.#bounds);
       this.rig.setBounds(this.#bounds);
-    } else if (hasOpenAxes(this.#scene)) {
-      this.#bounds = boundsAround(this.#bounds, this.#scene, frame.position);
+    } else if (hasOpenAxes(this.#scene) || `${origin}` !== this.#origin) {
+      this.#bounds = boundsAround(movedBounds(this.#tank, origin), this.#scene, frame.position);
       this.#picture?.setBounds(this.#bounds);
       this.rig.moveBounds(this.#bounds);
     }
+    this.#origin = `${origin}`;
     this.#trace.update(frame);
+    if (this.#hasDye) {
+      this.#dye.update(frame, this.#wake.water);
+    }
     this.#isNew = true;
   }
 
   /** What is shown; see `DEFAULT_LOOK`. */
   setLook(look) {
     this.#look = {...look};
+    if (!look.dye) {
+      this.#dye.clear();
+    }
     this.#choosePicture();
-    this.#picture.setLook(this.#look);
+    this.#showLook();
     this.#quality.rest();
     this.#isNew = true;
+  }
+
+  /** Whether it is to be given water on a grid. */
+  get wantsWater() {
+    return this.#wake.isShown || this.#hasDye;
+  }
+
+  get #hasDye() {
+    return this.#look.dye && this.#scene !== null && contents([this.#scene]).wake;
+  }
+
+  /**
+   * Shows this water from the next drawing on.
+   *
+   * @param {Water} water
+   */
+  setWater(water) {
+    const {body} = this.#scene;
+    const {min, max} = this.#bounds;
+    this.#wake.setWater(water, body.length > 0 ? centreOf(body, this.#frame.position, [0, 0, 0])
+      : min.map((low, axis) => (low + max[axis]) / 2));
+    this.#isNew = true;
+  }
+
+  /** What of the look can be shown of the scene. */
+  #showLook() {
+    const water = this.#scene === null ? this.#look.water : waterShown(this.#look.water, contents([this.#scene]));
+    this.#wake.show(water);
+    this.#picture?.setLook({...this.#look, water});
   }
 
   /** Colours as CSS; see `Theme.colours`. */
@@ -245,7 +306,7 @@ export class Stage {
       }
     }
     this.#share = 0;
-    this.#picture.setLook(this.#look);
+    this.#showLook();
     if (this.#colours !== null) {
       this.#picture.setTheme(this.#colours);
     }
@@ -261,7 +322,7 @@ export class Stage {
     const canvas = document.createElement('canvas');
     this.#host.replaceChildren(canvas);
     const Picture = way === 'plain' ? PlainPicture : GlPicture;
-    return new Picture(canvas, this.#trace, this.#field);
+    return new Picture(canvas, this.#trace, this.#field, this.#wake, this.#dye);
   }
 
   /** Gives the canvas the size and detail that hold now. */

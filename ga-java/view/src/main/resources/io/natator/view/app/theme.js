@@ -36,7 +36,7 @@ export class Theme {
 
   get colours() {
     const style = getComputedStyle(document.documentElement);
-    return Object.fromEntries(['background', 'sky', 'floor', 'marks', 'edges', 'ink', 'deep', 'zenith', 'horizon']
+    return Object.fromEntries(['background', 'sky', 'floor', 'marks', 'edges', 'ink', 'dye', 'deep', 'zenith', 'horizon']
         .map(name => [name, style.getPropertyValue(`--stage-${name}`).trim()]));
   }
 }

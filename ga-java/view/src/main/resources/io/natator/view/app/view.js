@@ -5,10 +5,19 @@ import {History} from './history.js';
 import {Live, errorOf} from './live.js';
 import {Meter} from './meter.js';
 import {isSameGait, waveGait} from './gait.js';
+import {MovingTank} from './moving-tank.js';
 import {decodeFrame, sceneNumber, stopText} from './protocol.js';
 import {Stage} from './stage.js';
 
 const VACUUM = '-vacuum';
+
+/** Water on a grid is asked for so long after it came, ms, and so many times as long as taking it over has cost. */
+const WATER_MS = 80;
+const WATER_REST = 4;
+/** … and so long where it was refused. */
+const REFUSED_MS = 5000;
+/** Where all stands still, water waits so long for its frame, which may have been dropped. */
+const PATIENCE_MS = 300;
 
 /** What a scene solves without water, gravity and walls; for scenes that have no such variant. */
 const VACUUM_PATCH = {
@@ -24,7 +33,7 @@ function serverSocket() {
 }
 
 /**
- * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends); `again` is what a button does
+ * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends), turning(ends); `again` is what a button does
  * that starts anew, where that is left to the user.
  */
 export class View {
@@ -39,6 +48,13 @@ export class View {
   #firstScene = Infinity;
   #isFresh = false;
   #isNew = false;
+  #tank = new MovingTank();
+  /** Water that waits for the frame that it is of. */
+  #water = null;
+  #waterFrame = -1;
+  #waterCame = 0;
+  #isAsking = false;
+  #nextWater = 0;
 
   /**
    * SCEN of what runs, or null.
@@ -68,9 +84,11 @@ export class View {
     this.#handlers = handlers;
     this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
+    this.stage.onTurning = range => handlers.turning(range);
     this.#connection = new Connection(openSocket, () => this.#start(), {
       status: (state, text) => this.#status(state, text),
       scene: scene => this.#scene(scene),
+      water: water => this.#watered(water),
       stop: stop => this.#stopped(stop),
       lost: lost => this.#lost(lost),
       saved: saved => this.#saved(saved),
@@ -130,6 +148,10 @@ export class View {
 
   /** Draws what is new; `now` in milliseconds. */
   draw(now) {
+    if (this.#water !== null && this.isPaused && now > this.#waterCame + PATIENCE_MS) {
+      this.#showWater(this.frame.origin);
+    }
+    this.#askWater(now);
     if (this.stage.draw(now, this.isPaused) && this.#isNew) {
       this.#meter.drawn(this.frame.time);
     }
@@ -142,14 +164,51 @@ export class View {
     for (let buffer = this.#connection.takeFrame(); buffer !== null; buffer = this.#connection.takeFrame()) {
       if (this.scene !== null && sceneNumber(buffer) >= this.#firstScene) {
         this.frame = decodeFrame(buffer, this.scene);
+        this.#tank.follow(this.frame);
         this.#isFresh = true;
         this.#isNew = true;
         this.stage.setFrame(this.frame);
+        this.#placeWater();
         this.history.add(this.frame, this.scene.bodyLength, this.scene.gait?.frequency ?? 0);
         return true;
       }
     }
     return false;
+  }
+
+  /** Asks for the water of now where the picture shows it, unless it has that, or what was asked for is still to be shown. */
+  async #askWater(now) {
+    const isWaiting = this.#isAsking || this.#water !== null;
+    if (!this.stage.wantsWater || !this.isReady || isWaiting || now < this.#nextWater || this.#waterFrame === this.frame.frame) {
+      return;
+    }
+    this.#isAsking = true;
+    const error = await this.#connection.send({do: 'water'});
+    this.#isAsking = false;
+    this.#nextWater = Math.max(this.#nextWater, error === null ? 0 : now + REFUSED_MS);
+  }
+
+  #watered(water) {
+    if (this.scene !== null && water.scene >= this.#firstScene) {
+      this.#water = water;
+      this.#waterFrame = water.frame;
+      this.#waterCame = performance.now();
+      this.#placeWater();
+    }
+  }
+
+  /** Shows water once the frame that it is of, or a later one, is shown: those tell where the tank was. */
+  #placeWater() {
+    if (this.#water !== null && this.#isFresh && this.frame.frame >= this.#water.frame) {
+      this.#showWater(this.#tank.originAt(this.#water.time));
+    }
+  }
+
+  #showWater(origin) {
+    const began = performance.now();
+    this.stage.setWater({...this.#water, origin});
+    this.#nextWater = began + Math.max(WATER_MS, WATER_REST * (performance.now() - began));
+    this.#water = null;
   }
 
   run() {
@@ -269,8 +328,11 @@ export class View {
     if (isOther) {
       this.#firstScene = scene.number;
       this.#isFresh = false;
+      this.#water = null;
+      this.#waterFrame = -1;
       this.history.clear();
     }
+    this.#tank.setScene(scene);
     this.stage.setScene(scene);
     this.#handlers.scene();
   }

@@ -1,0 +1,124 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.encoding.Gait;
+import java.awt.Color;
+import java.awt.image.BufferedImage;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicInteger;
+import java.util.regex.Pattern;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+/** The wake behind a swimmer: in plane flow, where there is no other water to be seen, and in a tank of particles. */
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ViewWakeTest extends ViewBrowserTest {
+
+    /** By how much, of 255, violet and green stand out. */
+    private static final int STRENGTH = 40;
+    /** The share of such pixels with a wake, and without. */
+    private static final double SEEN = 0.002;
+    private static final double UNSEEN = 0.0005;
+
+    private static ViewServer plane;
+
+    @BeforeAll
+    static void startPlane() throws InterruptedException {
+        Gait gait = new Gait(2.0, List.of(0.4, 0.35, 0.3, 0.25, 0.2), List.of(0.0, 0.902, 0.804, 0.706, 0.608));
+        plane = new ViewServer(new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0,
+                new InitialScene("plane/loach", null, gait), one -> null, List.of()));
+    }
+
+    @AfterAll
+    static void stopPlane() {
+        plane.close();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"webgl", "plain"})
+    void planeFlowIsSeenByItsVorticity(String drawing) {
+        useSmallWindow();
+        open(plane, "?drawing=" + drawing + FEW_PIXELS);
+        await("natator.time() > 0.7");
+        pause();
+        get("camera-top").check();
+
+        assertThat(get("water-vorticity")).isChecked();
+        assertThat(get("water-surface")).isHidden();
+        assertThat(get("water-vortices")).isHidden();
+        assertThat(get("legend-turns")).containsText("Water: vorticity, 1/s");
+        assertThat(get("legend-turns")).containsText(Pattern.compile("[1-9]0"));
+        assertThat(get("picture-a")).hasAttribute("aria-describedby", "legend");
+        assertThat(turning(stillPicture(get("picture-a")))).isGreaterThan(SEEN);
+        page.keyboard().press("w");
+        assertThat(get("water-none")).isChecked();
+        assertThat(get("legend-turns")).isHidden();
+        assertThat(turning(stillPicture(get("picture-a")))).isLessThan(UNSEEN);
+        page.keyboard().press("w");
+        assertThat(turning(stillPicture(get("picture-a")))).isGreaterThan(SEEN);
+    }
+
+    /** Share of the pixels that are as violet or as green as what turns. */
+    private static double turning(BufferedImage picture) {
+        int found = 0;
+        for (int y = 0; y < picture.getHeight(); y++) {
+            for (int x = 0; x < picture.getWidth(); x++) {
+                Color colour = new Color(picture.getRGB(x, y));
+                int green = colour.getGreen() - Math.max(colour.getRed(), colour.getBlue());
+                int violet = Math.min(colour.getRed(), colour.getBlue()) - colour.getGreen();
+                found += green > STRENGTH || violet > STRENGTH ? 1 : 0;
+            }
+        }
+        return found / (double) (picture.getWidth() * picture.getHeight());
+    }
+
+    @Test
+    void waterIsAskedForOnlyWhereItIsShown() {
+        AtomicInteger asked = new AtomicInteger();
+        page.onWebSocket(socket -> socket.onFrameSent(
+                frame -> asked.addAndGet(frame.text().startsWith("{\"do\":\"water\"") ? 1 : 0)));
+        useSmallWindow();
+        open(plane, "?drawing=plain");
+        await("natator.time() > 0.3");
+        assertThat(asked).hasPositiveValue();
+
+        get("water-none").check();
+        await("natator.time() > " + (number("natator.time()") + 0.1));
+        int before = asked.get();
+        await("natator.time() > " + (number("natator.time()") + 0.3));
+        assertThat(asked).hasValue(before);
+
+        page.keyboard().press("y");
+        assertThat(get("dye")).isChecked();
+        await("natator.time() > " + (number("natator.time()") + 0.3));
+        assertThat(asked).hasValueGreaterThan(before);
+        assertThat(get("legend-lines")).containsText("dye from the tail");
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"webgl", "plain"})
+    void vorticesAreSeenInATankOfParticles(String drawing) {
+        useSmallWindow();
+        open(water, "?drawing=" + drawing + FEW_PIXELS);
+        choose("water-none");
+        await("natator.time() > 0.3");
+        pause();
+        assertThat(turning(stillPicture(get("picture-a")))).isLessThan(UNSEEN);
+
+        for (String shown : List.of("vorticity", "vortices")) {
+            choose("water-" + shown);
+            await("!document.querySelector('[data-testid=legend-turns]').textContent.includes('-1')");
+            BufferedImage picture = stillPicture(get("picture-a"));
+            keepPicture("ViewWakeTest-" + drawing + "-" + shown);
+            assertThat(turning(picture)).as(shown).isGreaterThan(SEEN);
+        }
+        assertThat(get("legend-turns")).containsText("Vortices");
+    }
+}

@@ -1,0 +1,3 @@
+package io.natator.a;
+
+import io.natator.b.B;

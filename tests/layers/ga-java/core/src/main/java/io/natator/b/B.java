@@ -1,0 +1,3 @@
+package io.natator.b;
+
+import static io.natator.c.C.ONE;

@@ -1,0 +1,3 @@
+package io.natator.c;
+
+class C { io.natator.a.A.Inner inner; }

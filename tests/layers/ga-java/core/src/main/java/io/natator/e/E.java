@@ -1,0 +1,3 @@
+package io.natator.e;
+
+import io.natator.d.D;
