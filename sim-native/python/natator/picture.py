@@ -1,6 +1,8 @@
 """A swim at one time as a picture: the body's particles as spheres in clear water, with its tank and a scale."""
 
+import ctypes
 import itertools
+import os
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +45,8 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news
-    if hasattr(vtkRenderingOpenGL2, "vtkEGLRenderWindow") and vtkRenderWindow().GetClassName() == "vtkOSOpenGLRenderWindow":
+    if hasattr(vtkRenderingOpenGL2, "vtkEGLRenderWindow") and (
+            not (os.environ.get("DISPLAY") or _has_egl()) or vtkRenderWindow().GetClassName() == "vtkOSOpenGLRenderWindow"):
         raise InputError(NOTHING_DRAWS)  # VTK would try OSMesa, and crash
     if not Path(file).parent.is_dir():
         raise InputError(f"{file} cannot be written: there is no folder {Path(file).parent}")
@@ -87,6 +90,14 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
         plotter.close()
     _label(pixels, scale, frame.time).save(file, optimize=True)
     return (width, height), frame.time
+
+
+def _has_egl():
+    try:
+        ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        return False
+    return True
 
 
 def _axes(azimuth, elevation):
