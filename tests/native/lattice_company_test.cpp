@@ -216,19 +216,20 @@ TEST(LatticeCompany, GoOnFromASavedMoment) {
         ASSERT_EQ(whole.state().position[i], second.state().position[i]) << i;
 }
 
-/// A cylinder in a current of Reynolds number 100, 10 cells across. Strouhal number 0.165 (Williamson 1989) and drag
+/// A cylinder in a current of Reynolds number 100, 12 cells across. Strouhal number 0.165 (Williamson 1989) and drag
 /// 1.33 to 1.38 are of a cylinder alone; between walls that let water slip, ten diameters apart, it goes faster past it
-/// by 4.2 % (Barlow, Rae, Pope: Low-Speed Wind Tunnel Testing, 1999, ch. 10).
+/// by 4.2 % (Barlow, Rae, Pope: Low-Speed Wind Tunnel Testing, 1999, ch. 10). Where it lies among the cells changes its
+/// drag by up to 8 % (docs/schemes.md): the bound is that wide.
 TEST(LatticeCompany, ACylinderHasAVortexStreet) {
     const json small = {
-        {"solver", {{"substeps", 4}, {"kinematicViscosity", 0.001}}},
-        {"fluid", {{"count", {200, 1, 100}}, {"current", {0.5, 0, 0}}}},
-        {"obstacles", {{{"shape", "sphere"}, {"centre", {1.2, 0.01, 1.03}}, {"radius", 0.1}, {"spacing", 0.02}}}}};
+        {"solver", {{"substeps", 4}, {"kinematicViscosity", 0.0012}}},
+        {"fluid", {{"count", {240, 1, 120}}, {"current", {0.5, 0, 0}}}},
+        {"obstacles", {{{"shape", "sphere"}, {"centre", {1.44, 0.01, 1.204}}, {"radius", 0.12}, {"spacing", 0.02}}}}};
     const Scene scene = load_scene("plane/street", small);
     const Model model = build_model(scene);
     Solver<float> solver(model, {.forces = true});
     State<float> state = initial_state<float>(model);
-    const double diameter = 0.2, speed = 0.5, density = model.water_box->density, depth = model.water_box->cell;
+    const double diameter = 0.24, speed = 0.5, density = model.water_box->density, depth = model.water_box->cell;
     const double scale = density * speed * speed / 2 * diameter * depth;
     std::vector<double> drag, lift;
     for (int frame = 0; frame < 60 * 44; ++frame) {
@@ -254,7 +255,7 @@ TEST(LatticeCompany, ACylinderHasAVortexStreet) {
     RecordProperty("drag", std::to_string(mean));
     constexpr double faster = 1.042;
     EXPECT_NEAR(strouhal / faster, 0.165, 0.05 * 0.165);
-    EXPECT_NEAR(mean / (faster * faster), 1.355, 0.05 * 1.355);
+    EXPECT_NEAR(mean / (faster * faster), 1.355, 0.1 * 1.355);
 }
 
 TEST(LatticeCompany, RefusesWhatItHasNot) {

@@ -15,6 +15,7 @@
 #include "refusal_of.h"
 #include "run/converge/level.h"
 #include "run/perturb.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
