@@ -31,7 +31,7 @@ struct Bar {
             for (int y = 0; y < 2; ++y)
                 for (int z = 0; z < 3; ++z) place_.emplace_back(10.3 + 2 * x, 10.2 + 2 * y, 10.1 + 2 * z);
         velocity_.assign(place_.size(), Eigen::Vector3d::Zero());
-        body_.emplace(place_, std::vector<int>(place_.size(), 0), 2, 1.75, 0);
+        body_.emplace(place_, std::vector<int>(place_.size(), 0), std::vector<double>(place_.size(), 2), 1.75, 0);
         box_ = box_of(36, 28, 28, Face::free_slip);
         box_.viscosity = 0.02;
     }

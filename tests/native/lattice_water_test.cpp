@@ -251,7 +251,7 @@ protected:
         Box box = box_of(48, 48, 48);
         box.viscosity = viscosity;
         const auto water = Water::on_cpu(box, 1);
-        const Immersed body(place_, std::vector<int>(place_.size(), 0), 1, 1.2, 0);
+        const Immersed body(place_, std::vector<int>(place_.size(), 0), std::vector<double>(place_.size(), 1), 1.2, 0);
         std::vector<Push> pushes;
         std::vector<Eigen::Vector3d> velocities(place_.size());
         double sum = 0;

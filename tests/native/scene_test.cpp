@@ -80,6 +80,8 @@ TEST(SceneTest, AllNamedScenesAreThere) {
                                                "open-water/tuna",
                                                "open-water/water",
                                                "plane/loach",
+                                               "plane/pair",
+                                               "plane/street",
                                                "plane/water",
                                                "pool/creature-1",
                                                "pool/creature-2",

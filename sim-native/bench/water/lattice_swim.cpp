@@ -53,7 +53,7 @@ LatticeSwim::LatticeSwim(const Swimmer& swimmer, const SwimScene& scene, int res
     }
     for (const Eigen::Vector3d& place : places)
         normals_.push_back(swimmer.normal(place - nose, scene.length, lattice::surface_offset * cell));
-    immersed_.emplace(places, std::vector<int>(places.size(), 0), cell, 1.2, 0);
+    immersed_.emplace(places, std::vector<int>(places.size(), 0), std::vector<double>(places.size(), cell), 1.2, 0);
     body_.emplace(swimmer, scene, nose, std::move(places), step_, kept_on_lattice);
     run_.particles = box_.cells.prod();
 }

@@ -13,7 +13,18 @@
 namespace natator {
 
 /// What water meets at an end of its box.
-enum class WaterFace { periodic, free_slip, no_slip };
+enum class WaterFace {
+    periodic,
+    free_slip,
+    no_slip,
+    open,  ///< more water, that goes with the current
+};
+
+/// What stands in water on a lattice.
+struct WaterObstacle {
+    Obstacle obstacle;
+    int particles = 0;  ///< of the Model, that are its
+};
 
 /// Water on a lattice of cubic cells, as scheme `lattice` has it.
 struct WaterBox {
@@ -23,6 +34,9 @@ struct WaterBox {
     WaterFace faces[3][2] = {};       ///< along x, y, z: below, above; both periodic or none
     double viscosity = 0.001;         ///< kinematic, length^2/s, above 0
     double density = 1;               ///< mass/length^3
+    /// Velocity with which all water begins, and comes in at open ends, length/s
+    Eigen::Vector3d current{0, 0, 0};
+    std::vector<WaterObstacle> obstacles = {};  ///< in the order of their particles, which are behind all bodies'
 
     double cell_mass() const { return density * cell * cell * cell; }  ///< of water in a cell, mass
     /// Whether the flow is plane: one cell deep along y, all along which it is the same.

@@ -182,6 +182,9 @@ struct FluidBlock {
     /// Seed of the places off the lattice that scheme `conserving` begins from. In scheme `lattice` of where the body
     /// begins in its cells, up to half a cell from its place along each axis; 0: there.
     int disorder = 20;
+    /// Scheme `lattice`: velocity over ground with which all water begins, and comes in at the ends across it,
+    /// length/s, horizontal. Obstacles and walls stand in it, and bodies begin at rest.
+    Eigen::Vector3d current{0, 0, 0};
 };
 
 /// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole
@@ -365,7 +368,8 @@ struct Scene {
     /// Distance through the water along x, length, of a swimmer that got `distance` (length) along x over ground in
     /// `time` (s).
     double through_water(double distance, double time) const {
-        return moving_tank ? distance - time * moving_tank->current.x() : distance;
+        const double current = (moving_tank ? moving_tank->current.x() : 0) + (fluid ? fluid->current.x() : 0);
+        return distance - time * current;
     }
 };
 

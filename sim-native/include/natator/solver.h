@@ -67,7 +67,7 @@ struct Execution {
     int threads = 1;
     /// called behind each substep with what it leaves; empty costs nothing
     std::function<void(const Residuals&)> residuals{};
-    /// keeps what Solver::forces gives; scheme conserving only, a per cent of its time
+    /// keeps what Solver::forces gives; schemes conserving and lattice, a per cent of their time
     bool forces = false;
     /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU.
     /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
@@ -215,7 +215,8 @@ public:
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
     /// viscosity, of the water before walls and of its ghosts behind them. Summed over a body's particles, or over
     /// any part of them, it is the force on that; particles of infinite mass feel it too, though they do not move. What
-    /// solids do to each other is not in it; 0 for fluid. Empty without Execution::forces, and in the other schemes.
+    /// solids do to each other is not in it; 0 for fluid. In scheme lattice what an obstacle feels is shared evenly by
+    /// its particles, and is without buoyancy. Empty without Execution::forces, and in scheme flex.
     std::vector<Vector3<Real>> forces() const;
     /// Number of fluid and contact neighbours of each particle in the last substep.
     std::vector<int> neighbour_counts() const;

@@ -181,14 +181,19 @@ Model build_model(const Scene& scene) {
         add_companion(model_of(scene, companion.creature, place + ".creature"), companion.gait, model);
     }
     check_apart(scene, model);
-    add_obstacles(scene.obstacles, model);
     if (scene.scheme == Scheme::lattice && scene.fluid) {
         model.water_box = water_box(scene);
-        if (scene.creature && model.water_box->is_plane()) check_plane_body(scene);
         const Eigen::Vector3d offset = offset_in_cells(scene);
         for (Eigen::Vector3d& position : model.position) position += offset;
         for (Cluster& cluster : model.clusters) cluster.centre += offset;
+    }
+    const std::vector<int> of_obstacles = add_obstacles(scene.obstacles, model);
+    if (model.water_box) {
+        for (std::size_t k = 0; k < of_obstacles.size(); ++k)
+            model.water_box->obstacles.push_back({scene.obstacles[k], of_obstacles[k]});
     } else if (scene.fluid) {
+        if (!scene.fluid->current.isZero(0))
+            refuse(scene, "fluid.current: must be [0, 0, 0] in schemes flex and conserving; lattice has a current");
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);
     }

@@ -120,7 +120,8 @@ double max_particles(const Obstacle& obstacle) {
     return (2 * points_aside(obstacle).array() + 1).prod();
 }
 
-void add_obstacles(const std::vector<Obstacle>& obstacles, Model& model) {
+std::vector<int> add_obstacles(const std::vector<Obstacle>& obstacles, Model& model) {
+    std::vector<int> particles;
     double widest = 0;
     for (const Obstacle& obstacle : obstacles) widest = std::max(widest, obstacle.spacing);
     const std::vector<bool> alone = which_are_alone(obstacles, apart * widest);
@@ -130,9 +131,11 @@ void add_obstacles(const std::vector<Obstacle>& obstacles, Model& model) {
         for_each_place(obstacles[k], [&](const Eigen::Vector3d& place) {
             if (alone[k] || !taken.any_nearer(place, apart * obstacles[k].spacing)) add_particle(place, model);
         });
+        particles.push_back(static_cast<int>(model.position.size() - first));
         if (alone[k]) continue;
         for (std::size_t i = first; i < model.position.size(); ++i) taken.add(model.position[i]);
     }
+    return particles;
 }
 
 }  // namespace natator

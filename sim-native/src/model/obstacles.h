@@ -10,7 +10,7 @@ double max_particles(const Obstacle& obstacle);
 
 /// Adds particles of infinite mass: those of a mesh, or on a cubic lattice about the centre wherever an obstacle holds
 /// one. Where obstacles touch or overlap, the first one's: particles that lie in each other have no volume, and let
-/// water through.
-void add_obstacles(const std::vector<Obstacle>& obstacles, Model& model);
+/// water through. How many each has.
+std::vector<int> add_obstacles(const std::vector<Obstacle>& obstacles, Model& model);
 
 }  // namespace natator

@@ -6,15 +6,14 @@
 namespace natator {
 
 /// The water of a scene of scheme `lattice` that has fluid: a cell for each lattice point of its fluid, no slip where a
-/// plane stands, free slip at other ends that are not periodic. Throws InputError for what this water has not: planes
-/// stand at its ends.
+/// plane stands, at other ends that are not periodic free slip, or open where the current crosses them. Its obstacles
+/// are not in it yet. Throws InputError for what this water has not: planes that do not stand at its ends or in the way
+/// of the current, a current that goes too far in a substep, obstacles thinner than a cell; in plane flow creatures
+/// that are not one particle high, and what is not in the middle of the cells.
 WaterBox water_box(const Scene& scene);
 
 /// Whether that water's flow is plane (WaterBox): it is one cell deep along y, without planes there.
 bool is_plane_flow(const Scene& scene);
-/// Throws InputError unless a creature in plane flow is one particle high, in the middle of its cells.
-void check_plane_body(const Scene& scene);
-
 /// Where the body begins, from its place, length: FluidBlock::disorder says it.
 Eigen::Vector3d offset_in_cells(const Scene& scene);
 

@@ -37,6 +37,9 @@ MovingFrame::MovingFrame(const Scene& scene, const Model& model) : model_(model)
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
     if (!scene.companions.empty() || !scene.obstacles.empty())
         refuse(scene, "has no room for companions and obstacles, which would be left behind");
+    if (!scene.fluid->current.isZero(0))
+        refuse(scene,
+               "goes with its water: fluid.current must be [0, 0, 0]; over ground it may have a current of its own");
     if (model.water_box) {
         const double cells = tank_.step / model.water_box->cell;
         if (std::abs(cells - std::round(cells)) > 1e-3 || cells < 0.5)

@@ -11,6 +11,7 @@ const std::vector<Field<FluidBlock>>& block_fields() {
         {"origin", &F::origin, {-10000, 10000, false, "length"}},
         {"clearance", &F::clearance, {0, 1000, false, "length"}},
         {"disorder", &F::disorder, {0, 2147483647}},
+        {"current", &F::current, {-1000, 1000, false, "length/s"}},
     };
     return fields;
 }
@@ -29,6 +30,8 @@ const std::vector<Field<FluidBlock>>& mass_fields() {
 FluidBlock read_fluid(const json& value, const Place& place) {
     FluidBlock block = thesis_tank().fluid.value();
     read_object(value, place, block_fields(), {"mass"}, block);
+    if (block.current.y() != 0)
+        refuse(place.key("current").item(1), value.at("current")[1], "0: a current is horizontal");
     if (!value.contains("mass")) return block;
 
     const json& mass = value.at("mass");

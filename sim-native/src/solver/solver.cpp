@@ -125,6 +125,7 @@ public:
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
         if (model.water_box) coupling_.emplace(model, execution.threads, execution.gpu);
         if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
+        if (execution.forces && coupling_) coupling_->clear_forces();
     }
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
@@ -177,6 +178,7 @@ public:
         return std::visit([](const auto& stages) { return stages->pressures(); }, stages_);
     }
     std::vector<Vector3<Real>> forces() const {
+        if (coupling_) return coupling_->forces();
         return std::visit([](const auto& stages) { return stages->forces(); }, stages_);
     }
     std::vector<int> neighbour_counts() const {
@@ -214,6 +216,7 @@ private:
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
         const double start = state.time;
         stages.clear_forces();
+        if (execution_.forces && coupling_) coupling_->clear_forces();
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
             if (drive) {

@@ -125,6 +125,11 @@ struct LawWatch::Parts {
                  own.forces;
         gain = mass * (energy_margin * (own.start + own.fall) + std::max(0.0, own.crowding - 1) * own.fall +
                        own.forces + own.noise);
+        if (model.water_box) {
+            const double carried = speed_margin * speed_margin * model.water_box->current.squaredNorm() / 2;
+            fallen += carried;
+            gain += mass * carried;
+        }
         const double swum = square(max_body_lengths * length) / 2;
         if (length > 0) most = std::max(swum, 4 * std::max(1.0, own.crowding) * own.fall);
         // Flex' clamp of accelerations drives bodies without water to several times their muscles' speed; that is its

@@ -4,14 +4,53 @@
 #include <cmath>
 
 namespace natator::lattice {
+namespace {
+
+/// Calls visit(body, number) for the swimmer and the others.
+template <class Visit>
+void for_each_body(const Model& model, const Visit& visit) {
+    visit(model.body, 0);
+    for (std::size_t k = 0; k < model.companions.size(); ++k) visit(model.companions[k].body, static_cast<int>(k) + 1);
+}
+
+std::vector<double> spacings_of(const Model& model) {
+    std::vector<double> spacings;
+    for_each_body(model,
+                  [&](const Body& body, int) { spacings.insert(spacings.end(), body.particles.size(), body.spacing); });
+    return spacings;
+}
+
+std::vector<double> displaced_by(const Model& model, const std::vector<double>& spacings) {
+    std::vector<double> masses;
+    for (const double spacing : spacings) masses.push_back(model.water_box->displaced_mass(spacing));
+    return masses;
+}
+
+Immersed bodies_of(const Model& model, const std::vector<double>& spacings) {
+    std::vector<int> bodies;
+    for_each_body(model,
+                  [&](const Body& body, int number) { bodies.insert(bodies.end(), body.particles.size(), number); });
+    const auto end = model.position.begin() + static_cast<std::ptrdiff_t>(bodies.size());
+    return {{model.position.begin(), end}, bodies, spacings, 1.75, surface_offset};
+}
+
+}  // namespace
 
 template <class Real>
 Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu)
     : model_(model),
       threads_(threads),
       gpu_(gpu),
-      immersed_(model.position, std::vector<int>(model.position.size(), 0), model.body.spacing, 1.75, surface_offset),
-      displaced_(model.water_box->displaced_mass(model.body.spacing)) {}
+      spacing_(spacings_of(model)),
+      displaced_(displaced_by(model, spacing_)),
+      immersed_(bodies_of(model, spacing_)) {
+    if (gpu && !model.water_box->current.isZero(0))
+        throw InputError("backend cuda: fluid.current: water that flows through is on the CPU alone");
+    for (const WaterObstacle& one : model.water_box->obstacles) {
+        const std::vector<Cube> cubes = cubes_of(one.obstacle, *model.water_box);
+        obstacles_.insert(obstacles_.end(), cubes.begin(), cubes.end());
+    }
+}
 
 template <class Real>
 std::unique_ptr<Water> Coupling<Real>::make_water() const {
@@ -19,18 +58,24 @@ std::unique_ptr<Water> Coupling<Real>::make_water() const {
 }
 
 template <class Real>
-void Coupling<Real>::begin(const State<Real>& state) {
+void Coupling<Real>::begin(double h) {
     water_ = make_water();
-    impulses_.assign(state.position.size(), Eigen::Vector3d::Zero());
+    impulses_.assign(spacing_.size(), Eigen::Vector3d::Zero());
     fastest_ = 0;
+    const Box& box = *model_.water_box;
+    if (box.current.isZero(0)) return;
+    const Cell cell{0, box.current * h / box.cell};
+    for (int z = 0; z < box.cells.z(); ++z)
+        for (int y = 0; y < box.cells.y(); ++y)
+            for (int x = 0; x < box.cells.x(); ++x) water_->set_cell({x, y, z}, cell);
 }
 
 template <class Real>
 void Coupling<Real>::push(State<Real>& state, double h) {
-    if (!water_ || std::abs(state.time - time_) > h / 2) begin(state);
+    if (!water_ || std::abs(state.time - time_) > h / 2) begin(h);
     const bool plane = model_.water_box->is_plane();
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
-        Eigen::Vector3d given = impulses_[i] - displaced_ * h * model_.parameters.gravity;
+        Eigen::Vector3d given = impulses_[i] - displaced_[i] * h * model_.parameters.gravity;
         if (plane) given.y() = 0;  // not even rounding
         state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
     }
@@ -47,7 +92,7 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
     places_.clear();
     velocities_.clear();
     const double per_step = h / model_.water_box->cell;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
+    for (std::size_t i = 0; i < spacing_.size(); ++i) {
         places_.push_back(state.position[i].template cast<double>());
         velocities_.push_back(state.velocity[i].template cast<double>());
         const double speed = velocities_.back().norm() * per_step;
@@ -55,15 +100,51 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
         fastest_ = speed;
         fastest_particle_ = static_cast<int>(i);
     }
-    water_->advance(immersed_.cubes(places_, velocities_, *model_.water_box, h), h, pushes_);
+    std::vector<Cube> cubes = immersed_.cubes(places_, velocities_, *model_.water_box, h);
+    cubes.insert(cubes.end(), obstacles_.begin(), obstacles_.end());
+    water_->advance(cubes, h, pushes_);
     const std::vector<Eigen::Vector3d> given = immersed_.impulses(pushes_, *model_.water_box, h);
-    const double of_size = std::max(1.0, 2 * model_.water_box->cell / model_.body.spacing);
     for (std::size_t i = 0; i < given.size(); ++i) {
-        const double kept = of_size * std::max(1.0, displaced_ * model_.inverse_mass[i]);
+        const double of_size = std::max(1.0, 2 * model_.water_box->cell / spacing_[i]);
+        const double kept = of_size * std::max(1.0, displaced_[i] * model_.inverse_mass[i]);
         impulses_[i] = (given[i] + kept * impulses_[i]) / (1 + kept);
     }
+    if (!forces_.empty()) sum_forces(given, h);
     time_ = time;
     step_ = h;
+}
+
+template <class Real>
+void Coupling<Real>::clear_forces() {
+    forces_.assign(model_.position.size(), Eigen::Vector3d::Zero());
+    force_time_ = 0;
+}
+
+/// What an obstacle is given is shared evenly by its particles.
+template <class Real>
+void Coupling<Real>::sum_forces(const std::vector<Eigen::Vector3d>& given, double h) {
+    force_time_ += h;
+    for (std::size_t i = 0; i < given.size(); ++i)
+        forces_[i] += given[i] - displaced_[i] * h * model_.parameters.gravity;
+    std::size_t push = given.size(), particle = push;
+    for (const WaterObstacle& one : model_.water_box->obstacles) {
+        const std::size_t cubes = one.obstacle.shape == Obstacle::Shape::mesh ? one.obstacle.points.size() : 1;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const std::size_t end = push + cubes; push < end; ++push)
+            sum += Eigen::Map<const Eigen::Vector3d>(pushes_[push].j);
+        sum *= impulse_unit(*model_.water_box, h) / std::max(1, one.particles);
+        for (const std::size_t end = particle + static_cast<std::size_t>(one.particles); particle < end; ++particle)
+            forces_[particle] += sum;
+    }
+}
+
+template <class Real>
+std::vector<Vector3<Real>> Coupling<Real>::forces() const {
+    std::vector<Vector3<Real>> mean;
+    for (const Eigen::Vector3d& sum : forces_)
+        mean.push_back(force_time_ > 0 ? (sum / force_time_).template cast<Real>().eval()
+                                       : Vector3<Real>::Zero().eval());
+    return mean;
 }
 
 template <class Real>
@@ -91,7 +172,7 @@ void Coupling<Real>::restore(ByteReader from) {
     from.read(impulses);
     for (double* value : {&time, &step, &fastest}) from.read(*value);
     from.read(particle);
-    if (impulses.size() != model_.position.size() || particle < 0 || particle >= model_.particles())
+    if (impulses.size() != spacing_.size() || particle < 0 || particle >= model_.particles())
         throw InputError("state: its water is not of these bodies");
     std::unique_ptr<Water> made = water_ ? nullptr : make_water();
     (made ? made : water_)->restore(from);
@@ -110,7 +191,7 @@ WaterField Coupling<Real>::field() const {
     field.cells = box.cells;
     field.cell = box.cell;
     field.corner = box.corner;
-    field.velocity.resize(box.cells.cast<std::size_t>().prod(), Eigen::Vector3f::Zero());
+    field.velocity.resize(box.cells.cast<std::size_t>().prod(), box.current.cast<float>());
     field.density.resize(field.velocity.size(), 1);
     if (!water_ || step_ == 0) return field;
     const auto per_second = static_cast<float>(box.cell / step_);

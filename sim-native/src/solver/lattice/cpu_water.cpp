@@ -50,6 +50,7 @@ private:
     }
     long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
     View view();
+    void let_in(double step);
     void hold(const std::vector<Cube>& cubes);
     void update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
@@ -72,7 +73,8 @@ private:
     std::vector<float> out_;      ///< by place in held_
     std::vector<BodyCell> held_;  ///< cells in bodies, by cube
     bool periodic_[3];
-    std::vector<int> made_of_;  ///< by cell: place in made_, -1: none
+    Array inflow_[physics::lattice_populations];  ///< rows of what comes in at open ends, if there are any
+    std::vector<int> made_of_;                    ///< by cell: place in made_, -1: none
     std::vector<Populations> made_;
     std::vector<long> made_cells_;
     std::vector<Array> rooms_;
@@ -97,15 +99,24 @@ CpuWater::CpuWater(const Box& box, int threads)
 }
 
 View CpuWater::view() {
-    View view{cells_[0], cells_[1], cells_[2], stride_, {}, {}, {}, {}, {}, row_changes_.data()};
+    View view{cells_[0], cells_[1], cells_[2], stride_, {}, {}, {}, {}, {}, {}, row_changes_.data(), {}};
     for (int a = 0; a < 3; ++a)
         for (int end = 0; end < 2; ++end) {
             view.bounces[a][end] = box_.faces[a][end] == Face::no_slip;
             view.mirrors[a][end] = box_.faces[a][end] == Face::free_slip;
+            view.opens[a][end] = box_.faces[a][end] == Face::open;
         }
+    for (int i = 0; i < physics::lattice_populations; ++i) view.inflow[i] = inflow_[i].data();
     for (int e = 0; e < moments; ++e) view.now[e] = now_[e].data(), view.next[e] = next_[e].data();
     for (int a = 0; a < 3; ++a) view.change[a] = change_[a].data();
     return view;
+}
+
+void CpuWater::let_in(double step) {
+    const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
+    const float u[3] = {current.x(), current.y(), current.z()};
+    for (int i = 0; i < physics::lattice_populations; ++i)
+        inflow_[i].assign(static_cast<std::size_t>(stride_), physics::moving_population(i, u));
 }
 
 /// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near
@@ -230,6 +241,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
 
     const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
     exchange(rates, pushes);
+    if (!box_.current.isZero(0)) let_in(step);
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));

@@ -67,7 +67,7 @@ NATATOR_HD float scalar_product(const float* a, const float (&b)[3]) {
 #endif
 }
 
-/// xi of a cell's centre, and how far out it is: the greatest |xi|.
+/// xi of a cell's centre, and how far out it is: the greatest |xi|, of a round one the square of xi.
 struct PlaceInCube {
     float xi[3];
     float out;
@@ -81,6 +81,7 @@ NATATOR_HD PlaceInCube place_in(const Cube& cube, int x, int y, int z) {
         const float size = place.xi[a] < 0 ? -place.xi[a] : place.xi[a];
         if (size > place.out) place.out = size;
     }
+    if (cube.round) place.out = scalar_product(place.xi, place.xi);
     return place;
 }
 

@@ -36,23 +36,60 @@ void store(const Eigen::Matrix3d& from, float* to) {
         for (int c = 0; c < 3; ++c) to[3 * r + c] = static_cast<float>(from(r, c));
 }
 
+/// Of a cube, in cells from the centre of the first one; inside periodic ends.
+Eigen::Vector3d middle_of(const Eigen::Vector3d& place, const Box& box) {
+    Eigen::Vector3d middle = (place - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
+    for (int a = 0; a < 3; ++a)
+        if (box.faces[a][0] == Face::periodic && box.cells[a] > 1)
+            middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
+    return middle;
+}
+
 }  // namespace
 
-Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing,
-                   double reach_in_spacings, double extension)
+std::vector<Cube> cubes_of(const Obstacle& obstacle, const Box& box) {
+    std::vector<Cube> cubes;
+    const auto add = [&](const Eigen::Vector3d& place, const Eigen::Vector3d& half) {
+        Cube& cube = cubes.emplace_back();
+        const Eigen::Vector3d middle = middle_of(place, box), reach = (half / box.cell).array() + surface_offset;
+        for (int a = 0; a < 3; ++a) {
+            cube.x[a] = static_cast<float>(middle[a]);
+            cube.to_rest[4 * a] = static_cast<float>(1 / reach[a]);
+            cube.reach[a] = static_cast<float>(reach[a]);
+        }
+        cube.edge = 1;
+        cube.round = obstacle.shape == Obstacle::Shape::sphere ? 1 : 0;
+    };
+    if (obstacle.shape == Obstacle::Shape::sphere)
+        add(obstacle.centre, Eigen::Vector3d::Constant(obstacle.radius));
+    else if (obstacle.shape == Obstacle::Shape::box)
+        add(obstacle.centre, obstacle.size / 2);
+    else
+        for (const Eigen::Vector3d& point : obstacle.points)
+            add(obstacle.centre + point, Eigen::Vector3d::Constant(obstacle.spacing / 2));
+    return cubes;
+}
+
+double impulse_unit(const Box& box, double step) {
+    return box.cell_mass() * box.cell / step;
+}
+
+Immersed::Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body,
+                   const std::vector<double>& spacing, double reach_in_spacings, double extension)
     : spacing_(spacing), extension_(extension), near_(rest.size()) {
     std::vector<int> order(rest.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return std::pair(rest[a].x(), a) < std::pair(rest[b].x(), b); });
-    const double reach = reach_in_spacings * spacing, half = spacing / 2;
-    for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const double reach = reach_in_spacings * spacing[order[a]], half = spacing[order[a]] / 2;
         for (std::size_t b = a + 1; b < order.size() && rest[order[b]].x() - rest[order[a]].x() < reach; ++b) {
             const int i = order[a], j = order[b];
             if (body[i] != body[j] || (rest[j] - rest[i]).norm() >= reach) continue;
             near_[i].push_back({j, (rest[j] - rest[i]) / half});
             near_[j].push_back({i, (rest[i] - rest[j]) / half});
         }
+    }
     for (auto& neighbours : near_) {
         std::sort(neighbours.begin(), neighbours.end(),
                   [](const Neighbour& a, const Neighbour& b) { return a.particle < b.particle; });
@@ -77,20 +114,18 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places,
                                   const std::vector<Eigen::Vector3d>& velocities, const Box& box, double step) const {
     std::vector<Cube> cubes(near_.size());
     const double per_step = step / box.cell;
-    const auto edge = static_cast<float>(overlap + 2 * extension_ * box.cell / spacing_);
     for (std::size_t p = 0; p < near_.size(); ++p) {
+        const double spacing = spacing_[p];
+        const auto edge = static_cast<float>(overlap + 2 * extension_ * box.cell / spacing);
         Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
         for (const Neighbour& one : near_[p]) {
             shape += (places[one.particle] - places[p]) * one.weight.transpose();
             rate += (velocities[one.particle] - velocities[p]) * one.weight.transpose();
         }
-        shape = completed(shape, missing_[p], spacing_ / 2) / box.cell;
-        Eigen::Vector3d middle = (places[p] - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
-        for (int a = 0; a < 3; ++a)
-            if (box.faces[a][0] == Face::periodic && box.cells[a] > 1)
-                middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
+        shape = completed(shape, missing_[p], spacing / 2) / box.cell;
+        const Eigen::Vector3d middle = middle_of(places[p], box);
         Cube& cube = cubes[p];
-        const bool crushed = !(shape.determinant() > min_volume * std::pow(spacing_ / 2 / box.cell, 3));
+        const bool crushed = !(shape.determinant() > min_volume * std::pow(spacing / 2 / box.cell, 3));
         if (!crushed) store(shape.inverse(), cube.to_rest);
         store(rate * per_step, cube.rate);
         for (int a = 0; a < 3; ++a) {
@@ -105,7 +140,7 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places,
 
 std::vector<Eigen::Vector3d> Immersed::impulses(const std::vector<Push>& pushes, const Box& box, double step) const {
     std::vector<Eigen::Vector3d> impulses(near_.size(), Eigen::Vector3d::Zero());
-    const double unit = box.cell_mass() * box.cell / step;
+    const double unit = impulse_unit(box, step);
     for (std::size_t p = 0; p < near_.size(); ++p) {
         const Push& push = pushes[p];
         impulses[p] += unit * Eigen::Vector3d(push.j[0], push.j[1], push.j[2]);

@@ -23,30 +23,38 @@ struct Cube {
     float rate[9];     ///< rows: velocity by xi, cells/step a half spacing
     float reach[3];    ///< half of the box around it, cells
     float edge;        ///< it has the cells whose |xi| is at most this
+    int round;         ///< 1: it is the ball of the xi whose square is at most `edge`; else 0
 };
+
+/// What stands in the water, as cubes that do not move: a sphere or a box is one, a mesh has one for each of its
+/// points.
+std::vector<Cube> cubes_of(const Obstacle& obstacle, const Box& box);
 
 /// What the water gave a cube in a step, cells/step times cells' masses, and its moments: rows J, columns xi.
 struct Push {
     double j[3] = {}, moment[9] = {};
 };
 
+/// Mass length/s that is 1 in a Push, in a step of so long, s.
+double impulse_unit(const Box& box, double step);
+
 /// Bodies of particles in water. Each particle's cube follows its neighbours at rest by moving least squares, so that a
 /// body's affine motions are exact; what pushes its cells is given to it and them by the transposed weights, which keep
 /// momentum.
 class Immersed {
 public:
-    /// `rest`: places at rest, length; of particles of the same `body` those nearer than `reach` spacings are
-    /// neighbours. 1.75: those of faces and edges, with which soft bodies are stable; 1.2: those of faces alone, for
-    /// bodies of given shape. `extension`: cells by which the body is larger on each side than its cubes, since water
-    /// sticks to the centres of its outer cells.
-    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, double spacing, double reach,
-             double extension);
+    /// `rest`: places at rest, length; of particles of the same `body`, which have the same `spacing`, those nearer
+    /// than `reach` spacings are neighbours. 1.75: those of faces and edges, with which soft bodies are stable; 1.2:
+    /// those of faces alone, for bodies of given shape. `extension`: cells by which the body is larger on each side
+    /// than its cubes, since water sticks to the centres of its outer cells.
+    Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, const std::vector<double>& spacing,
+             double reach, double extension);
 
     int particles() const { return static_cast<int>(near_.size()); }
     /// At these places, length, with these velocities, length/s, in a step of so long, s.
     std::vector<Cube> cubes(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& velocities,
                             const Box& box, double step) const;
-    /// By particle, mass length/s, of what a step of so long, s, gave the cubes.
+    /// By particle, mass length/s, of what a step of so long, s, gave the cubes; those behind are not of these.
     std::vector<Eigen::Vector3d> impulses(const std::vector<Push>& pushes, const Box& box, double step) const;
 
 private:
@@ -54,7 +62,8 @@ private:
         int particle;
         Eigen::Vector3d weight;  ///< of its distance or velocity in the gradient by xi
     };
-    double spacing_, extension_;
+    std::vector<double> spacing_;
+    double extension_;
     std::vector<std::vector<Neighbour>> near_;
     std::vector<Eigen::Matrix3d> missing_;  ///< projector on what a particle's neighbours do not span
 };

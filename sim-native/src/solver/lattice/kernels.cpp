@@ -14,7 +14,7 @@ int at(int cx, int cy, int cz) {
 }
 
 bool periodic(const View& view, int axis) {
-    return !view.bounces[axis][0] && !view.mirrors[axis][0];
+    return !view.bounces[axis][0] && !view.mirrors[axis][0] && !view.opens[axis][0];
 }
 /// The first cell of a row.
 long first_of(const View& view, int y, int z) {
@@ -66,12 +66,14 @@ void Planes::collide_plane(int z) const {
 const float* Planes::source(int i, int y, int z) const {
     const int cx = i % 3 - 1, cy = i / 3 % 3 - 1, cz = i / 9 - 1;
     int from_y = y - cy, from_z = z - cz, dy = cy, dz = cz;
-    bool bounced = false;
+    bool bounced = false, comes_in = false;
     const auto meet = [&](int axis, int n, int here, int& from, int& d) {
         if (from >= 0 && from < n) return;
         const int end = from < 0 ? 0 : 1;
         if (view_.bounces[axis][end])
             bounced = true;
+        else if (view_.opens[axis][end])
+            comes_in = true;
         else if (view_.mirrors[axis][end])
             from = here, d = -d;
         else if (axis == 1)
@@ -84,11 +86,13 @@ const float* Planes::source(int i, int y, int z) const {
         meet(2, view_.nz, z, from_z, dz);
     float* const opposite = plane(z) + (populations - 1 - i) * size() + static_cast<long>(y) * view_.stride + margin;
     if (bounced) return opposite;
+    if (comes_in) return view_.inflow[i];
     float* const base = plane(from_z) + static_cast<long>(from_y) * view_.stride + margin;
     float* const from = base + at(cx, dy, dz) * size();
     if (cx == 0) return from;
     const int end = cx > 0 ? 0 : 1, inside = end == 0 ? 0 : view_.nx - 1, outside = inside - cx;
     from[outside] = view_.bounces[0][end]   ? opposite[inside]
+                    : view_.opens[0][end]   ? view_.inflow[i][0]
                     : view_.mirrors[0][end] ? base[at(-cx, dy, dz) * size() + inside]
                                             : from[end == 0 ? view_.nx - 1 : 0];
     return from - cx;

@@ -9,12 +9,13 @@ constexpr int margin = 16;  ///< cells before and behind a row
 
 /// Arrays of a lattice in memory: rows of cells along x, then along y, then along z.
 struct View {
-    int nx, ny, nz, stride;             ///< stride: of rows, numbers
-    bool bounces[3][2], mirrors[3][2];  ///< at the ends along x, y, z; neither: periodic
+    int nx, ny, nz, stride;                          ///< stride: of rows, numbers
+    bool bounces[3][2], mirrors[3][2], opens[3][2];  ///< at the ends along x, y, z; none of them: periodic
     const float* now[physics::lattice_moments];
     float* next[physics::lattice_moments];
-    const float* change[3];            ///< of the velocity, cells/step
-    const unsigned char* row_changes;  ///< by row: whether there is any
+    const float* change[3];                             ///< of the velocity, cells/step
+    const unsigned char* row_changes;                   ///< by row: whether there is any
+    const float* inflow[physics::lattice_populations];  ///< a row of what comes in at open ends
 };
 
 /// Kernels of the lattice in one instruction set, in float.

@@ -34,10 +34,10 @@ void equilibrium(const Cell& cell, float (&to)[17]);
 /// density of its cells (Gazzola, Chatelain, van Rees, Koumoutsakos 2011, section 2).
 class Water {
 public:
-    /// At rest.
+    /// At rest, with open ends that let in water of the box' current.
     static std::unique_ptr<Water> on_cpu(const Box& box, int threads);
-    /// Throws NoDevice without that GPU or if this library was built without CUDA, std::bad_alloc if its memory is too
-    /// small.
+    /// At rest, without open ends. Throws NoDevice without that GPU or if this library was built without CUDA,
+    /// std::bad_alloc if its memory is too small.
     static std::unique_ptr<Water> on_gpu(const Box& box, int device);
     virtual ~Water() = default;
 
