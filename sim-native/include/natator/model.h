@@ -173,8 +173,8 @@ State<Real> initial_state(const Model& model);
 void check_gait(const Gait& gait, int actuators);
 
 /// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, times the start
-/// ramp, except in scheme `flex`. The gait must fit the model (check_gait). Throws InputError if it has not one value for
-/// each actuator.
+/// ramp, except in scheme `flex`. The gait must fit the model (check_gait). Throws InputError if it has not one value
+/// for each actuator.
 std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).

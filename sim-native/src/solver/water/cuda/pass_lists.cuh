@@ -5,8 +5,8 @@
 
 namespace natator::cuda {
 
-/// Threads that share a slot: many_lanes where slots do not fill the GPU, few_lanes where they do, since each thread has
-/// a cost of its own. The sums are the same to the last bit.
+/// Threads that share a slot: many_lanes where slots do not fill the GPU, few_lanes where they do, since each thread
+/// has a cost of its own. The sums are the same to the last bit.
 inline constexpr int many_lanes = water_lists, few_lanes = 2;
 
 /// Values that lie side by side.
