@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # README's two lines for Python as they stand, in a clone of the newest commit, on systems that have Python and git alone, with a clock.
 #   sudo tests/install/checkout.sh [SUITE]...      # else bookworm (Debian 12, g++ 12), noble (Ubuntu 24.04, g++ 13), trixie (Debian 13, g++ 14)
+#   sudo tests/install/checkout.sh --evolve [SUITE]...    # README's first line, which evolves a swimmer, on systems that have git alone
 # Needs root, debootstrap, mirrors of Debian and Ubuntu, and PyPI. CXX=clang++: by clang. Systems are kept: 0.8 GB each.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -12,8 +13,23 @@ typed() {
     inside PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin ${CXX:+CXX="$CXX"} /usr/bin/env -C /tried/natator bash -c "$1"
 }
 
+evolve=
+if [[ ${1-} == --evolve ]]; then
+    evolve=$(awk '/^```/ { inside = !inside } inside && /^\.\/setup\.sh && mvn -q -Pevolve$/' README.md)
+    [[ -n $evolve ]] || { echo 'checkout.sh: README.md must have the line "./setup.sh && mvn -q -Pevolve"' >&2; exit 1; }
+    shift
+fi
 (( $# )) || set -- bookworm noble trixie
 for suite in "$@"; do
+    if [[ $evolve ]]; then
+        rm -f "${NATATOR_ROOTS:-build/roots}/evolve-$suite/complete"
+        system "evolve-$suite" "$suite" git
+        git clone --quiet . "$root/tried/natator"
+        began=$EPOCHREALTIME
+        said=$(typed "$evolve")
+        printf '%s: evolved in %s: %s\n' "$suite" "$(clock "$began")" "$(grep -E 'swims: [0-9.]+ ± ' <<<"$said")"
+        continue
+    fi
     rm -f "${NATATOR_ROOTS:-build/roots}/checkout-$suite/complete"  # what the last run has installed is to go
     compiler=${CXX:+clang}
     system "checkout-$suite" "$suite" "python3,git${compiler:+,$compiler}"
