@@ -88,7 +88,7 @@ class LivePageCheck extends BrowserTest {
         page.keyboard().press("w");
         assertThat(get("water-vorticity").isChecked()).isTrue();
         await("document.querySelector('[data-testid=legend-turns]').checkVisibility()");
-        await("!/left-11$/.test(document.querySelector('[data-testid=legend-turns]').textContent)");
+        await("natator.hasWake()");
         get("swimmer-Loach").check();
         await("natator.scene().scene === 'plane/loach' && natator.scene().gait.frequency === 2 && natator.time() > 0.4");
 

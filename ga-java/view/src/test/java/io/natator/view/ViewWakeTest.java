@@ -114,7 +114,7 @@ class ViewWakeTest extends ViewBrowserTest {
 
         for (String shown : List.of("vorticity", "vortices")) {
             choose("water-" + shown);
-            await("!/left-11$/.test(document.querySelector('[data-testid=legend-turns]').textContent)");
+            await("natator.hasWake()");
             BufferedImage picture = stillPicture(get("picture-a"));
             keepPicture("ViewWakeTest-" + drawing + "-" + shown);
             assertThat(turning(picture)).as(shown).isGreaterThan(SEEN);

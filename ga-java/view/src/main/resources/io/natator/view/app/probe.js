@@ -11,6 +11,7 @@ export function figures(page) {
     dropped: () => page.views[which]?.dropped ?? 0,
     drawing: () => page.views[which]?.stage.drawing ?? '',
     share: () => page.views[which]?.stage.share ?? 0,
+    hasWake: () => page.views[which]?.stage.hasWake ?? false,
     samples: () => page.views[which]?.stage.samples ?? 0,
     scene: () => page.views[which]?.scene ?? null,
     connected: () => page.views[which]?.isConnected ?? false,

@@ -177,6 +177,11 @@ export class Stage {
     this.#isNew = true;
   }
 
+  /** Whether something of the wake is drawn: a slice, or vortices. */
+  get hasWake() {
+    return this.#wake.slice !== null || this.#wake.vortices !== null;
+  }
+
   /** Whether it is to be given water on a grid. */
   get wantsWater() {
     return this.#wake.isShown || this.#hasDye;
