@@ -22,6 +22,7 @@ std::vector<double> spacings_of(const Model& model) {
 
 std::vector<double> displaced_by(const Model& model, const std::vector<double>& spacings) {
     std::vector<double> masses;
+    masses.reserve(spacings.size());
     for (const double spacing : spacings) masses.push_back(model.water_box->displaced_mass(spacing));
     return masses;
 }
