@@ -22,8 +22,8 @@ enum class WaterFace {
 
 /// What stands in water on a lattice.
 struct WaterObstacle {
-    Obstacle obstacle;
-    int particles = 0;  ///< of the Model, that are its
+    Obstacle obstacle;  ///< as the Scene has it
+    int particles = 0;  ///< number of the Model's particles that make it up
 };
 
 /// Water on a lattice of cubic cells, as scheme `lattice` has it.
