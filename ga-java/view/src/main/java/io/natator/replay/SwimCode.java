@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
 import io.natator.stream.StreamFrame;
+import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamScene;
 import java.io.ByteArrayOutputStream;
 import java.nio.ByteBuffer;
@@ -37,8 +38,6 @@ final class SwimCode {
     static final int BODY_BITS = 20;
     static final int DENSITY_BITS = 8;
     static final int FLOW_BITS = 8;
-    /** Bytes of a {@code WATR} before its velocities. */
-    private static final int WATER_HEAD_BYTES = 64;
     private static final int AXES = 3;
     /** Rows that are coded to find the better code of a table. */
     private static final int TRIED_ROWS = 40;
@@ -178,7 +177,7 @@ final class SwimCode {
 
     /** Water stays as it is until that of another frame is there. */
     private void addFlow(List<StreamFrame> frames, ObjectNode head, ArrayNode described, ByteArrayOutputStream out) {
-        ByteBuffer first = little(flows.get(0));
+        ByteBuffer first = flows.get(0);
         int cells = first.getInt(8) * first.getInt(12) * first.getInt(16);
         ObjectNode flow = head.putObject("flow").put("cell", first.getDouble(32));
         ArrayNode counts = flow.putArray("cells");
@@ -187,7 +186,7 @@ final class SwimCode {
             counts.add(first.getInt(8 + Integer.BYTES * axis));
             corner.add(first.getDouble(40 + Double.BYTES * axis));
         }
-        Map<Long, ByteBuffer> byFrame = flows.stream().map(SwimCode::little)
+        Map<Long, ByteBuffer> byFrame = flows.stream()
                 .collect(Collectors.toMap(one -> Integer.toUnsignedLong(one.getInt(4)), Function.identity()));
         ArrayNode starts = flow.putArray("starts");
         Quantiser[] axes = {flowAlong(0), flowAlong(2)};
@@ -204,19 +203,16 @@ final class SwimCode {
     }
 
     private Quantiser flowAlong(int axis) {
-        DoubleSummaryStatistics all = flows.stream().map(SwimCode::little)
-                .flatMapToDouble(body -> IntStream.range(0, (body.capacity() - WATER_HEAD_BYTES) / (4 * Float.BYTES))
+        DoubleSummaryStatistics all = flows.stream()
+                .flatMapToDouble(body -> IntStream
+                        .range(0, (body.capacity() - StreamMessage.Water.HEAD_BYTES) / (4 * Float.BYTES))
                         .mapToDouble(cell -> velocity(body, cell, axis)))
                 .summaryStatistics();
         return Quantiser.over(all.getMin(), all.getMax(), FLOW_BITS);
     }
 
     private static float velocity(ByteBuffer body, int cell, int axis) {
-        return body.getFloat(WATER_HEAD_BYTES + Float.BYTES * (AXES * cell + axis));
-    }
-
-    private static ByteBuffer little(ByteBuffer body) {
-        return body.duplicate().order(ByteOrder.LITTLE_ENDIAN);
+        return body.getFloat(StreamMessage.Water.HEAD_BYTES + Float.BYTES * (AXES * cell + axis));
     }
 
     /** Adds a table in the code that makes its beginning shorter. */

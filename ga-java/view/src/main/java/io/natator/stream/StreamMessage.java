@@ -35,6 +35,9 @@ public sealed interface StreamMessage {
      * @param body as the simulator wrote it, from {@code number} on, little-endian; read-only
      */
     record Water(ByteBuffer body) implements StreamMessage {
+
+        /** Bytes of a body before the velocities of its cells. */
+        public static final int HEAD_BYTES = 64;
     }
 
     /**

@@ -23,7 +23,6 @@ public final class StreamReader {
     static final int MAX_TEXT_BYTES = 256 << 20;
     /** Water of 16 million cells: more than any page shows. */
     static final int MAX_WATER_BYTES = 256 << 20;
-    private static final int WATER_HEAD_BYTES = 64;
     private static final int CELL_BYTES = 16;
     private static final int HEAD_BYTES = 8;
     private static final int LETTERS = 4;
@@ -102,14 +101,15 @@ public final class StreamReader {
     }
 
     private StreamMessage water(long length) throws IOException {
-        if (length < WATER_HEAD_BYTES || length > MAX_WATER_BYTES) {
+        if (length < StreamMessage.Water.HEAD_BYTES || length > MAX_WATER_BYTES) {
             throw new StreamException(
-                    "WATR of " + length + " bytes; expected " + WATER_HEAD_BYTES + " to " + MAX_WATER_BYTES);
+                    "WATR of " + length + " bytes; expected " + StreamMessage.Water.HEAD_BYTES + " to "
+                            + MAX_WATER_BYTES);
         }
         byte[] bytes = in.readNBytes((int) length);
         whole("WATR", bytes.length, length);
         ByteBuffer body = ByteBuffer.wrap(bytes).asReadOnlyBuffer().order(ByteOrder.LITTLE_ENDIAN);
-        double expected = WATER_HEAD_BYTES + CELL_BYTES * (double) Integer.toUnsignedLong(body.getInt(8))
+        double expected = StreamMessage.Water.HEAD_BYTES + CELL_BYTES * (double) Integer.toUnsignedLong(body.getInt(8))
                 * Integer.toUnsignedLong(body.getInt(12)) * Integer.toUnsignedLong(body.getInt(16));
         if (length != expected) {
             throw new StreamException(
