@@ -13,7 +13,7 @@
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "options.h"
-#include "run/side_by_side.h"
+#include "base/side_by_side.h"
 
 namespace natator::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "natator/error.h"
 #include "protocol/protocol.h"
-#include "run/side_by_side.h"
+#include "base/side_by_side.h"
 
 namespace natator::cli {
 namespace {

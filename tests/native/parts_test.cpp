@@ -1,5 +1,5 @@
 // Members of a batch on a GPU that are computed in parts, by streams side by side.
-#include "run/cuda/parts.h"
+#include "solver/cuda/grid/parts.h"
 
 #include <gtest/gtest.h>
 

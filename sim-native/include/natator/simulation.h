@@ -62,8 +62,7 @@ public:
     void set_gait(const Gait& gait);
     /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
     /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a
-    /// straight line, so that the water is not struck. Throws InputError when it does not fit, and on a GPU, but for
-    /// scheme `lattice`.
+    /// straight line, so that the water is not struck. Throws InputError when it does not fit.
     void steer(const Steering& steering);
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
     /// steering_of_drive. They have no start ramp. Throws InputError as `steer`.
@@ -118,11 +117,13 @@ private:
 
     std::uint64_t digest(Run& run) const;
     Moment read(std::string_view saved) const;
-    void refuse_to_steer_on_gpu() const;
     std::unique_ptr<Run> make_run(const SimulationSetup& setup) const;
     void follow(MovingFrame& follower);
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
+    bool end_step(std::optional<Instability> found);
+    template <class Number>
+    friend std::vector<bool> step_together(const std::vector<Simulation<Number>*>& simulations, int max_threads);
 
     Execution execution_;
     SimulationSetup setup_;
@@ -141,6 +142,14 @@ private:
     std::optional<Instability> instability_;
 };
 
+/// Advances each by one frame, with the bits of Simulation::step: side by side in at most so many threads, those that
+/// share a GPU (Execution::shared) by the same kernels. False for each that is unstable or has become so. Throws what
+/// `step` does; then what each has done is not known.
+template <class Real>
+std::vector<bool> step_together(const std::vector<Simulation<Real>*>& simulations, int max_threads);
+
+extern template std::vector<bool> step_together(const std::vector<Simulation<float>*>&, int);
+extern template std::vector<bool> step_together(const std::vector<Simulation<double>*>&, int);
 extern template class Simulation<float>;
 extern template class Simulation<double>;
 

@@ -58,7 +58,23 @@ struct Residuals {
     Residual clusters{};
 };
 
-/// Where and how something is computed. None of these but `gpu` changes the result. What they point to must live as
+/// What Solvers on a GPU share (Execution::shared): they take turns in the memory of as few States as compute at a time,
+/// and those of equal Models can go on together (step_together). Any number of threads.
+class SharedGpu {
+public:
+    SharedGpu();
+    ~SharedGpu();
+    SharedGpu(const SharedGpu&) = delete;
+    SharedGpu& operator=(const SharedGpu&) = delete;
+
+    struct Pools;                        ///< of the sources
+    Pools& pools() { return *pools_; }  ///< likewise
+
+private:
+    std::unique_ptr<Pools> pools_;
+};
+
+/// Where and how something is computed. None of these but `gpu` and `shared` changes the result. What they point to must live as
 /// long as what they are given to, and a profile is that of one thread.
 struct Execution {
     StageProfile* profile = nullptr;            ///< where the time goes; null costs nothing
@@ -72,6 +88,9 @@ struct Execution {
     /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU.
     /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
     std::optional<int> gpu{};
+    /// With others on that GPU. In scheme `flex` by kernels of the whole GPU, whose last digits may differ (GpuPath); no
+    /// pressures and forces
+    SharedGpu* shared = nullptr;
     bool skip = true;  ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };
 
@@ -180,9 +199,17 @@ public:
     /// must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
-    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, and
-    /// on a GPU, except in scheme `lattice`.
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
+    /// A frame of one of several Solvers.
+    struct Frame {
+        Solver* solver;
+        State<Real>* state;
+        Drive drive;
+    };
+    /// Frames of several, side by side in as many threads as there are processors, at most `max_threads`, or where they
+    /// share a GPU by the same kernels. What became unstable, by frame; each has the bits that it has alone.
+    static std::vector<std::optional<Instability>> frames(std::vector<Frame> frames, int max_threads);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each
     /// spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what
@@ -223,8 +250,13 @@ public:
 
     /// Whether a GPU computes.
     bool on_gpu() const;
+    /// What settles a Model alike, for a cache of starts: a GPU's name and which kernels; empty on a CPU, and in scheme
+    /// lattice.
+    std::string device() const;
 
 private:
+    Drive checked_drive(const Drive& drive) const;
+
     class Implementation;
     std::unique_ptr<Implementation> implementation_;  ///< of the CPU; null on a GPU
     std::unique_ptr<GpuSolver<Real>> gpu_;

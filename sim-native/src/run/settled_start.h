@@ -8,16 +8,17 @@
 namespace natator {
 
 /// The start of the scene at rest: from the cache if there is one and it is there, else settled and kept there. Sets
-/// `instability` if settling was unstable. What a GPU settles has bits of its own, and is not kept.
+/// `instability` if settling was unstable. What scheme lattice settles on a GPU is not kept.
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver,
                           const SettledStateCache* cache, std::optional<Instability>& instability) {
-    if (solver.on_gpu()) cache = nullptr;
+    const std::string by = solver.device();
+    if (solver.on_gpu() && by.empty()) cache = nullptr;
     if (cache)
-        if (auto found = cache->find<Real>(model, settling)) return *found;
+        if (auto found = cache->find<Real>(model, settling, by)) return *found;
     State<Real> state = initial_state<Real>(model);
     instability = settle(settling, solver, state);
-    if (cache && !instability) cache->keep(model, settling, state);
+    if (cache && !instability) cache->keep(model, settling, state, by);
     return state;
 }
 

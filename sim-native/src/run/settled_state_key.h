@@ -11,7 +11,4 @@ namespace natator {
 /// of bytes in a Real, the instruction set and the build of this code. Empty where the linker gave that no build id.
 std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes);
 
-/// All that a model is, as bytes: of models with the same, the same states go on in the same way.
-std::string model_key(const Model& model);
-
 }  // namespace natator

@@ -1,5 +1,6 @@
 #include "natator/simulation.h"
 
+#include "base/side_by_side.h"
 #include "base/strict_json.h"
 #include "conservation_errors.h"
 #include "move_tank.h"
@@ -68,16 +69,8 @@ void Simulation<Real>::set_gait(const Gait& gait) {
 }
 
 template <class Real>
-void Simulation<Real>::refuse_to_steer_on_gpu() const {
-    if (execution_.gpu && model().scheme != Scheme::lattice)
-        throw InputError("steering on a GPU, in scheme " + std::string(to_string(model().scheme)) +
-                         "; must be on the CPU");
-}
-
-template <class Real>
 void Simulation<Real>::steer(const Steering& steering) {
     check_steering(steering, gait(), model().actuators);
-    refuse_to_steer_on_gpu();
     steering_ = steering;
     run_->laws.drive_freely();
 }
@@ -85,7 +78,6 @@ void Simulation<Real>::steer(const Steering& steering) {
 template <class Real>
 void Simulation<Real>::drive(const std::vector<double>& values) {
     check_drive(values, model().actuators);
-    refuse_to_steer_on_gpu();
     steering_ = steering_of_drive(values);
     run_->laws.drive_freely();
 }
@@ -133,9 +125,11 @@ void Simulation<Real>::reset(int start_number) {
     setup_ = std::move(next);
 }
 
-/// What drives the muscles in the frame that begins now, where they are steered.
+/// What drives the muscles in the frame that begins now.
 template <class Real>
 Drive Simulation<Real>::next_drive() const {
+    if (leaves_gait(steering_) && leaves_gait(applied_))
+        return [this](double time) { return natator::drive(model(), gait(), time); };
     const bool along = model().scheme != Scheme::flex;  // from one steering to the next; else at once
     return [this, along, begin = state_.time, frame = model().time_step](double time) {
         std::vector<double> driven = natator::drive(model(), gait(), time);
@@ -165,8 +159,14 @@ template <class Real>
 bool Simulation<Real>::step() {
     if (instability_) return false;
     run_->laws.drive_by(gait());
-    instability_ = leaves_gait(steering_) && leaves_gait(applied_) ? run_->solver.frame(state_, gait())
-                                                                   : run_->solver.frame(state_, next_drive());
+    return end_step(leaves_gait(steering_) && leaves_gait(applied_) ? run_->solver.frame(state_, gait())
+                                                                    : run_->solver.frame(state_, next_drive()));
+}
+
+/// What follows the solver's frame.
+template <class Real>
+bool Simulation<Real>::end_step(std::optional<Instability> found) {
+    instability_ = std::move(found);
     updated_ = true;
     restored_densities_.reset();
     if (!instability_)
@@ -243,6 +243,26 @@ void Simulation<Real>::start(std::unique_ptr<Run> run) {
     steering_ = applied_ = no_steering(model().actuators);
 }
 
+template <class Real>
+std::vector<bool> step_together(const std::vector<Simulation<Real>*>& simulations, int max_threads) {
+    std::vector<Simulation<Real>*> stable;
+    std::vector<typename Solver<Real>::Frame> frames;
+    for (Simulation<Real>* one : simulations) {
+        if (one->instability_) continue;
+        one->run_->laws.drive_by(one->gait());
+        stable.push_back(one);
+        frames.push_back({&one->run_->solver, &one->state_, one->next_drive()});
+    }
+    const std::vector<std::optional<Instability>> found = Solver<Real>::frames(std::move(frames), max_threads);
+    side_by_side(
+        stable.size(), [&](std::size_t k) { stable[k]->end_step(found[k]); }, static_cast<std::size_t>(max_threads));
+    std::vector<bool> goes_on;
+    for (const Simulation<Real>* one : simulations) goes_on.push_back(!one->instability_);
+    return goes_on;
+}
+
+template std::vector<bool> step_together(const std::vector<Simulation<float>*>&, int);
+template std::vector<bool> step_together(const std::vector<Simulation<double>*>&, int);
 template class Simulation<float>;
 template class Simulation<double>;
 

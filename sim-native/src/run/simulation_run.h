@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "laws.h"
+#include "model_on_gpu.h"
 #include "moving_tank.h"
 #include "natator/cost.h"
 #include "natator/evaluate.h"
@@ -30,7 +31,8 @@ struct Simulation<Real>::Run {
           perturbation(by),
           model(affordable_model(scene, setup.until,
                                  {.doubles = sizeof(Real) > sizeof(float), .several_threads = execution.threads > 1})),
-          solver(model, execution),
+          device_model(execution.gpu ? std::optional(model_on_gpu(scene, model)) : std::nullopt),
+          solver(device_model ? *device_model : model, execution),
           laws(model) {
         if (scene.moving_tank) follower.emplace(scene, model);
     }
@@ -55,6 +57,7 @@ struct Simulation<Real>::Run {
     Scene scene;
     Perturbation perturbation;
     Model model;
+    std::optional<Model> device_model;  ///< of the solver, on a GPU
     Solver<Real> solver;
     LawWatch laws;
     std::optional<MovingFrame> follower;

@@ -8,10 +8,10 @@
 #include "base/text.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
+#include "model/model_key.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/version.h"
-#include "settled_state_key.h"
 #include "simulation_run.h"
 
 namespace natator {

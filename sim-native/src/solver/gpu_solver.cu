@@ -1,16 +1,23 @@
 #include "gpu_solver.h"
 
+#include <map>
+#include <mutex>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/byte_reader.h"
 #include "base/byte_writer.h"
+#include "base/side_by_side.h"
 #include "cuda/device.h"
-#include "cuda/grid/grid_runner.h"
+#include "cuda/grid/grid_pool.h"
+#include "cuda/grid/parts.h"
 #include "cuda/kernel_choice.h"
 #include "cuda/refusal.h"
 #include "flex/cuda/batch_runner.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
+#include "model/model_key.h"
 #include "natator/error.h"
 #include "natator/model.h"
 
@@ -58,28 +65,26 @@ private:
 template <class Real>
 class GpuSolver<Real>::Implementation {
 public:
+    /// What moves the muscles in an update; empty leaves them as they are.
+    struct Muscles {
+        Drive drive;
+        const Gait* gait = nullptr;  ///< which `drive` is that of, if it is one
+    };
+
     explicit Implementation(const Model& model) : model_(model) {}
     virtual ~Implementation() = default;
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
-                                      const Gait* gait) {
+                                      const Muscles& muscles) {
         check_state(model_, state);
         check_step(time_step, substeps);
-        if (gait) check_lengths(*gait, model_.actuators);
         std::optional<cuda::TraceBuffers<Real>> trace;
         if (observer) trace.emplace(device_model().view(), substeps);
-        const double start = state.time;
         const cuda::Progress progress =
-            run(state, time_step, substeps, gait, trace ? trace->view() : cuda::Trace<Real>{});
-        if (progress.stopped >= 0) {
-            state.time = progress.bad_time;
-            const int bad =
-                progress.bad_particle < model_.particles() ? device_model().particle_of()[progress.bad_particle] : 0;
-            return cuda::located(model_, state, gait, time_step, substeps, start, {bad, "velocities", state.time});
-        }
-        state.time = start + time_step;
-        if (observer) trace->report_to(device_model(), *observer);
-        return std::nullopt;
+            run(state, time_step, substeps, muscles, trace ? trace->view() : cuda::Trace<Real>{});
+        const std::optional<Instability> found = end(state, time_step, substeps, muscles.drive, progress);
+        if (observer && !found) trace->report_to(device_model(), *observer);
+        return found;
     }
 
     std::vector<Real> densities() const {
@@ -116,12 +121,29 @@ public:
     virtual std::vector<Vector3<Real>> forces() const { return {}; }
 
     const Model& model() const { return model_; }
+    /// What this GPU makes of a Model, as a cache of starts knows it.
+    virtual std::string device() const = 0;
+    virtual bool shared() const { return false; }
 
 protected:
     virtual const cuda::DeviceModel<Real>& device_model() const = 0;
     /// One update of `state`, and of what is kept of it by device number; its time stays.
-    virtual cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+    virtual cuda::Progress run(State<Real>& state, double time_step, int substeps, const Muscles& muscles,
                                const cuda::Trace<Real>& trace) = 0;
+
+    /// Sets the time of a State after an update, or says where it stopped being finite.
+    std::optional<Instability> end(State<Real>& state, double time_step, int substeps, const Drive& drive,
+                                   const cuda::Progress& progress) const {
+        const double start = state.time;
+        if (progress.stopped < 0) {
+            state.time = start + time_step;
+            return std::nullopt;
+        }
+        state.time = progress.bad_time;
+        const int bad =
+            progress.bad_particle < model_.particles() ? device_model().particle_of()[progress.bad_particle] : 0;
+        return cuda::located(model_, state, drive, time_step, substeps, start, {bad, "velocities", state.time});
+    }
 
     const Model& model_;
     std::vector<Real> densities_;
@@ -137,12 +159,14 @@ public:
 
 private:
     const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
-    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+    using Muscles = typename Implementation::Muscles;
+    std::string device() const override { return cuda::current_device_name() + " block "; }
+    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Muscles& muscles,
                        const cuda::Trace<Real>& trace) override {
         const cuda::ModelView<Real>& view = runner_.model().view();
         State<Real> begin = state;
-        if (gait && cuda::supports_both(this->model_))
-            actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
+        const Gait* const gait = cuda::supports_both(this->model_) ? nullptr : muscles.gait;
+        if (muscles.drive && !gait) actuate(this->model_, muscles.drive(state.time), state.time, begin);
         states_.upload({begin});
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
@@ -177,56 +201,132 @@ private:
 template <class Real>
 class GpuSolver<Real>::GridSolver : public Implementation {
 public:
-    GridSolver(const Model& model, const cuda::GridOptions& options)
-        : Implementation(model), runner_(model, 1, options) {}
+    /// With a runner of its own, or each time with one of the pool, which others use in between.
+    GridSolver(const Model& model, std::shared_ptr<cuda::GridPool<Real>> pool, bool shared)
+        : Implementation(model), pool_(std::move(pool)) {
+        if (!shared) own_.emplace(pool_->lend(1));
+    }
 
     std::vector<Real> pressures() const override {
-        const std::vector<Real> of_fluid = h_ > 0 ? runner_.pressures(h_) : std::vector<Real>{};
+        const std::vector<Real> of_fluid = own_ && h_ > 0 ? (*own_)->pressures(h_) : std::vector<Real>{};
         std::vector<Real> pressures(of_fluid.empty() ? 0 : this->model_.particles(), Real(0));
         for (std::size_t k = 0; k < of_fluid.size(); ++k) pressures[particle_of(k)] = of_fluid[k];
         return pressures;
     }
     std::vector<Vector3<Real>> forces() const override {
-        if (!(time_ > 0) || !runner_.keeps_forces()) return {};
+        if (!(time_ > 0) || !own_ || !(*own_)->keeps_forces()) return {};
         std::vector<Vector3<Real>> forces(this->model_.particles(), Vector3<Real>::Zero());
-        const std::vector<cuda::Vec4<Real>> impulses = runner_.impulses_on_solids();
+        const std::vector<cuda::Vec4<Real>> impulses = (*own_)->impulses_on_solids();
         for (std::size_t k = 0; k < impulses.size(); ++k)
-            forces[particle_of(runner_.model().view().fluid + k)] =
+            forces[particle_of(device_model().view().fluid + k)] =
                 Vector3<Real>(impulses[k].x, impulses[k].y, impulses[k].z) / time_;
         return forces;
     }
+    std::string device() const override { return cuda::current_device_name() + " grid "; }
+    bool shared() const override { return !own_; }
+
+    cuda::GridPool<Real>* pool() const { return pool_.get(); }
+    /// A frame of each of some that have this pool.
+    static std::vector<std::optional<Instability>> frames(cuda::GridPool<Real>& pool, std::span<const Frame> frames) {
+        std::vector<GridSolver*> solvers;
+        std::vector<State<Real>*> states;
+        std::vector<Drive> drives;
+        for (const Frame& frame : frames) {
+            solvers.push_back(static_cast<GridSolver*>(frame.solver->implementation_.get()));
+            states.push_back(frame.state);
+            drives.push_back(*frame.drive);
+        }
+        const Model& model = pool.host_model();
+        const double time_step = model.time_step;
+        const int substeps = model.parameters.substeps;
+        const auto runner = pool.lend(static_cast<int>(frames.size()));
+        const std::vector<cuda::Progress> progress = run(*runner, solvers, states, time_step, substeps, drives, {});
+        std::vector<std::optional<Instability>> found(frames.size());
+        side_by_side(frames.size(), [&](std::size_t k) {
+            found[k] = solvers[k]->end(*states[k], time_step, substeps, drives[k], progress[k]);
+        });
+        return found;
+    }
 
 private:
-    const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
-    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+    using Muscles = typename Implementation::Muscles;
+    const cuda::DeviceModel<Real>& device_model() const override { return pool_->model(); }
+    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Muscles& muscles,
                        const cuda::Trace<Real>& trace) override {
-        runner_.upload(0, state);
-        const std::vector<const Gait*> gaits(gait ? 1 : 0, gait);
-        const auto end = runner_.run({state.time, time_step, substeps, gaits, false}, nullptr, trace).front();
-        state = runner_.download(0, state);
-        if (gait)
-            state.spring_rest_length =
-                runner_.muscles(0).spring_rest_length;  // which the next frame's work begins with
-        cuda::Progress progress;
-        if (!end.finite) {
-            progress.stopped = static_cast<int>(StopReason::unstable);
-            progress.bad_particle = end.bad_particle;
-            progress.bad_time = state.time + end.bad_substep * time_step / substeps;
-            return progress;
+        std::optional<typename cuda::GridPool<Real>::Loan> lent;
+        if (!own_) lent.emplace(pool_->lend(1));
+        const std::vector<Drive> drives(muscles.drive ? 1 : 0, muscles.drive);
+        return run(own_ ? **own_ : **lent, {this}, {&state}, time_step, substeps, drives, trace).front();
+    }
+
+    /// An update of the States, which are the first of the runner, and of what their solvers keep.
+    static std::vector<cuda::Progress> run(cuda::GridRunner<Real>& runner, const std::vector<GridSolver*>& solvers,
+                                           const std::vector<State<Real>*>& states, double time_step, int substeps,
+                                           const std::vector<Drive>& drives, const cuda::Trace<Real>& trace) {
+        runner.upload_all({states.begin(), states.end()});
+        typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false};
+        for (std::size_t k = 0; k < drives.size(); ++k) update.muscles.push_back({drives[k], states[k]->time});
+        update.muscles.resize(drives.empty() ? 0 : runner.states());
+        const auto ends = runner.run(update, nullptr, trace);
+        runner.download_all(states);
+        const std::vector<Real> densities = runner.densities();
+        const std::vector<int> neighbours = runner.neighbour_counts();
+        std::vector<cuda::Progress> progress(states.size());
+        for (std::size_t k = 0; k < states.size(); ++k) {
+            if (ends[k].finite) {
+                solvers[k]->keep(k, time_step, substeps, densities, neighbours);
+                if (!drives.empty() && has_muscle_work(solvers[k]->model_))
+                    solvers[k]->muscle_work_ += ends[k].muscle_work;
+                continue;
+            }
+            progress[k].stopped = static_cast<int>(StopReason::unstable);
+            progress[k].bad_particle = ends[k].bad_particle;
+            progress[k].bad_time = states[k]->time + ends[k].bad_substep * time_step / substeps;
         }
-        if (gait && has_muscle_work(this->model_)) this->muscle_work_ += end.muscle_work;
-        this->densities_ = runner_.densities();
-        this->neighbours_ = runner_.neighbour_counts();
-        time_ = static_cast<Real>(time_step);
-        h_ = time_ / static_cast<Real>(substeps);
         return progress;
     }
 
-    int particle_of(std::size_t number) const { return runner_.model().particle_of()[number]; }
+    /// Of the runner's State k.
+    void keep(std::size_t k, double time_step, int substeps, const std::vector<Real>& densities,
+              const std::vector<int>& neighbours) {
+        const auto part = [k](const auto& of_all, std::size_t size, auto& to) {
+            if (!of_all.empty()) to.assign(of_all.begin() + k * size, of_all.begin() + (k + 1) * size);
+        };
+        part(densities, device_model().view().fluid, this->densities_);
+        part(neighbours, device_model().view().particles, this->neighbours_);
+        time_ = static_cast<Real>(time_step);
+        h_ = time_ / static_cast<Real>(substeps);
+    }
 
-    cuda::GridRunner<Real> runner_;
+    int particle_of(std::size_t number) const { return device_model().particle_of()[number]; }
+
+    std::shared_ptr<cuda::GridPool<Real>> pool_;
+    std::optional<typename cuda::GridPool<Real>::Loan> own_;
     Real time_ = 0, h_ = 0;  ///< of the last update and of its substeps, s; 0 before the first
 };
+
+/// By Model.
+struct SharedGpu::Pools {
+    template <class Real>
+    using ByModel = std::map<std::string, std::shared_ptr<cuda::GridPool<Real>>>;
+
+    /// That of a Model, whoever asks for it.
+    template <class Real>
+    std::shared_ptr<cuda::GridPool<Real>> of(const Model& model, int device) {
+        const std::lock_guard lock(mutex);
+        std::shared_ptr<cuda::GridPool<Real>>& pool =
+            std::get<ByModel<Real>>(pools)[std::to_string(device) + ' ' + model_key(model)];
+        if (!pool)
+            pool = std::make_shared<cuda::GridPool<Real>>(model, cuda::GridOptions{}, device);
+        return pool;
+    }
+
+    std::mutex mutex;
+    std::tuple<ByModel<float>, ByModel<double>> pools;
+};
+
+SharedGpu::SharedGpu() : pools_(std::make_unique<Pools>()) {}
+SharedGpu::~SharedGpu() = default;
 
 template <class Real>
 GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
@@ -236,7 +336,7 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
         throw InputError(
             "backend cuda: a GpuSolver has no scheme lattice; a Solver has its water on a GPU by Execution::gpu");
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    GpuPath path = options.path;
+    GpuPath path = options.shared ? GpuPath::whole_gpu : options.path;
     if (path == GpuPath::by_size) {
         const bool blocks = model.scheme == Scheme::flex && model.companions.empty() && !cuda::supports_both(model);
         path = blocks ? GpuPath::block : GpuPath::whole_gpu;
@@ -253,8 +353,12 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     }
     if (path == GpuPath::block)
         implementation_ = std::make_unique<BlockSolver>(model);
+    else if (options.shared)
+        implementation_ =
+            std::make_unique<GridSolver>(model, options.shared->pools().of<Real>(model, options.device), true);
     else
-        implementation_ = std::make_unique<GridSolver>(model, grid);
+        implementation_ = std::make_unique<GridSolver>(
+            model, std::make_shared<cuda::GridPool<Real>>(model, grid, options.device), false);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;
@@ -266,13 +370,60 @@ GpuSolver<Real>& GpuSolver<Real>::operator=(GpuSolver&&) noexcept = default;
 template <class Real>
 std::optional<Instability> GpuSolver<Real>::update(State<Real>& state, double time_step, int substeps,
                                                    StepObserver<Real>* observer) {
-    return implementation_->update(state, time_step, substeps, observer, nullptr);
+    return implementation_->update(state, time_step, substeps, observer, {});
 }
 
 template <class Real>
 std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Gait& gait) {
     const Model& model = implementation_->model();
-    return implementation_->update(state, model.time_step, model.parameters.substeps, nullptr, &gait);
+    check_lengths(gait, model.actuators);
+    return implementation_->update(state, model.time_step, model.parameters.substeps, nullptr,
+                                   {[&](double time) { return drive(model, gait, time); }, &gait});
+}
+
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Drive& drive) {
+    const Model& model = implementation_->model();
+    return implementation_->update(state, model.time_step, model.parameters.substeps, nullptr, {drive});
+}
+
+template <class Real>
+std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
+    constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
+    std::map<cuda::GridPool<Real>*, std::vector<std::size_t>> by_pool;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        check_state(all[k].solver->implementation_->model(), *all[k].state);
+        by_pool[static_cast<GridSolver&>(*all[k].solver->implementation_).pool()].push_back(k);
+    }
+    std::vector<std::optional<Instability>> found(all.size());
+    for (const auto& [pool, numbers] : by_pool) {
+        const int most = particles_at_a_time / max_streams / pool->host_model().particles() + 1;
+        const cuda::Parts parts(static_cast<int>(numbers.size()), most, max_streams);
+        side_by_side(
+            parts.count,
+            [&](std::size_t part) {
+                const int first = parts.first(static_cast<int>(part)), size = parts.size_of(static_cast<int>(part));
+                std::vector<Frame> own;
+                for (int k = first; k < first + size; ++k) own.push_back(all[numbers[k]]);
+                const auto ends = GridSolver::frames(*pool, own);
+                for (int k = 0; k < size; ++k) found[numbers[first + k]] = ends[k];
+            },
+            max_streams);
+    }
+    return found;
+}
+
+template <class Real>
+const Model& GpuSolver<Real>::model() const {
+    return implementation_->model();
+}
+template <class Real>
+bool GpuSolver<Real>::shared() const {
+    return implementation_->shared();
+}
+template <class Real>
+std::string GpuSolver<Real>::device() const {
+    return implementation_->device();
 }
 
 template <class Real>

@@ -24,6 +24,7 @@ struct GpuSolverOptions {
     int device = 0;  ///< number of the GPU, see cuda_devices in batch.h
     GpuPath path = GpuPath::by_size;
     bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
+    SharedGpu* shared = nullptr;  ///< as Execution::shared; then by the whole GPU
 };
 
 /// A Solver on a GPU, with a choice of paths for tests and benchmarks. Results agree with the CPU's to rounding; the
@@ -52,6 +53,23 @@ public:
     /// One frame of the model: as an update by the model's time step and substeps, with the muscles driven by `gait`,
     /// which must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
+    /// Likewise with muscles that `drive` drives, as Solver's.
+    std::optional<Instability> frame(State<Real>& state, const Drive& drive);
+
+    /// A frame of one of several solvers, whose muscles `drive` drives.
+    struct Frame {
+        GpuSolver* solver;
+        State<Real>* state;
+        const Drive* drive;
+    };
+    /// Frames of solvers that share a GPU (GpuSolverOptions::shared), those of equal Models by the same kernels. What
+    /// became unstable is told by frame, with the bits that each has alone. Throws as `frame`.
+    static std::vector<std::optional<Instability>> frames(const std::vector<Frame>& frames);
+
+    const Model& model() const;  ///< that it was made with
+    bool shared() const;         ///< whether with GpuSolverOptions::shared
+    /// What settles a Model alike, as a cache of starts knows it: the GPU's name and the path.
+    std::string device() const;
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2
     /// (Solver::muscle_work); 0 in scheme flex.
@@ -65,7 +83,7 @@ public:
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;
     /// Pressure of each fluid particle in the last substep, mass/(length s^2) (Solver::pressures). Empty before the
-    /// first update, without water, and in scheme flex.
+    /// first update, without water, in scheme flex, and where the GPU is shared; there forces are, too.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2 (Solver::forces). Empty without
     /// GpuSolverOptions::forces, and before the first update.

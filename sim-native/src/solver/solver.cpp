@@ -8,6 +8,7 @@
 #include "base/byte_reader.h"
 #include "base/byte_writer.h"
 #include "base/check_values.h"
+#include "base/side_by_side.h"
 #include "flex/cpu/flex_stages.h"
 #include "gpu_solver.h"
 #include "lattice/coupling.h"
@@ -256,7 +257,8 @@ template <class Real>
 Solver<Real>::Solver(const Model& model, const Execution& execution) {
     if (execution.gpu && model.scheme != Scheme::lattice)
         gpu_ = std::make_unique<GpuSolver<Real>>(
-            model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces});
+            model,
+            GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces, .shared = execution.shared});
     else
         implementation_ = std::make_unique<Implementation>(model, execution);
 }
@@ -283,13 +285,42 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& g
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
-    if (gpu_)
-        throw InputError("backend cuda: muscles driven by a function of time; must be driven by a gait, or on the CPU");
-    return implementation_->frame(state, [&](double time) {
+    const Drive checked = checked_drive(drive);
+    return gpu_ ? gpu_->frame(state, checked) : implementation_->frame(state, checked);
+}
+
+template <class Real>
+Drive Solver<Real>::checked_drive(const Drive& drive) const {
+    return [&drive, actuators = gpu_ ? gpu_->model().actuators : implementation_->model().actuators](double time) {
         std::vector<double> driven = drive(time);
-        check_driven(driven, implementation_->model().actuators);
+        check_driven(driven, actuators);
         return driven;
-    });
+    };
+}
+
+template <class Real>
+std::vector<std::optional<Instability>> Solver<Real>::frames(std::vector<Frame> all, int max_threads) {
+    std::vector<std::optional<Instability>> found(all.size());
+    std::vector<std::size_t> together, alone;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        (all[k].solver->gpu_ && all[k].solver->gpu_->shared() ? together : alone).push_back(k);
+    if (!together.empty()) {
+        std::vector<Drive> drives;
+        for (const std::size_t k : together) drives.push_back(all[k].solver->checked_drive(all[k].drive));
+        std::vector<typename GpuSolver<Real>::Frame> frames;
+        for (std::size_t i = 0; i < together.size(); ++i)
+            frames.push_back({all[together[i]].solver->gpu_.get(), all[together[i]].state, &drives[i]});
+        const auto ends = GpuSolver<Real>::frames(frames);
+        for (std::size_t i = 0; i < together.size(); ++i) found[together[i]] = ends[i];
+    }
+    side_by_side(
+        alone.size(),
+        [&](std::size_t i) {
+            Frame& one = all[alone[i]];
+            found[alone[i]] = one.solver->frame(*one.state, one.drive);
+        },
+        static_cast<std::size_t>(max_threads));
+    return found;
 }
 
 template <class Real>
@@ -345,6 +376,11 @@ std::vector<int> Solver<Real>::neighbour_counts() const {
 template <class Real>
 bool Solver<Real>::on_gpu() const {
     return gpu_ || implementation_->on_gpu();
+}
+
+template <class Real>
+std::string Solver<Real>::device() const {
+    return gpu_ ? gpu_->device() : std::string();
 }
 
 template State<float> initial_state<float>(const Model&);

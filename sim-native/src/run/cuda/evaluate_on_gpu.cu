@@ -8,7 +8,7 @@
 #include "natator/settled_state_cache.h"
 #include "run/laws.h"
 #include "run/perturb.h"
-#include "run/side_by_side.h"
+#include "base/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/kernel_choice.h"
 #include "solver/cuda/refusal.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "grid_scene.h"
-#include "parts.h"
+#include "solver/cuda/grid/parts.h"
 
 namespace natator::cuda {
 namespace {

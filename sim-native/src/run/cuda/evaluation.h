@@ -20,8 +20,8 @@ Evaluation finish(EvaluationRun& run, const Scene& scene, const Model& model, co
             before.time = found->time;
             const double step = settled ? scene.time_step : scene.settling.time_step;
             const int substeps = settled ? model.parameters.substeps : scene.settling.substeps;
-            found = located(model, before, settled ? &gait : nullptr, step, substeps, run.frames() * scene.time_step,
-                            *found);
+            const Drive drive = settled ? [&](double time) { return natator::drive(model, gait, time); } : Drive{};
+            found = located(model, before, drive, step, substeps, run.frames() * scene.time_step, *found);
         }
     }
     std::vector<Real> density(model.particles(), Real(0));

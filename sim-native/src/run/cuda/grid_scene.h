@@ -17,7 +17,7 @@
 #include "model_group.h"
 #include "natator/settled_state_cache.h"
 #include "run/perturb.h"
-#include "run/side_by_side.h"
+#include "base/side_by_side.h"
 #include "shared_once.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/grid/grid_runner.h"
@@ -74,8 +74,12 @@ public:
         const std::span<const BatchMember> members(group_.members.data() + first, count);
         const std::vector<Start> starts = starts_of(scene_, members);
         begin_at(starts);
-        update_ = {0, scene_.time_step, group_.model.parameters.substeps, {}, false};
-        for (int k = 0; k < runner_.states(); ++k) update_.gaits.push_back(&members[std::min(k, count - 1)].gait);
+        update_ = {scene_.time_step, group_.model.parameters.substeps, {}, false};
+        for (int k = 0; k < runner_.states(); ++k)
+            update_.muscles.push_back({[this, &gait = members[std::min(k, count - 1)].gait](double time) {
+                                           return drive(group_.model, gait, time);
+                                       },
+                                       0});
         runner_.prepare(update_);
         std::vector<EvaluationRun> runs;
         runs.reserve(count);
@@ -113,11 +117,11 @@ public:
     }
     std::vector<FrameEnd> frame(int number, std::vector<bool> over) {
         let_rest(std::move(over));
-        update_.start_time = number * scene_.time_step;
+        for (auto& muscles : update_.muscles) muscles.start_time = number * scene_.time_step;
         const std::vector<typename Runner::End> found = runner_.run(update_, times_ ? times_->profile : nullptr);
         std::vector<FrameEnd> ends = ends_of(found);
         for (std::size_t k = 0; k < ends.size(); ++k) {
-            ends[k].instability = instability_of(found[k], update_);
+            ends[k].instability = instability_of(found[k], number * scene_.time_step, update_);
             ends[k].work = work_[k] += found[k].muscle_work;
             ends[k].frame.touches_plane = found[k].touches_plane;
         }
@@ -195,7 +199,7 @@ private:
     std::vector<std::optional<Instability>> settle(std::size_t count) {
         const HostClock watch;
         const Settling& settling = scene_.settling;
-        const typename Runner::Update update{0, settling.time_step, settling.substeps, {}, true};
+        const typename Runner::Update update{settling.time_step, settling.substeps, {}, true};
         std::vector<std::optional<Instability>> found(count);
         for (int k = 0; k < settling.updates; ++k) {
             std::vector<bool> over(count);
@@ -203,7 +207,7 @@ private:
             if (!let_rest(std::move(over))) break;
             const std::vector<typename Runner::End> ends = runner_.run(update);
             for (std::size_t state = 0; state < count; ++state)
-                if (!found[state]) found[state] = instability_of(ends[state], update);
+                if (!found[state]) found[state] = instability_of(ends[state], 0, update);
         }
         if (times_) times_->settling += watch.seconds();
         return found;
@@ -240,12 +244,12 @@ private:
         return known->second;
     }
 
-    /// Of an update that is not finite; the particle by device number.
-    static std::optional<Instability> instability_of(const typename Runner::End& end,
+    /// Of an update from `start` (s) that is not finite; the particle by device number.
+    static std::optional<Instability> instability_of(const typename Runner::End& end, double start,
                                                      const typename Runner::Update& update) {
         if (end.finite) return std::nullopt;
         return Instability{end.bad_particle, "velocities",
-                           update.start_time + end.bad_substep * update.time_step / update.substeps};
+                           start + end.bad_substep * update.time_step / update.substeps};
     }
 
     const Scene& scene_;

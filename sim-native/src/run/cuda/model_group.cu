@@ -1,6 +1,7 @@
 #include "model_group.h"
 
 #include "natator/model.h"
+#include "run/model_on_gpu.h"
 
 namespace natator::cuda {
 
@@ -31,8 +32,7 @@ std::vector<ModelGroup> model_groups(const Scene& scene, const Model& model, con
             const Model own =
                 arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
             const Model& first = all.front().model;
-            const bool alike =
-                own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;
+            const bool alike = differ_in_places_alone(own, first);
             if (!alike) all.push_back({own, {}});
             group_of[arrangement] = alike ? 0 : all.size() - 1;
             all[group_of[arrangement]].begin[arrangement] = own.position;

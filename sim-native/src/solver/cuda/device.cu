@@ -54,17 +54,17 @@ std::optional<std::string> refusal(const Model& model) {
 }
 
 template <class Real>
-Instability located(const Model& model, State<Real> before, const Gait* gait, double time_step, int substeps,
+Instability located(const Model& model, State<Real> before, const Drive& drive, double time_step, int substeps,
                     double frame_time, const Instability& found) {
     Solver<Real> solver(model);
-    const double h = time_step / substeps;
-    if (gait) actuate(model, *gait, model.scheme != Scheme::flex ? before.time + h : frame_time, before);
+    const double h = time_step / substeps, driven_at = model.scheme != Scheme::flex ? before.time + h : frame_time;
+    if (drive) actuate(model, drive(driven_at), driven_at, before);
     const auto on_cpu = solver.update(before, h, 1);
     return on_cpu ? *on_cpu : found;
 }
 
-template Instability located(const Model&, State<float>, const Gait*, double, int, double, const Instability&);
-template Instability located(const Model&, State<double>, const Gait*, double, int, double, const Instability&);
+template Instability located(const Model&, State<float>, const Drive&, double, int, double, const Instability&);
+template Instability located(const Model&, State<double>, const Drive&, double, int, double, const Instability&);
 
 }  // namespace cuda
 

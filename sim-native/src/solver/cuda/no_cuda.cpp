@@ -21,6 +21,10 @@ double measure_copy_bandwidth(int) {
 
 }  // namespace cuda
 
+struct SharedGpu::Pools {};
+SharedGpu::SharedGpu() = default;
+SharedGpu::~SharedGpu() = default;
+
 template <class Real>
 class GpuSolver<Real>::Implementation {};
 template <class Real>
@@ -39,6 +43,26 @@ std::optional<Instability> GpuSolver<Real>::update(State<Real>&, double, int, St
 }
 template <class Real>
 std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
+    refuse_without_cuda();
+}
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Drive&) {
+    refuse_without_cuda();
+}
+template <class Real>
+std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>&) {
+    refuse_without_cuda();
+}
+template <class Real>
+const Model& GpuSolver<Real>::model() const {
+    refuse_without_cuda();
+}
+template <class Real>
+bool GpuSolver<Real>::shared() const {
+    refuse_without_cuda();
+}
+template <class Real>
+std::string GpuSolver<Real>::device() const {
     refuse_without_cuda();
 }
 template <class Real>

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/solver.h"
 
@@ -13,9 +12,9 @@ namespace natator::cuda {
 std::optional<std::string> refusal(const Model& model);
 
 /// Names the stage that made a State unstable: the CPU does the substep again, from the State before it. `found` says
-/// what the GPU saw: it stands if the CPU finds nothing.
+/// what the GPU saw: it stands if the CPU finds nothing. `drive`: of the muscles; empty leaves them as they are.
 template <class Real>
-Instability located(const Model& model, State<Real> before, const Gait* gait, double time_step, int substeps,
+Instability located(const Model& model, State<Real> before, const Drive& drive, double time_step, int substeps,
                     double frame_time, const Instability& found);
 
 }  // namespace natator::cuda

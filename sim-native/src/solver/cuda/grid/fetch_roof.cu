@@ -37,14 +37,15 @@ FetchRoof measure_fetch_roof(const Scene& scene, const std::vector<Gait>& gaits,
     FetchRunner runner(model, static_cast<int>(gaits.size()), {.lists = WaterLists::always});
     for (int k = 0; k < runner.states(); ++k) runner.upload(k, initial_state<float>(model));
     const Settling& settling = scene.settling;
-    for (int k = 0; k < settling.updates; ++k) run_stable(runner, {0, settling.time_step, settling.substeps, {}, true});
-    FetchRunner::Update frame{0, scene.time_step, model.parameters.substeps, {}, false};
-    for (const Gait& gait : gaits) frame.gaits.push_back(&gait);
+    for (int k = 0; k < settling.updates; ++k) run_stable(runner, {settling.time_step, settling.substeps, {}, true});
+    FetchRunner::Update frame{scene.time_step, model.parameters.substeps, {}, false};
+    for (const Gait& gait : gaits)
+        frame.muscles.push_back({[&](double time) { return drive(model, gait, time); }, 0});
     run_stable(runner, frame);
     FetchRoof roof;
     StageProfile profile;
     for (int k = 1; k <= frames; ++k) {
-        frame.start_time = k * scene.time_step;
+        for (auto& muscles : frame.muscles) muscles.start_time = k * scene.time_step;
         run_stable(runner, frame, &profile);
         const std::vector<int> counts = runner.neighbour_counts();
         roof.pairs += std::accumulate(counts.begin(), counts.end(), 0.0) / frames;

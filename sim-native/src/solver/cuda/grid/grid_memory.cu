@@ -4,8 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <utility>
 
+#include "base/side_by_side.h"
 #include "rows.h"
 #include "scan.h"
 #include "solver/cuda/device_states.h"
@@ -198,25 +200,44 @@ void GridMemory<Real>::wait() const {
     check(cudaStreamSynchronize(stream_), "run");
 }
 
+/// Of a State, by device number.
 template <class Real>
-void GridMemory<Real>::upload(int k, const State<Real>& state) const {
+void GridMemory<Real>::to_rows(const State<Real>& state, Vec4<Real>* position, Vec4<Real>* velocity,
+                               ClusterFit<Real>* fits) const {
     const std::vector<int>& number_of = device_model_.number_of();
-    const std::size_t particles = number_of.size();
-    std::vector<Vec4<Real>> position(particles), velocity(particles);
-    for (std::size_t i = 0; i < particles; ++i) {
+    for (std::size_t i = 0; i < number_of.size(); ++i) {
         const Vector3<Real>&x = state.position[i], &v = state.velocity[i];
         const int number = number_of[i];
         position[number] = {x.x(), x.y(), x.z(), static_cast<Real>(model_.inverse_mass[i])};
         velocity[number] = {v.x(), v.y(), v.z(), as_quad_number<Real>(number)};
     }
-    std::vector<ClusterFit<Real>> fits(view_.clusters);
-    for (std::size_t c = 0; c < fits.size(); ++c) {
+    for (int c = 0; c < view_.clusters; ++c) {
         const Vector3<Real>& centre = state.cluster_centre[c];
         fits[c].centre = {centre.x(), centre.y(), centre.z()};
         for (int e = 0; e < 4; ++e) fits[c].rotation[e] = state.cluster_rotation[c].coeffs()[e];
     }
+}
+
+/// By slot, which the velocities have the device number of.
+template <class Real>
+void GridMemory<Real>::from_rows(const Vec4<Real>* position, const Vec4<Real>* velocity, const ClusterFit<Real>* fits,
+                                 State<Real>& state) const {
+    state.position = by_particle(device_model_, position, velocity);
+    state.velocity = by_particle(device_model_, velocity, velocity);
+    for (int c = 0; c < view_.clusters; ++c) {
+        state.cluster_centre[c] = {fits[c].centre.x, fits[c].centre.y, fits[c].centre.z};
+        for (int e = 0; e < 4; ++e) state.cluster_rotation[c].coeffs()[e] = fits[c].rotation[e];
+    }
+}
+
+template <class Real>
+void GridMemory<Real>::upload(int k, const State<Real>& state) const {
+    const std::size_t particles = view_.particles;
+    std::vector<Vec4<Real>> position(particles), velocity(particles);
+    std::vector<ClusterFit<Real>> fits(view_.clusters);
+    to_rows(state, position.data(), velocity.data(), fits.data());
     std::vector<int> slot_of_solid(view_.solids);
-    for (std::size_t s = 0; s < slot_of_solid.size(); ++s) slot_of_solid[s] = view_.fluid + static_cast<int>(s);
+    std::iota(slot_of_solid.begin(), slot_of_solid.end(), view_.fluid);
     const Slots<Real> slots = slots_.state(k);
     const StateArrays<Real>& arrays = slots.arrays;
     copy_row(arrays.state_position, position.data(), particles, stream_);
@@ -238,13 +259,61 @@ State<Real> GridMemory<Real>::download(int k, const State<Real>& like) const {
     copy_row(fits.data(), arrays.fit, fits.size(), stream_);
     wait();
     State<Real> state = like;
-    state.position = by_particle(device_model_, position.data(), velocity.data());
-    state.velocity = by_particle(device_model_, velocity.data(), velocity.data());
-    for (std::size_t c = 0; c < fits.size(); ++c) {
-        state.cluster_centre[c] = {fits[c].centre.x, fits[c].centre.y, fits[c].centre.z};
-        for (int e = 0; e < 4; ++e) state.cluster_rotation[c].coeffs()[e] = fits[c].rotation[e];
-    }
+    from_rows(position.data(), velocity.data(), fits.data(), state);
     return state;
+}
+
+template <class Real>
+void GridMemory<Real>::stage() {
+    if (staged_.position.size() > 0) return;
+    const std::size_t states = states_;
+    staged_.position = HostBuffer<Vec4<Real>>(states * view_.particles);
+    staged_.velocity = HostBuffer<Vec4<Real>>(states * view_.particles);
+    staged_.fit = HostBuffer<ClusterFit<Real>>(states * view_.clusters);
+    staged_.slot_of_solid = HostBuffer<int>(states * view_.solids);
+    for (std::size_t k = 0; k < states; ++k) {
+        int* const of_state = staged_.slot_of_solid.data() + k * view_.solids;
+        std::iota(of_state, of_state + view_.solids, view_.fluid);
+    }
+}
+
+template <class Real>
+void GridMemory<Real>::upload_all(const std::vector<const State<Real>*>& states) {
+    stage();
+    const std::size_t particles = view_.particles, clusters = view_.clusters, solids = view_.solids;
+    side_by_side(states.size(), [&](std::size_t k) {
+        to_rows(*states[k], staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
+                staged_.fit.data() + k * clusters);
+    });
+    const StateArrays<Real>& arrays = slots_.arrays;
+    const int rows = static_cast<int>(states.size());
+    const auto copy = [&](auto* to, const auto* from, std::size_t count) {
+        copy_rows(to, slots_.stride, from, count * sizeof *from, count, rows, stream_);
+    };
+    copy(arrays.state_position, staged_.position.data(), particles);
+    copy(arrays.state_velocity, staged_.velocity.data(), particles);
+    copy(arrays.fit, staged_.fit.data(), clusters);
+    copy(arrays.slot_of_solid, staged_.slot_of_solid.data(), solids);
+    wait();
+}
+
+template <class Real>
+void GridMemory<Real>::download_all(const std::vector<State<Real>*>& states) {
+    stage();
+    const std::size_t particles = view_.particles, clusters = view_.clusters;
+    const StateArrays<Real>& arrays = slots_.arrays;
+    const int rows = static_cast<int>(states.size());
+    const auto copy = [&](auto* to, const auto* from, std::size_t count) {
+        copy_rows(to, count * sizeof *from, from, slots_.stride, count, rows, stream_);
+    };
+    copy(staged_.position.data(), arrays.state_position, particles);
+    copy(staged_.velocity.data(), arrays.state_velocity, particles);
+    copy(staged_.fit.data(), arrays.fit, clusters);
+    wait();
+    side_by_side(states.size(), [&](std::size_t k) {
+        from_rows(staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
+                  staged_.fit.data() + k * clusters, *states[k]);
+    });
 }
 
 template <class Real>

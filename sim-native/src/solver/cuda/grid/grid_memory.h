@@ -6,6 +6,7 @@
 #include "natator/model.h"
 #include "slots.cuh"
 #include "solver/cuda/device_model.h"
+#include "solver/cuda/host_buffer.h"
 
 namespace natator::cuda {
 
@@ -50,8 +51,14 @@ public:
     /// Likewise. Time and spring rest lengths are those of `like`.
     State<Real> download(int k, const State<Real>& like) const;
 
+    /// Takes the first States to these, by one copy of each array. Waits until it is done.
+    void upload_all(const std::vector<const State<Real>*>& states);
+    /// Likewise takes these to the first States. Their time and spring rest lengths stay.
+    void download_all(const std::vector<State<Real>*>& states);
+
     /// States that updates leave as they are; none at first.
     void set_idle(const std::vector<bool>& idle);
+    bool is_idle(int k) const { return idle_[k] != 0; }
     std::vector<bool> idle() const { return {idle_.begin(), idle_.end()}; }
 
 private:
@@ -63,6 +70,10 @@ private:
     void make_room_for_copies(int copies);
     void make_room_in_fluid(int neighbours);
     void wait() const;
+    void stage();
+    void to_rows(const State<Real>& state, Vec4<Real>* position, Vec4<Real>* velocity, ClusterFit<Real>* fits) const;
+    void from_rows(const Vec4<Real>* position, const Vec4<Real>* velocity, const ClusterFit<Real>* fits,
+                   State<Real>& state) const;
 
     const Model& model_;
     const DeviceModel<Real>& device_model_;
@@ -82,6 +93,11 @@ private:
         DeviceBuffer<Vec4<Real>> position, velocity;
         DeviceBuffer<ClusterFit<Real>> fit;
     } before_;  ///< the States at an update's start
+    struct {
+        HostBuffer<Vec4<Real>> position, velocity;
+        HostBuffer<ClusterFit<Real>> fit;
+        HostBuffer<int> slot_of_solid;
+    } staged_;  ///< rows of all States on their way, once they go together
     std::vector<int> idle_;
     DeviceBuffer<int> device_idle_;
 };

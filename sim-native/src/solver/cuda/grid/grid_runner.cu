@@ -82,6 +82,18 @@ void GridRunner<Real>::upload(int k, const State<Real>& state) {
     muscles_[k].spring_rest_length = state.spring_rest_length;
 }
 
+template <class Real>
+void GridRunner<Real>::upload_all(const std::vector<const State<Real>*>& states) {
+    memory_.upload_all(states);
+    for (std::size_t k = 0; k < states.size(); ++k) muscles_[k].spring_rest_length = states[k]->spring_rest_length;
+}
+
+template <class Real>
+void GridRunner<Real>::download_all(const std::vector<State<Real>*>& states) {
+    memory_.download_all(states);
+    for (std::size_t k = 0; k < states.size(); ++k) states[k]->spring_rest_length = muscles_[k].spring_rest_length;
+}
+
 /// Scheme flex sets the muscles once for a frame, the others for the end of every substep.
 template <class Real>
 void GridRunner<Real>::set_muscles(const Update& update) {
@@ -94,13 +106,15 @@ void GridRunner<Real>::set_muscles(const Update& update) {
     }
     const bool by_substep = base_.model.scheme != Scheme::flex;
     for (int state = 0; state < base_.states; ++state) {
-        const Gait* const gait = update.gaits.empty() ? nullptr : update.gaits[state];
+        const Muscles* const by = update.muscles.empty() || memory_.is_idle(state) ? nullptr : &update.muscles[state];
         const std::vector<Real>& before = muscles_[state].spring_rest_length;
         std::copy(before.begin(), before.end(), rest_lengths_.data() + state * of_state);
         for (int k = 0; k < update.substeps; ++k) {
-            const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
-            if (gait && (by_substep || k == 0))
-                actuate(host_model_, *gait, by_substep ? end : update.start_time, muscles_[state]);
+            if (by && (by_substep || k == 0)) {
+                const double end = by->start_time + update.time_step * (k + 1) / update.substeps;
+                const double time = by_substep ? end : by->start_time;
+                actuate(host_model_, by->drive(time), time, muscles_[state]);
+            }
             const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
             std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
         }

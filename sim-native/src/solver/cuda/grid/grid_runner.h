@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "grid_memory.h"
-#include "natator/gait.h"
 #include "natator/model.h"
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
@@ -39,13 +38,20 @@ public:
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
     State<Real> download(int k, const State<Real>& like) const { return memory_.download(k, like); }
+    /// The same of the first States, all of them together; downloads set spring rest lengths, too.
+    void upload_all(const std::vector<const State<Real>*>& states);
+    void download_all(const std::vector<State<Real>*>& states);
 
+    /// What drives those of a State: asked for the update's start in scheme `flex`, else for the end of each substep.
+    struct Muscles {
+        Drive drive;
+        double start_time = 0;  ///< s, of the update
+    };
     struct Update {
-        double start_time = 0;
-        double time_step = 0;
+        double time_step = 0;  ///< s
         int substeps = 1;
-        std::vector<const Gait*> gaits{};  ///< by State; without, the muscles are left as they are
-        bool settling = false;             ///< velocities to 0 in the end
+        std::vector<Muscles> muscles{};  ///< by State; without, they are left as they are
+        bool settling = false;           ///< velocities to 0 in the end
     };
     struct End {
         bool finite = true;
