@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "base/text.h"
+#include "backend.h"
 #include "commands.h"
 #include "gait_argument.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"
+#include "natator/load_scene.h"
 #include "options.h"
 #include "stream_batch.h"
 
@@ -26,6 +28,7 @@ struct StreamOptions {
     std::string state;  ///< file
     int swims = 1;
     StreamSettings settings;
+    BackendChoice backend;
     ExecutionOptions execution;
 };
 
@@ -68,7 +71,13 @@ void run_stream(StreamOptions& options) {
     Execution execution = options.execution.execution();
     const BatchSize size{.swims = options.swims, .threads = execution.threads};
     if (size.swims > 1) execution.threads = 1;
-    StreamBatch<Real> batch(read_setup(options), execution, options.settings, size);
+    const SimulationSetup setup = read_setup(options);
+    SharedGpu shared;
+    if (options.backend.name != "cpu" && on_gpu(options.backend, load_scene(setup.scene, SceneOptions{setup.overrides, setup.data}))) {
+        execution.gpu = options.backend.device;
+        execution.shared = &shared;
+    }
+    StreamBatch<Real> batch(setup, execution, options.settings, size);
     if (!options.state.empty()) batch.restore(read_state(options.state));
     LineQueue commands({.lines = std::max(max_waiting, static_cast<std::size_t>(2 * options.swims)),
                         .bytes = stream::max_command,
@@ -83,6 +92,7 @@ int stream_scene(StreamOptions& options) {
         throw InputError("--rate = " + number_text(options.settings.rate) + ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
     options.settings.paused |= options.swims > 1;
+    refuse_gpu_options_for_cpu(options.backend);
     precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options)
                                                                       : run_stream<float>(options);
     return ok;
@@ -132,6 +142,15 @@ void add_stream(CLI::App& app, int& status) {
         ->check(seconds());
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
+    command
+        ->add_option("--backend", options->backend.name,
+                     "cpu, cuda (a GPU), or auto (a GPU where there is one). Swims on a GPU that are told to act by one "
+                     "message go on by the same kernels.")
+        ->check(one_of({"cpu", "cuda", "auto"}))
+        ->capture_default_str();
+    command->add_option("--device", options->backend.device, "Number of the GPU, see natator-sim info.")
+        ->check(whole_number_in(0, 1023))
+        ->capture_default_str();
     add_execution_options(command, options->execution);
     refuse_repeated_values(*command);
     command->callback([options, &status] { status = stream_scene(*options); });

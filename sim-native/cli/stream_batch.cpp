@@ -27,7 +27,10 @@ json parse_command(const std::string& line) {
 template <class Real>
 StreamBatch<Real>::StreamBatch(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings,
                                BatchSize size)
-    : size_(size), swims_(static_cast<std::size_t>(size.swims)), waiting_(swims_.size()) {
+    : size_(size),
+      together_(execution.shared != nullptr),
+      swims_(static_cast<std::size_t>(size.swims)),
+      waiting_(swims_.size()) {
     const auto make = [&](std::size_t i) {
         swims_[i] = std::make_unique<StreamSession<Real>>(setup, execution, settings);
     };
@@ -142,14 +145,36 @@ void StreamBatch<Real>::act(std::string_view message) {
         const stream::Actions actions = parse_stream_actions(message, swims_.size());
         id = actions.id;
         std::vector<stream::Outcome> outcomes(swims_.size());
-        at_once(those([](std::size_t) { return true; }),
-                [&](std::size_t i) { outcomes[i] = swims_[i]->act(actions.of[i]); });
+        const Swims all = those([](std::size_t) { return true; });
+        if (together_) {
+            at_once(all, [&](std::size_t i) { swims_[i]->begin_act(actions.of[i]); });
+            go_on_together();
+            at_once(all, [&](std::size_t i) { outcomes[i] = swims_[i]->end_act(); });
+        } else {
+            at_once(all, [&](std::size_t i) { outcomes[i] = swims_[i]->act(actions.of[i]); });
+        }
         write();
         own_ += stream_outcomes(actions.id, outcomes);
     } catch (const InputError& error) {
         refuse(id, error.what());
     }
     write();
+}
+
+/// The frames of all actions, the first of each by the same kernels, then the second, and so on.
+template <class Real>
+void StreamBatch<Real>::go_on_together() {
+    for (;;) {
+        std::vector<Simulation<Real>*> next(swims_.size());
+        at_once(those([](std::size_t) { return true; }), [&](std::size_t i) { next[i] = swims_[i]->next_of_act(); });
+        const Swims going = those([&](std::size_t i) { return next[i] != nullptr; });
+        if (going.empty()) return;
+        std::erase(next, nullptr);
+        const auto begin = Pace::Clock::now();
+        const std::vector<bool> stable = step_together(next, size_.threads);
+        const double seconds = std::chrono::duration<double>(Pace::Clock::now() - begin).count();
+        for (std::size_t k = 0; k < going.size(); ++k) swims_[going[k]]->end_frame_of_act(stable[k], seconds);
+    }
 }
 
 /// A command that is for no swim. As each is answered after those before it, these are done before it.

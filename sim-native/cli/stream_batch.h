@@ -40,6 +40,7 @@ private:
     void hand_over(nlohmann::json command);
     void carry_out_waiting();
     void act(std::string_view message);
+    void go_on_together();
     void refuse(const nlohmann::json& id, const std::string& why);
     void write();
     /// Calls work(swim) for these, as many at a time as there are threads.
@@ -51,6 +52,7 @@ private:
     bool single() const { return swims_.size() == 1; }
 
     BatchSize size_;
+    bool together_;  ///< on a GPU that they share
     std::vector<std::unique_ptr<StreamSession<Real>>> swims_;
     std::vector<std::vector<nlohmann::json>> waiting_;  ///< commands, by swim
     std::string own_;                                   ///< messages of no swim that are to be written

@@ -45,22 +45,59 @@ void StreamSession<Real>::carry_out(const json& command) {
 }
 
 template <class Real>
-stream::Outcome StreamSession<Real>::act(const stream::Action& action) {
-    stream::Outcome outcome;
+template <class Work>
+void StreamSession<Real>::or_refuse(const Work& work) {
+    if (outcome_.status == stream::Outcome::refused) return;
     try {
-        if (!action.refusal.empty()) throw InputError(action.refusal);
-        if (action.step) {
-            refuse_if(ended_);
-            apply(*action.step);
-            outcome.status = simulation_.instability() ? stream::Outcome::unstable : stream::Outcome::stepped;
-        }
+        return work();
     } catch (const InputError& error) {
-        outcome = {.status = stream::Outcome::refused, .refusal = error.what(), .senses = {}};
+        outcome_.refusal = error.what();
     } catch (const std::bad_alloc& error) {
-        outcome = {.status = stream::Outcome::refused, .refusal = message_of(error), .senses = {}};
+        outcome_.refusal = message_of(error);
     }
-    outcome.senses = stream_sense_numbers(simulation_, sensing_);
-    return outcome;
+    outcome_.status = stream::Outcome::refused;
+    under_way_ = {};
+}
+
+template <class Real>
+stream::Outcome StreamSession<Real>::act(const stream::Action& action) {
+    begin_act(action);
+    while (next_of_act()) or_refuse([this] { simulate(); });
+    return end_act();
+}
+
+template <class Real>
+void StreamSession<Real>::begin_act(const stream::Action& action) {
+    outcome_ = {};
+    or_refuse([&] {
+        if (!action.refusal.empty()) throw InputError(action.refusal);
+        if (!action.step) return;
+        refuse_if(ended_);
+        begin_step(*action.step);
+    });
+}
+
+template <class Real>
+Simulation<Real>* StreamSession<Real>::next_of_act() {
+    bool goes_on = false;
+    or_refuse([&] { goes_on = steer_next_frame(); });
+    return goes_on ? &simulation_ : nullptr;
+}
+
+template <class Real>
+void StreamSession<Real>::end_frame_of_act(bool stable, double wall_seconds) {
+    or_refuse([&] { end_frame(stable, wall_seconds); });
+}
+
+template <class Real>
+stream::Outcome StreamSession<Real>::end_act() {
+    or_refuse([&] {
+        if (!under_way_.step) return;
+        end_step();
+        outcome_.status = simulation_.instability() ? stream::Outcome::unstable : stream::Outcome::stepped;
+    });
+    outcome_.senses = stream_sense_numbers(simulation_, sensing_);
+    return std::move(outcome_);
 }
 
 template <class Real>
@@ -82,6 +119,14 @@ void StreamSession<Real>::apply(const stream::Pause&) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Step& step) {
+    begin_step(step);
+    while (steer_next_frame()) simulate();
+    end_step();
+    if (step.sense) answer_["senses"] = senses();
+}
+
+template <class Real>
+void StreamSession<Real>::begin_step(const stream::Step& step) {
     refuse_if_unstable();
     refuse_if(at_end());
     check(step);
@@ -90,15 +135,24 @@ void StreamSession<Real>::apply(const stream::Step& step) {
     if (due_) drop_frame();
     running_ = false;
     if (step.steer.size() == 1) simulation_.steer(steering_of(step.steer.front()));
-    bool stable = true;
-    for (std::size_t i = 0; stable && i < static_cast<std::size_t>(step.frames) && !at_end(); ++i) {
-        if (step.steer.size() > 1) simulation_.steer(steering_of(step.steer[i]));
-        stable = simulate();
-    }
+    under_way_ = {.step = &step};
+}
+
+/// False when there is no frame left.
+template <class Real>
+bool StreamSession<Real>::steer_next_frame() {
+    const auto& [step, frames, stable] = under_way_;
+    if (!step || !stable || frames == static_cast<std::size_t>(step->frames) || at_end()) return false;
+    if (step->steer.size() > 1) simulation_.steer(steering_of(step->steer[frames]));
+    return true;
+}
+
+template <class Real>
+void StreamSession<Real>::end_step() {
+    const bool stable = std::exchange(under_way_, {}).stable;
     due_ = stable;
     offer_frame();
     if (stable) end_if_reached();
-    if (step.sense) answer_["senses"] = senses();
 }
 
 /// Nothing is simulated with commands of which one can't be used.
@@ -232,8 +286,16 @@ template <class Real>
 bool StreamSession<Real>::simulate() {
     const auto begin = Pace::Clock::now();
     const bool stable = simulation_.step();
-    wall_seconds_ += std::chrono::duration<double>(Pace::Clock::now() - begin).count();
+    return end_frame(stable, std::chrono::duration<double>(Pace::Clock::now() - begin).count());
+}
+
+/// Books a frame, and says what has become of it.
+template <class Real>
+bool StreamSession<Real>::end_frame(bool stable, double wall_seconds) {
+    wall_seconds_ += wall_seconds;
     ++wall_frames_;
+    ++under_way_.frames;
+    under_way_.stable = stable;
     if (!stable) say(stream_message("STOP", stream_stop(*simulation_.instability())));
     return stable;
 }

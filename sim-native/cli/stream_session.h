@@ -36,6 +36,12 @@ public:
     void carry_out(const nlohmann::json& command);
     /// An action, and what came of it.
     stream::Outcome act(const stream::Action& action);
+    /// The same in parts, for swims that go on together: what comes before its frames; the simulation to be advanced by
+    /// the next, null when there is none; what follows that; what follows the last. The action must stay until then.
+    void begin_act(const stream::Action& action);
+    Simulation<Real>* next_of_act();
+    void end_frame_of_act(bool stable, double wall_seconds);
+    stream::Outcome end_act();
     /// What `restore` is to go to.
     void hold(std::shared_ptr<const std::string> state) { held_ = std::move(state); }
     /// Says the present frame if there is credit, and whether the end is reached.
@@ -71,6 +77,13 @@ private:
     void say(const std::string& message) { messages_ += message; }
     Steering steering_of(const stream::Steer& steer) const;
     void check(const stream::Step& step) const;
+    void begin_step(const stream::Step& step);
+    bool steer_next_frame();
+    bool end_frame(bool stable, double wall_seconds);
+    void end_step();
+    /// Does something of the action that is under way, unless it has been refused.
+    template <class Work>
+    void or_refuse(const Work& work);
     nlohmann::ordered_json senses() const { return stream_senses(simulation_, sensing_); }
     void forget_senses();
     void scene_changed(bool restarted);
@@ -100,6 +113,13 @@ private:
     std::uint32_t dropped_ = 0;                ///< frames since the start
     double wall_seconds_ = 0;                  ///< of the frames since the last one sent
     int wall_frames_ = 0;
+    /// The step that is under way, if there is one.
+    struct {
+        const stream::Step* step = nullptr;
+        std::size_t frames = 0;  ///< that are done
+        bool stable = true;
+    } under_way_;
+    stream::Outcome outcome_;  ///< of the action that is under way
 };
 
 extern template class StreamSession<float>;

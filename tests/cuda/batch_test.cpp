@@ -72,7 +72,6 @@ protected:
 TEST_P(GpuBatch, ASimulationHasTheBitsOfAMember) {
     const auto after_frames = [&](auto simulation) {
         while (simulation.time() < scene.duration - scene.time_step / 2) EXPECT_TRUE(simulation.step(wave(scene)));
-        EXPECT_THROW(simulation.drive(std::vector<double>(simulation.model().actuators, 0)), InputError);
         return state_hash(simulation.state());
     };
     const std::uint64_t member = hashes({{wave(scene), {}}}).front();

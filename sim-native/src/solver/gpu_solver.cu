@@ -270,7 +270,8 @@ private:
         const auto ends = runner.run(update, nullptr, trace);
         runner.download_all(states);
         const std::vector<Real> densities = runner.densities();
-        const std::vector<int> neighbours = runner.neighbour_counts();
+        const std::vector<int> neighbours =
+            solvers.front()->own_ ? runner.neighbour_counts() : std::vector<int>{};
         std::vector<cuda::Progress> progress(states.size());
         for (std::size_t k = 0; k < states.size(); ++k) {
             if (ends[k].finite) {

@@ -83,7 +83,8 @@ public:
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;
     /// Pressure of each fluid particle in the last substep, mass/(length s^2) (Solver::pressures). Empty before the
-    /// first update, without water, in scheme flex, and where the GPU is shared; there forces are, too.
+    /// first update, without water, in scheme flex, and where the GPU is shared; there forces are, too, and neighbours
+    /// are not counted.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2 (Solver::forces). Empty without
     /// GpuSolverOptions::forces, and before the first update.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/side_by_side.h"
 #include "natator/model.h"
 #include "rows.h"
 #include "solver/cuda/event.h"
@@ -105,8 +106,8 @@ void GridRunner<Real>::set_muscles(const Update& update) {
         device_rest_lengths_ = DeviceBuffer<Real>(size);
     }
     const bool by_substep = base_.model.scheme != Scheme::flex;
-    for (int state = 0; state < base_.states; ++state) {
-        const Muscles* const by = update.muscles.empty() || memory_.is_idle(state) ? nullptr : &update.muscles[state];
+    side_by_side(base_.states, [&](std::size_t state) {
+        const Muscles* const by = update.muscles.empty() || memory_.is_idle(static_cast<int>(state)) ? nullptr : &update.muscles[state];
         const std::vector<Real>& before = muscles_[state].spring_rest_length;
         std::copy(before.begin(), before.end(), rest_lengths_.data() + state * of_state);
         for (int k = 0; k < update.substeps; ++k) {
@@ -118,7 +119,7 @@ void GridRunner<Real>::set_muscles(const Update& update) {
             const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
             std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
         }
-    }
+    });
 }
 
 template <class Real>
@@ -270,12 +271,17 @@ std::vector<Vec4<Real>> GridRunner<Real>::body_places() const {
 }
 
 template <class Real>
-std::vector<Real> GridRunner<Real>::densities() const {
+std::vector<Real> GridRunner<Real>::densities() {
     if (!base_.model.plan.fluid && !base_.model.plan.water) return {};
-    const DeviceBuffer<Real> densities(std::size_t(base_.states) * base_.model.fluid);
-    launch_densities(base_, densities.data());
+    const std::size_t size = std::size_t(base_.states) * base_.model.fluid;
+    if (densities_.size() == 0) {
+        device_densities_ = DeviceBuffer<Real>(size);
+        densities_ = HostBuffer<Real>(size);
+    }
+    launch_densities(base_, device_densities_.data());
+    copy_row(densities_.data(), device_densities_.data(), size, base_.stream);
     wait();
-    return densities.download();
+    return {densities_.data(), densities_.data() + size};
 }
 
 template <class Real>

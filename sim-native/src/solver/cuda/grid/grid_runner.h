@@ -85,7 +85,7 @@ public:
     /// Places of the body's particles, in the order of Body::particles, one State after the other.
     std::vector<Vec4<Real>> body_places() const;
     /// As the last substep left them, by State and device number.
-    std::vector<Real> densities() const;
+    std::vector<Real> densities();
     std::vector<int> neighbour_counts() const;
     /// Of the fluid in the last substep, of length h (s), likewise, mass/(length s^2); empty in scheme flex.
     std::vector<Real> pressures(Real h) const;
@@ -121,6 +121,8 @@ private:
     HostBuffer<Real> rest_lengths_;
     HostBuffer<GridShared<Real>> end_;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;
+    DeviceBuffer<Real> device_densities_;  ///< room for `densities`
+    HostBuffer<Real> densities_;
 };
 
 }  // namespace natator::cuda
