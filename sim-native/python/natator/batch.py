@@ -59,18 +59,70 @@ class Batch:
 
     def act(self):
         """Simulates the steps that have been begun, all of them together; each swim then has what came of its own."""
-        asked, self._asked, turn = self._asked, {}, next(self._turns) % NOBODY
-        parts = [struct.pack("<II", turn, len(self.swims))]
+        asked, self._asked, parts = self._asked, {}, []
         for index in range(len(self.swims)):
             kind, frames, values = asked.get(index, (STAND_STILL, 0, NO_VALUES))
             parts += [struct.pack("<4I", kind, frames, *values.shape), values.astype("<f8").tobytes()]
-        body = b"".join(parts)
+        body = self._ask(parts)
+        try:
+            at, told = 0, []
+            for _ in self.swims:
+                status, size = struct.unpack_from("<II", body, at)
+                told.append((status, np.frombuffer(body, "<f8", size, at + 8)))
+                at += 8 + 8 * size
+            refusals = json.loads(body[at:])
+            for index in asked:
+                status, values = told[index]
+                self.swims[index].outcome = status, values, refusals[str(index)] if status == REFUSED else ""
+        except (KeyError, TypeError, ValueError, struct.error):
+            raise self._program.no_simulator() from None
+
+    def _ask(self, parts):
+        """Sends an ACTS of these parts; returns the OBSV behind its head."""
+        turn, count = next(self._turns) % NOBODY, len(self.swims)
+        body = struct.pack("<II", turn, count) + b"".join(parts)
         self._torn = True
         self._program.send(struct.pack("<4sI", b"ACTS", len(body)) + body)
         while (heard := self.hear()) is None:
             pass
         self._torn = False
-        self._tell(heard, turn, asked)
+        try:
+            if struct.unpack_from("<II", heard) != (turn, count):
+                raise ValueError
+            return heard[8:]
+        except (ValueError, struct.error):
+            raise self._program.no_simulator() from None
+
+    def step(self, values, which, kind=DRIVE):
+        """Simulates steps of those swims that `which` (booleans, one for each) names, all of them together. values: swims × frames ×
+        columns, drives or, with kind STEER, scales and offsets. Returns what came of each, STEPPED or UNSTABLE, 0 for the
+        others, and its senses, a row of numbers for each (Senses.from_numbers). All must have as many. Raises InputError, and those that
+        are not named in it have stepped."""
+        if self._torn or self._asked or any(swim._unanswered for swim in self.swims):
+            raise ProgramError("a step was begun, or a call interrupted, before its answer was read")
+        for swim in itertools.compress(self.swims, which):
+            if swim._framed:
+                swim.send({"do": "credit"})
+        count, frames, columns = values.shape
+        told = np.zeros(count, np.dtype([("head", "<u4", 4), ("values", "<f8", (frames, columns))]))
+        told["head"], told["values"] = (kind, frames, frames, columns), values
+        still = struct.pack("<4I", STAND_STILL, 0, 0, 0)
+        parts = [told.tobytes()] if np.all(which) else [one.tobytes() if go else still for one, go in zip(told, which)]
+        body = self._ask(parts)
+        try:
+            row = np.dtype([("status", "<u4"), ("size", "<u4"), ("senses", "<f8", struct.unpack_from("<I", body, 4))])
+            found = np.frombuffer(body, row, count)
+            if np.any(found["size"] != found["size"][0]):
+                raise ValueError
+            refusals = {int(index): str(why) for index, why in json.loads(body[count * row.itemsize:]).items()}
+        except (AttributeError, ValueError, struct.error):
+            raise self._program.no_simulator() from None
+        for swim, status in itertools.compress(zip(self.swims, found["status"]), which):
+            if swim._framed or status != STEPPED:
+                swim.take_heard()
+        for index, why in refusals.items():
+            raise InputError(f"swim {index}: {why}")
+        return found["status"], found["senses"]
 
     def hear(self):
         """Reads a message, which goes to its swim; returns that of all of them, if it is one."""
@@ -87,23 +139,6 @@ class Batch:
         else:
             raise self._program.no_simulator()
         return None
-
-    def _tell(self, body, turn, asked):
-        try:
-            named, count = struct.unpack_from("<II", body)
-            if (named, count) != (turn, len(self.swims)):
-                raise ValueError
-            at, told = 8, []
-            for index in range(count):
-                status, size = struct.unpack_from("<II", body, at)
-                told.append((status, np.frombuffer(body, "<f8", size, at + 8)))
-                at += 8 + 8 * size
-            refusals = json.loads(body[at:])
-            for index in asked:
-                status, values = told[index]
-                self.swims[index].outcome = status, values, refusals[str(index)] if status == REFUSED else ""
-        except (KeyError, TypeError, ValueError, struct.error):
-            raise self._program.no_simulator() from None
 
 
 class BatchStream(Stream):
@@ -160,11 +195,8 @@ class BatchStream(Stream):
         """The senses at the end of a step that was begun. Raises Unstable."""
         if self.index in self.batch._asked:
             self.batch.act()
-        if self._framed:
-            self.receive()
+        self.take_heard()
         (status, values, refusal), self.outcome = self.outcome, None
-        while self.heard:
-            self._take(*self.heard.popleft())
         if status == REFUSED:
             raise InputError(refusal)
         if status not in (STEPPED, UNSTABLE):
@@ -174,6 +206,13 @@ class BatchStream(Stream):
             return Senses.from_numbers(values, self.actuators)
         except ValueError:
             raise self._program.no_simulator() from None
+
+    def take_heard(self):
+        """What has been told beside the outcome of a step, with the answer to the credit that it was given."""
+        if self._framed:
+            self.receive()
+        while self.heard:
+            self._take(*self.heard.popleft())
 
     def _message(self):
         while not self.heard:

@@ -6,11 +6,11 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
-from natator.batch import Batch
+from natator.batch import DRIVE, STEER, UNSTABLE, Batch
 from natator.errors import InputError, Unstable
 from natator.gait import as_json, number, rows, wave_in, whole
 from natator.plain import plain
-from natator.stream import SIDES, Stream, pairs
+from natator.stream import SIDES, Senses, Stream, pairs
 from natator.swimming import Views
 
 
@@ -124,32 +124,60 @@ class SwimmerEnv(gymnasium.Env):
             self._stream.restore(self._state)
             if self.by_gait:
                 self._stream.set_gait(self.gait)
-        self._action, self._work = self._rest(), 0.0
+        self._action = self._rest()
         self._senses = self._stream.sense(flow=self._places, target=self._point)  # overrides may have made it forget
-        self._began = self._senses.time
-        self._work_since()
+        self._began, self._work = self._senses.time, np.nan_to_num(self._senses.work)
         return self._observation(), self._info()
 
     def step(self, action):
         """As of gymnasium.Env. Raises InputError for an action of another shape."""
-        self.begin_step(action)
-        return self.end_step()
-
-    def begin_step(self, action):
-        """Begins a `step`, without waiting for the simulator."""
-        self.begin_checked_step(self.checked(action))
-
-    def begin_checked_step(self, action):
-        """Begins a step with an action that `checked` returned."""
+        action = self.checked(action)
         self._stream.require_idle()
-        parts = np.arange(1, self.frames + 1)[:, None] / self.frames
-        rows = self._action + parts * (action - self._action)
+        rows = self.rows_to(self._action, action)
         self._action = action
+        before, unstable = self._senses, False
+        try:
+            self._senses = self._stream.step(**({"scale": rows[:, :self.actuators], "offset": rows[:, self.actuators:]} if self.by_gait
+                                                else {"drive": rows}))
+        except Unstable:
+            unstable = True
+        now = self._senses
+        work, self._work = np.nan_to_num(now.work) - self._work, np.nan_to_num(now.work)
+        reward, there = self.outcome(before, now, work, self.length)
+        info = self._info() | {"unstable": unstable, "reached": bool(there)}
+        late = now.time - self._began >= self.duration - 1e-9
+        return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
+
+    # Of one swimmer, or of several: then senses, actions and lengths have a row for each.
+
+    def rows_to(self, before, action):
+        """What the muscles get in each frame of a step from one action to the next: drives, or scales and offsets."""
+        parts = np.arange(1, self.frames + 1)[:, None] / self.frames
+        rows = before[..., None, :] + parts * (action - before)[..., None, :]
+        if not self.by_gait:
+            return rows
+        scale, offset = np.split(rows, 2, axis=-1)
+        return np.concatenate([(1 + scale) / 2, LARGEST_OFFSET * offset], axis=-1)
+
+    def outcome(self, before, now, work, length):
+        """The reward of a step, and whether the target is reached."""
+        way = before.target_distance - now.target_distance if self.target is not None else now.distance - before.distance
+        there = self.target is not None and now.target_distance <= self.reached * length
+        return way / length - self.work_cost * work, there
+
+    def observed(self, senses, length):
+        """The observation."""
+        length = np.asarray(length)[..., None]
+        flow = (senses.flow / length[..., None]).reshape(*senses.flow.shape[:-2], -1)
+        vertical = np.stack([senses.forward[..., 1], senses.up[..., 1], senses.right[..., 1]], axis=-1)
+        parts = [senses.velocity / length, senses.turn_rate, vertical, senses.drive, senses.bend, flow]
         if self.by_gait:
-            scale, offset = np.split(rows, 2, axis=1)
-            self._stream.begin_step(scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
-        else:
-            self._stream.begin_step(drive=rows)
+            turns = 2 * np.pi * self.gait["frequency"] * np.asarray(senses.time)[..., None]
+            parts += [np.sin(turns), np.cos(turns)]
+        if self.target is not None:
+            parts += [senses.target, np.asarray(senses.target_distance)[..., None] / length]
+        return np.clip(np.concatenate(parts, axis=-1), -LARGEST, LARGEST).astype(np.float32)
+
 
     def checked(self, action):
         """An action that can be taken: what is beyond [-1, 1] is clipped, with a warning the first time. Raises InputError."""
@@ -163,20 +191,6 @@ class SwimmerEnv(gymnasium.Env):
             self._clipped = True
             gymnasium.logger.warn(f"action {action.tolist()} is clipped to [-1, 1], as all are from now on")
         return within
-
-    def end_step(self):
-        """Waits for a step that was begun; returns what `step` does."""
-        before, unstable = self._senses, False
-        try:
-            self._senses = self._stream.end_step()
-        except Unstable:
-            unstable = True
-        now = self._senses
-        reward = self._progress(before, now) - self.work_cost * self._work_since()
-        there = self.target is not None and now.target_distance <= self.reached * self.length
-        info = self._info() | {"unstable": unstable, "reached": there}
-        late = now.time - self._began >= self.duration - 1e-9
-        return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
 
     def render(self):
         """The body from above and from the side, and the target: height × width × 3 bytes; None without a render_mode."""
@@ -195,27 +209,8 @@ class SwimmerEnv(gymnasium.Env):
         rest = np.zeros(self.actuators)
         return np.concatenate([rest + 1, rest]) if self.by_gait else rest
 
-    def _progress(self, before, now):
-        way = before.target_distance - now.target_distance if self.target is not None else now.distance - before.distance
-        return way / self.length
-
-    def _work_since(self):
-        """Work of the muscles since the last call, mass length²/s²."""
-        work = np.nan_to_num(self._senses.work)
-        since, self._work = work - self._work, work
-        return since
-
     def _observation(self):
-        senses = self._senses
-        vertical = [senses.forward[1], senses.up[1], senses.right[1]]
-        parts = [senses.velocity / self.length, senses.turn_rate, vertical, senses.drive, senses.bend,
-                 (senses.flow / self.length).ravel()]
-        if self.by_gait:
-            turns = 2 * np.pi * self.gait["frequency"] * senses.time
-            parts.append([np.sin(turns), np.cos(turns)])
-        if self.target is not None:
-            parts += [senses.target, [senses.target_distance / self.length]]
-        return np.clip(np.concatenate(parts), -LARGEST, LARGEST).astype(np.float32)
+        return self.observed(self._senses, self.length)
 
     def _info(self):
         senses = self._senses
@@ -252,7 +247,9 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         self.single_observation_space, self.single_action_space = first.observation_space, first.action_space
         self.observation_space = batch_space(first.observation_space, num_envs)
         self.action_space = batch_space(first.action_space, num_envs)
-        self._over, self._observations = np.zeros(num_envs, bool), None
+        self._over, self._observations, self._clipped = np.zeros(num_envs, bool), None, False
+        # Of each swim: its senses and action, when its episode began, work before, and length of its body.
+        self._now = self._action = self._began = self._work = self._length = None
 
     def reset(self, *, seed=None, options=None):
         """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, each for all or a list with
@@ -296,7 +293,12 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         told = {}
         self._each(chosen, begin, lambda i: told.update({i: self.envs[i].end_reset()}))
         for i, (observation, info) in told.items():
-            self._observations[i] = observation
+            env, self._observations[i] = self.envs[i], observation
+            now = env._senses.numbers()
+            if self._now is None:
+                self._now, self._action = np.zeros((self.num_envs, len(now))), np.zeros(self.action_space.shape)
+                self._began, self._work, self._length = np.zeros((3, self.num_envs))
+            self._now[i], self._action[i], self._began[i], self._work[i], self._length[i] = now, env._action, env._began, env._work, env.length
             infos = self._add_info(infos, info, i)
         return infos
 
@@ -309,34 +311,65 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
         if self.autoreset_mode == AutoresetMode.DISABLED and np.any(self._over):
             raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
-        checked = [None if over else self._checked(i, action)  # all, before anything is begun
-                   for i, (action, over) in enumerate(zip(actions, self._over))]
+        actions = self._checked(actions)  # all, before anything is begun
         infos = self._reset(np.flatnonzero(self._over), lambda i: self.envs[i].begin_reset(), {})
-        for env, action, over in zip(self.envs, checked, self._over):
-            if not over:
-                env.begin_checked_step(action)
-        rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
-        told = {}
-        for i in np.flatnonzero(~self._over):
-            self._observations[i], rewards[i], terminated[i], truncated[i], told[i] = self.envs[i].end_step()
+        going, first = ~self._over, self.envs[0]
+        values = first.rows_to(self._action, actions)
+        self._action[going] = actions[going]
+        before, unstable = self._now, self._simulate(values, going)
+        old, now = (Senses.from_numbers(senses, first.actuators) for senses in (before, self._now))
+        work, self._work = np.nan_to_num(now.work) - self._work, np.nan_to_num(now.work)
+        rewards, there = first.outcome(old, now, work, self._length)
+        terminated, truncated = unstable | there | now.touches_plane, now.time - self._began >= first.duration - 1e-9
+        self._observations[going] = first.observed(now, self._length)[going]
+        for told in (rewards, terminated, truncated):
+            told[~going] = 0
+        told = {"time": now.time, "distance": now.distance, "work": self._work, "centre": now.centre, "unstable": unstable,
+                "reached": np.broadcast_to(there, unstable.shape)}
         self._over = terminated | truncated
-        again = np.flatnonzero(self._over) if self.autoreset_mode == AutoresetMode.SAME_STEP else []
-        for i in again:
-            infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": told.pop(i)}, i)
-        infos = self._reset(again, lambda i: self.envs[i].begin_reset(), infos)
-        self._over[again] = False
-        for i, info in told.items():
-            infos = self._add_info(infos, info, i)
+        again = self._over if self.autoreset_mode == AutoresetMode.SAME_STEP else np.zeros(self.num_envs, bool)
+        for key, value in told.items():
+            infos[key] = np.where((going & ~again).reshape(-1, *[1] * (value.ndim - 1)), value, infos.get(key, 0))
+            infos[f"_{key}"] = going & ~again | infos.get(f"_{key}", False)
+        for i in np.flatnonzero(again):
+            last = {key: value[i] for key, value in told.items()}
+            infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": last}, i)
+        infos = self._reset(np.flatnonzero(again), lambda i: self.envs[i].begin_reset(), infos)
+        self._over &= ~again
         return self._observations.copy(), rewards, terminated, truncated, infos
 
-    def _checked(self, i, action):
+    def _simulate(self, values, going):
+        """Takes those that go on to their next senses; returns which of them became unstable, whose senses stay."""
+        status, now = self._batch.step(values, going, STEER if self.envs[0].by_gait else DRIVE)
+        unstable = status == UNSTABLE
+        self._now = np.where((going & ~unstable)[:, None], now, self._now)
+        return unstable
+
+    def _checked(self, actions):
+        """Clipped to what can be taken; those of environments that begin anew don't matter."""
+        if self._observations is None:
+            raise gymnasium.error.ResetNeeded("step before the first reset")
         try:
-            return self.envs[i].checked(action)
-        except InputError as error:
-            raise InputError(f"environment {i}: {error}") from None
+            actions = np.where(self._over[:, None], 0, np.asarray(actions, float))
+            wrong = np.flatnonzero(~np.all(np.isfinite(actions), axis=1)) if actions.shape == self.action_space.shape else [0]
+        except (TypeError, ValueError):
+            wrong, actions = range(self.num_envs), list(actions)
+        for i in wrong:
+            try:
+                self.envs[i].checked(actions[i])
+            except InputError as error:
+                raise InputError(f"environment {i}: {error}") from None
+        within = np.clip(actions, -1, 1)
+        if not self._clipped and np.any(within != actions):
+            self._clipped = True
+            row = actions[np.flatnonzero(np.any(within != actions, axis=1))[0]]
+            gymnasium.logger.warn(f"action {row.tolist()} is clipped to [-1, 1], as all are from now on")
+        return within
 
     def render(self):
         """One picture for each environment; None without a render_mode."""
+        for env, now in zip(self.envs, self._now if self._now is not None else ()):
+            env._senses = Senses.from_numbers(now, env.actuators)
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close_extras(self, **_):
@@ -413,7 +446,7 @@ def _check_in_tank(box, scene):
             raise InputError(f"target = {corner.tolist()}: must be in the tank, {', '.join(limits)}")
 
 
-OF_STREAM = ("overrides", "scheme", "start", "arguments", "program")
+OF_STREAM = ("overrides", "scheme", "start", "arguments", "program", "backend")
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
 LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it

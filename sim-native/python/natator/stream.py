@@ -29,7 +29,8 @@ def pairs(name, values):
 
 @dataclass(frozen=True)
 class Senses:
-    """What a swimmer knows of itself and of the water. Own axes are forward, up and right of the body."""
+    """What a swimmer knows of itself and of the water. Own axes are forward, up and right of the body. Of several swimmers
+    each array has one row for each, and each number is an array."""
 
     frame: int                #: since the start
     time: float               #: s
@@ -66,15 +67,24 @@ class Senses:
 
     @classmethod
     def from_numbers(cls, values, actuators):
-        """From those of an OBSV. Raises ValueError where they are too few."""
-        places, rest = divmod(len(values) - 27 - 2 * actuators, 4)
+        """From those of an OBSV, or rows of them. Raises ValueError where they are too few."""
+        places, rest = divmod(values.shape[-1] - 27 - 2 * actuators, 4)
         if places < 0 or rest:
             raise ValueError
         ends = np.cumsum([5, 3, 3, 3, 3, 3, 3, 3, 1, actuators, actuators, 3 * places])
-        head, *vectors, distance, drive, bend, flow, particles = np.split(values, ends)
+        head, *vectors, distance, drive, bend, flow, particles = np.split(values, ends, axis=-1)
         centre, forward, up, right, velocity, turn_rate, target = vectors
-        return cls(int(head[0]), float(head[1]), float(head[2]), bool(head[3]), float(head[4]), centre, forward, up, right, velocity,
-                   turn_rate, drive, bend, flow.reshape(-1, 3), particles.astype(int), target, float(distance[0]))
+        frame, touches = head[..., 0].astype(int), head[..., 3].astype(bool)
+        numbers = frame, head[..., 1], head[..., 2], touches, head[..., 4], distance[..., 0]
+        frame, time, way, touches, work, distance = (one.item() for one in numbers) if values.ndim == 1 else numbers
+        return cls(frame, time, way, touches, work, centre, forward, up, right, velocity, turn_rate, drive, bend,
+                   flow.reshape(*flow.shape[:-1], places, 3), particles.astype(int), target, distance)
+
+    def numbers(self):
+        """Those of an OBSV, in its order."""
+        return np.concatenate([[self.frame, self.time, self.distance, self.touches_plane, self.work], self.centre, self.forward, self.up,
+                               self.right, self.velocity, self.turn_rate, self.target, [self.target_distance], self.drive, self.bend,
+                               self.flow.ravel(), self.flow_particles])
 
 
 def _number(value):
@@ -109,7 +119,7 @@ class Stream:
 
     scene: name or path. gait, overrides (a dict merged into the scene), scheme, start (an int: which of its many starts):
     as in a request. fields: what frames hold of each particle, of "position", "velocity", "density"; without any there are
-    no frames. arguments: a list of more arguments of `natator-sim stream`. A context manager; what nobody closes or refers to
+    no frames. backend: "cpu", "cuda" or "auto". arguments: a list of more arguments of `natator-sim stream`. A context manager; what nobody closes or refers to
     is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
@@ -118,8 +128,9 @@ class Stream:
 
     _alone = True  # in its program
 
-    def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
-        self._begin(*start_program(scene, gait, overrides, scheme, start, fields, arguments, program))
+    def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None,
+                 backend=None):
+        self._begin(*start_program(scene, gait, overrides, scheme, start, fields, arguments, program, backend))
         try:
             self._take(*self._message())
             self._first_frame()
@@ -368,7 +379,7 @@ class Stream:
         return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"))
 
 
-def start_program(scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
+def start_program(scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None, backend=None):
     """A program that streams, and whether it gives frames. Arguments are those of Stream."""
     fields = [fields] * bool(fields) if isinstance(fields, str) else programs.listed("fields", fields)
     arguments = programs.listed("arguments", arguments)
@@ -386,8 +397,7 @@ def start_program(scene, gait=None, overrides=None, scheme=None, start=None, fie
         if not isinstance(value, (Mapping, Gait)):
             raise InputError(f"{name.removeprefix('--')} = {value!r}: must be a dict" + " or a Gait" * (name == "--gait"))
         options.append(f"{name}={json.dumps(plain(name.removeprefix('--'), value))}")
-    if scheme is not None:
-        options.append(f"--scheme={scheme}")
+    options += [f"--{name}={value}" for name, value in (("scheme", scheme), ("backend", backend)) if value is not None]
     if start is not None:
         options.append(f"--start={whole('start', start, 0)}")
     return programs.Program(program, [*options, *arguments]), bool(fields)
