@@ -153,7 +153,7 @@ class BatchStream(Stream):
     def meet(self):
         """Takes what it is told at first."""
         self._take(*self._message())
-        self._first_frame()
+        self.take_first_frame()
 
     def close(self):
         """Does nothing."""

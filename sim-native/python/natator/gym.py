@@ -115,17 +115,21 @@ class SwimmerEnv(gymnasium.Env):
         self._point = None
         if self.target is not None:
             self._point = self.np_random.uniform(*self.target)
+        if self._state is None:
+            self._stream.begin_sense(flow=self._places, target=self._point)  # overrides may have made it forget
 
     def end_reset(self):
         """Waits for a reset that was begun; returns observation and info."""
         if self._state is None:
-            self._stream.end_reset()
+            self._stream.receive()
+            self._senses = self._stream.end_sense()
+            self._stream.take_first_frame()
         else:
             self._stream.restore(self._state)
             if self.by_gait:
                 self._stream.set_gait(self.gait)
+            self._senses = self._stream.sense(flow=self._places, target=self._point)
         self._action = self._rest()
-        self._senses = self._stream.sense(flow=self._places, target=self._point)  # overrides may have made it forget
         self._began, self._work = self._senses.time, np.nan_to_num(self._senses.work)
         return self._observation(), self._info()
 

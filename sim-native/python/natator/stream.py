@@ -133,7 +133,7 @@ class Stream:
         self._begin(*start_program(scene, gait, overrides, scheme, start, fields, arguments, program, backend))
         try:
             self._take(*self._message())
-            self._first_frame()
+            self.take_first_frame()
         except BaseException:
             self.close()
             raise
@@ -153,11 +153,21 @@ class Stream:
         """Says what is to be sensed from now on, and gives the senses now. flow: places of the skin as (slice, side), side
         one of "left", "right", "above", "below"; within: of a place water counts, length; target: where the swimmer shall
         go, length. What is left out stays as it was."""
+        self.require_idle()
+        self.begin_sense(flow, within, target, **more)
+        return self.end_sense()
+
+    def begin_sense(self, flow=None, within=None, target=None, **more):
+        """Sends a `sense` without waiting for its answer."""
         places = None if flow is None else [{"slice": whole(f"flow[{i}].slice", place, 0), "side": side}
                                             for i, (place, side) in enumerate(pairs("flow", flow))]
         command = {"do": "sense", "target": None if target is None else numbers("target", target), "within": within,
                    "flow": places, **more}
-        return self._senses(self.ask({key: value for key, value in command.items() if value is not None}))
+        self.send({key: value for key, value in command.items() if value is not None})
+
+    def end_sense(self):
+        """Waits for it; returns the senses."""
+        return self._senses(self.receive())
 
     def step(self, frames=None, drive=None, scale=None, offset=None):
         """Simulates frames; the senses at the end. drive: a value in [-2, 2] for each actuator, or a row of them for each
@@ -239,7 +249,7 @@ class Stream:
     def end_reset(self):
         """Waits for a reset that `begin_reset` sent."""
         self.receive()
-        self._first_frame()
+        self.take_first_frame()
 
     def ask(self, command):
         """Sends any command of the protocol; returns its answer. Raises InputError."""
@@ -315,8 +325,8 @@ class Stream:
         except (AttributeError, KeyError, OverflowError, TypeError, ValueError):
             raise self._program.no_simulator() from None
 
-    def _first_frame(self):
-        """The settled start, which waits for credit."""
+    def take_first_frame(self):
+        """Takes the settled start, which waits for credit."""
         if not self._framed or self._unstable:
             return
         self.ask({"do": "credit"})

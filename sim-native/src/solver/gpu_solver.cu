@@ -242,9 +242,8 @@ public:
         const auto runner = pool.lend(static_cast<int>(frames.size()));
         const std::vector<cuda::Progress> progress = run(*runner, solvers, states, time_step, substeps, drives, {});
         std::vector<std::optional<Instability>> found(frames.size());
-        side_by_side(frames.size(), [&](std::size_t k) {
+        for (std::size_t k = 0; k < frames.size(); ++k)
             found[k] = solvers[k]->end(*states[k], time_step, substeps, drives[k], progress[k]);
-        });
         return found;
     }
 
@@ -390,7 +389,8 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
-    constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
+    const auto dev = [](const char* n, int d) { const char* v = std::getenv(n); return v ? std::atoi(v) : d; };
+    const int max_streams = dev("DEV_STREAMS", 3), particles_at_a_time = dev("DEV_MOST", 2'000'000);  // as evaluate_on_gpu
     std::map<cuda::GridPool<Real>*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {
         check_state(all[k].solver->implementation_->model(), *all[k].state);

@@ -119,7 +119,7 @@ void GridRunner<Real>::set_muscles(const Update& update) {
             const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
             std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
         }
-    });
+    }, base_.states / short_calls + 1);
 }
 
 template <class Real>
