@@ -47,7 +47,7 @@ double max_difference(const std::vector<Push>& a, const std::vector<Push>& b) {
 }
 
 TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
-    constexpr Face kinds[] = {Face::periodic, Face::free_slip, Face::no_slip};
+    constexpr Face kinds[] = {Face::periodic, Face::free_slip, Face::no_slip, Face::open};
     for (const Eigen::Vector3i& size :
          {Eigen::Vector3i(13, 10, 7), Eigen::Vector3i(9, 1, 12), Eigen::Vector3i(40, 2, 1)})
         for (const Face x : kinds)
@@ -60,6 +60,7 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
                     if (x == Face::no_slip) box.faces[0][1] = Face::free_slip;
                     if (z == Face::free_slip) box.faces[2][1] = Face::no_slip;
                     box.viscosity = 0.01;
+                    box.current = {0.03, -0.02, 0.01};
                     const auto cpu = Water::on_cpu(box, 1), gpu = Water::on_gpu(box, 0);
                     std::vector<Push> pushes;
                     for (Water* water : {cpu.get(), gpu.get()}) {
@@ -76,6 +77,7 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
 void expect_same_pushes(const Face face, bool shifts) {
     Bar bar;
     for (auto& ends : bar.box_.faces) ends[0] = ends[1] = face;
+    bar.box_.current = {0.03, -0.02, 0.01};
     const auto cpu = Water::on_cpu(bar.box_, 1), gpu = Water::on_gpu(bar.box_, 0);
     stir(*cpu);
     stir(*gpu);
@@ -101,6 +103,7 @@ TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
     expect_same_pushes(Face::periodic, false);
     expect_same_pushes(Face::free_slip, false);
     expect_same_pushes(Face::no_slip, false);
+    expect_same_pushes(Face::open, false);
 }
 TEST_F(GpuLattice, TellsAllOfItsCells) {
     Box box = box_of(13, 10, 7);
@@ -114,6 +117,22 @@ TEST_F(GpuLattice, TellsAllOfItsCells) {
         const Cell cell = water->cell(at);
         EXPECT_NEAR(cells[i][0], 1 + cell.excess, 1e-6) << at;
         EXPECT_LT((cells[i++].tail<3>().cast<double>() - cell.velocity).norm(), 1e-6) << at;
+    });
+}
+
+/// Through open ends on all sides.
+TEST_F(GpuLattice, ACurrentGoesOn) {
+    Box box = box_of(12, 10, 11, Face::open);
+    box.viscosity = 0.01;
+    box.current = {0.05, -0.03, 0.02};
+    const auto water = Water::on_gpu(box, 0);
+    water->set_cells({0, box.current});
+    std::vector<Push> pushes;
+    for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
+    for_each_cell(box, [&](const Eigen::Vector3i& at) {
+        const Cell cell = water->cell(at);
+        EXPECT_LT((cell.velocity - box.current).norm(), 1e-6);
+        EXPECT_LT(std::abs(cell.excess), 1e-6);
     });
 }
 

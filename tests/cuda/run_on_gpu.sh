@@ -77,7 +77,7 @@ suite() {
 
 suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
-suite water-on-a-lattice 'GpuLattice*'
+suite water-on-a-lattice '*GpuLattice*'
 suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*:GpuPeriodic*'
 suite same-bits-in-any-batch '*GpuBatch*:*GpuTeams*:*EitherWay*'
 suite one-scene-by-the-whole-GPU '*WholeGpu*:WithoutLists*:GpuRoof*'

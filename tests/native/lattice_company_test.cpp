@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lattice_bar.h"
+#include "lattice_company.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/load_scene.h"
@@ -25,6 +26,9 @@ using lattice::Cube;
 using lattice::Push;
 using lattice::Water;
 using nlohmann::json;
+using test::crowd;
+using test::loach_wave;
+using test::pair_json;
 
 constexpr double pi = std::numbers::pi;
 
@@ -149,16 +153,6 @@ TEST(LatticeCompany, TwoBarsLoseWhatTheWaterGains) {
     EXPECT_LT((momentum() - at_first - given).norm(), 0.02 * given.norm()) << given.transpose();
 }
 
-const Gait loach_wave{2, {0.4, 0.35, 0.3, 0.25, 0.2}, {0, 0.902, 0.804, 0.706, 0.608}};
-
-json pair_json(const json& changes) {
-    json overrides = {{"duration", 0.5},
-                      {"fluid", {{"disorder", 0}, {"count", {160, 1, 96}}}},
-                      {"planes", {{1, 0, 0, 0}, {-1, 0, 0, 3.2}, {0, 0, 1, 0}, {0, 0, -1, 1.92}}}};
-    overrides.merge_patch(changes);
-    return overrides;
-}
-
 Scene pair(const json& changes = json::object()) {
     return load_scene("plane/pair", pair_json(changes));
 }
@@ -194,16 +188,6 @@ TEST(LatticeCompany, AreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(evaluate(pair({{"duration", 0.2}}), loach_wave).hash,
               evaluate(pair({{"duration", 0.2}}), loach_wave, three).hash);
 }
-
-/// A loach and another behind it beside a box, a mesh and a ball, in a current.
-const json crowd = {
-    {"duration", 0.4},
-    {"planes", json::array()},
-    {"fluid", {{"current", {-0.2, 0, 0}}}},
-    {"stopping", {{"noProgressAfter", 0}}},
-    {"obstacles",
-     {{{"shape", "sphere"}, {"centre", {2.2, 0.01, 0.9}}, {"radius", 0.1}, {"spacing", 0.04}},
-      {{"shape", "box"}, {"centre", {2.2, 0.01, 1.4}}, {"size", {0.1, 0.02, 0.2}}, {"spacing", 0.02}}}}};
 
 TEST(LatticeCompany, GoOnFromASavedMoment) {
     const SimulationSetup setup{.scene = "plane/pair", .overrides = pair_json(crowd).dump(), .gait = loach_wave};
@@ -295,9 +279,6 @@ TEST(LatticeCompany, RefusesWhatItHasNot) {
                           {"gait", {{"frequency", 2}, {"amplitude", {0, 0, 0, 0, 0}}, {"phase", {0, 0, 0, 0, 0}}}}}}}}),
               "scene \"plane/pair\": scheme lattice: companions[0].creature.rearCentre[1] = 0.03: must be 0.01, the "
               "middle (fluid.origin) of water that is one cell deep");
-    const Model model = build_model(load_scene("plane/street"));
-    EXPECT_EQ(test::refusal_of([&] { Solver<float>(model, {.gpu = 0}); }),
-              "backend cuda: fluid.current: water that flows through is on the CPU alone");
 }
 
 }  // namespace

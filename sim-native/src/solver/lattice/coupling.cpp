@@ -45,8 +45,6 @@ Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu
       spacing_(spacings_of(model)),
       displaced_(displaced_by(model, spacing_)),
       immersed_(bodies_of(model, spacing_)) {
-    if (gpu && !model.water_box->current.isZero(0))
-        throw InputError("backend cuda: fluid.current: water that flows through is on the CPU alone");
     for (const WaterObstacle& one : model.water_box->obstacles) {
         const std::vector<Cube> cubes = cubes_of(one.obstacle, *model.water_box);
         obstacles_.insert(obstacles_.end(), cubes.begin(), cubes.end());
@@ -64,11 +62,7 @@ void Coupling<Real>::begin(double h) {
     impulses_.assign(spacing_.size(), Eigen::Vector3d::Zero());
     fastest_ = 0;
     const Box& box = *model_.water_box;
-    if (box.current.isZero(0)) return;
-    const Cell cell{0, box.current * h / box.cell};
-    for (int z = 0; z < box.cells.z(); ++z)
-        for (int y = 0; y < box.cells.y(); ++y)
-            for (int x = 0; x < box.cells.x(); ++x) water_->set_cell({x, y, z}, cell);
+    if (!box.current.isZero(0)) water_->set_cells({0, box.current * h / box.cell});
 }
 
 template <class Real>

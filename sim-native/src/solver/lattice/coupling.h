@@ -17,7 +17,7 @@ namespace natator::lattice {
 template <class Real>
 class Coupling {
 public:
-    /// `gpu`: its number; none: on the CPU. Throws InputError where the GPU has not that water.
+    /// `gpu`: its number; none: on the CPU.
     Coupling(const Model& model, int threads, std::optional<int> gpu);
 
     /// Gives the particles what the water gave them in the last substep, and their weight in it, in one of so long, s.

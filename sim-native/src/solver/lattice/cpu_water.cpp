@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -28,12 +29,12 @@ public:
     Cell cell(const Eigen::Vector3i& at) const override;
     std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
+    void set_cells(const Cell& all) override;
     void save(ByteWriter& to) const override;
     void restore(ByteReader from) override;
 
 private:
     using Array = cpu::AlignedVector<float>;
-    using Populations = std::array<float, physics::lattice_populations>;
     struct BodyCell {
         long cell;
         int cube;
@@ -74,6 +75,7 @@ private:
     std::vector<BodyCell> held_;  ///< cells in bodies, by cube
     bool periodic_[3];
     Array inflow_[physics::lattice_populations];  ///< rows of what comes in at open ends, if there are any
+    double step_let_in_ = 0;                      ///< for which these were made, s
     std::vector<int> made_of_;                    ///< by cell: place in made_, -1: none
     std::vector<Populations> made_;
     std::vector<long> made_cells_;
@@ -112,11 +114,12 @@ View CpuWater::view() {
     return view;
 }
 
+/// The rows change with the step alone.
 void CpuWater::let_in(double step) {
-    const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
-    const float u[3] = {current.x(), current.y(), current.z()};
+    if (std::exchange(step_let_in_, step) == step) return;
+    const Populations populations = inflow(step);
     for (int i = 0; i < physics::lattice_populations; ++i)
-        inflow_[i].assign(static_cast<std::size_t>(stride_), physics::moving_population(i, u));
+        inflow_[i].assign(static_cast<std::size_t>(stride_), populations.of[i]);
 }
 
 /// Finds the cells in bodies. Of several cubes that hold a cell the one whose middle is nearest has it, of equally near
@@ -255,7 +258,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
 }
 
 /// Of a cell, less those of water at rest.
-const CpuWater::Populations& CpuWater::after_collision(long cell, const physics::LatticeRates& rates) {
+const Populations& CpuWater::after_collision(long cell, const physics::LatticeRates& rates) {
     if (made_of_[cell] < 0) {
         made_of_[cell] = static_cast<int>(made_.size());
         made_cells_.push_back(cell);
@@ -264,7 +267,7 @@ const CpuWater::Populations& CpuWater::after_collision(long cell, const physics:
         for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
         const float density = 1 + m[0];
         physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell],
-                         m[3] / density + change_[2][cell], rates, [&](int i, float value) { f[i] = value; });
+                         m[3] / density + change_[2][cell], rates, [&](int i, float value) { f.of[i] = value; });
     }
     return made_[made_of_[cell]];
 }
@@ -283,8 +286,8 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
             if (!neighbour(opposite, here, cells_, periodic_, from)) continue;
             const long source = place(from[0], from[1], from[2]);
             if (chosen_[source] >= 0) continue;
-            const float in = after_collision(source, rates)[i] - physics::moving_population(i, u);
-            const float out = after_collision(held.cell, rates)[opposite] - physics::moving_population(opposite, u);
+            const float in = after_collision(source, rates).of[i] - physics::moving_population(i, u);
+            const float out = after_collision(held.cell, rates).of[opposite] - physics::moving_population(opposite, u);
             for (int a = 0; a < 3; ++a)
                 j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
             any = true;
@@ -346,6 +349,12 @@ void CpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {
     float values[moments];
     equilibrium(cell, values);
     for (int e = 0; e < moments; ++e) now_[e][i] = values[e];
+}
+
+void CpuWater::set_cells(const Cell& all) {
+    float values[moments];
+    equilibrium(all, values);
+    for_each_row([&](int e, long at) { std::fill_n(&now_[e][at], cells_[0], values[e]); });
 }
 
 void CpuWater::save(ByteWriter& to) const {

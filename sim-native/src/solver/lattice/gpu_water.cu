@@ -154,11 +154,11 @@ __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ popu
     });
 }
 
-/// Where the populations of a cell go.
+/// Where the populations of a cell go, and what comes in for those that go out at open ends.
 class Ways {
 public:
-    __device__ Ways(const Lattice& lattice, unsigned cell, const int (&place)[3], float* to)
-        : count_(lattice.count), back_(to + cell) {
+    __device__ Ways(const Lattice& lattice, unsigned cell, const int (&place)[3], const Populations& inflow, float* to)
+        : count_(lattice.count), inflow_(inflow), back_(to + cell) {
         long stride = 1;
         int axis_of_populations = 1;
         for (int a = 0; a < 3; ++a) {
@@ -169,6 +169,7 @@ public:
                 if (place[a] == (end == 0 ? 0 : n - 1)) {
                     const Face face = lattice.faces[a][end];
                     if (face == Face::no_slip) bounces_ |= 1u << (2 * a + end);
+                    if (face == Face::open) opens_ |= 1u << (2 * a + end);
                     by = face == Face::periodic ? by - sign * n * stride : -2L * sign * axis_of_populations * count_;
                 }
                 by_[a][end] = by;
@@ -188,15 +189,20 @@ public:
             crosses |= 1u << (2 * a + end);
             by += by_[a][end];
         }
-        back_[(bounces_ & crosses) != 0 ? (lattice_populations - 1 - i) * count_ : by] = f;
+        const int opposite = lattice_populations - 1 - i;
+        // Where a wall meets an open end, one along x gives way, as on the CPU.
+        const bool comes_in = (opens_ & crosses) != 0 && (bounces_ & crosses & ~along_x) == 0;
+        back_[((bounces_ | opens_) & crosses) != 0 ? opposite * count_ : by] = comes_in ? inflow_.of[opposite] : f;
     }
 
 private:
+    static constexpr unsigned along_x = 3;
     long count_;
+    const Populations& inflow_;
     float* back_;  ///< the cell itself
     /// along each axis down and up: to the cell there, or to the mirrored population of the cell here
     long by_[3][2];
-    unsigned bounces_ = 0;  ///< bits: ends
+    unsigned bounces_ = 0, opens_ = 0;  ///< bits: ends
 };
 
 struct Put {
@@ -210,15 +216,15 @@ struct Put {
 
 /// Collides and streams: a thread a cell.
 __global__ void __launch_bounds__(block)
-    advance_cells(Lattice lattice, LatticeRates rates, const float* __restrict__ from, float* __restrict__ to,
-                  Keys keys, const Cube* __restrict__ cubes, Owners* __restrict__ owners) {
+    advance_cells(Lattice lattice, LatticeRates rates, Populations inflow, const float* __restrict__ from,
+                  float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes, Owners* __restrict__ owners) {
     const unsigned cell = blockIdx.x * block + threadIdx.x;
     if (cell >= lattice.count) return;
     float m[lattice_moments];
     load_moments(from, lattice.count, cell, m);
     int place[3];
     lattice.place(cell, place);
-    const Ways ways(lattice, cell, place, to);
+    const Ways ways(lattice, cell, place, inflow, to);
     Velocity3 told{};
     bool held = false;
     if (const Key* const key = keys.of(place[0], place[1], place[2])) {
@@ -324,6 +330,15 @@ __global__ void __launch_bounds__(block)
     owners_to[cell] = inside ? owners_from[source] : Owners{-1, -1};
 }
 
+/// Makes all cells the same.
+__global__ void __launch_bounds__(block) fill_cells(Lattice lattice, Populations with, float* to) {
+    const unsigned cell = blockIdx.x * block + threadIdx.x;
+    if (cell >= lattice.count) return;
+    const long count = lattice.count;
+#pragma unroll
+    for (int i = 0; i < lattice_populations; ++i) to[i * count + cell] = with.of[i];
+}
+
 /// Density over that at rest and velocity, cells/step, of each cell.
 __global__ void __launch_bounds__(block)
     read_cells(Lattice lattice, const float* __restrict__ populations, float4* to) {
@@ -346,6 +361,7 @@ public:
     Cell cell(const Eigen::Vector3i& at) const override;
     std::vector<Eigen::Vector4f> cells() const override;
     void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
+    void set_cells(const Cell& all) override;
     void save(ByteWriter& to) const override;
     void restore(ByteReader from) override;
 
@@ -450,8 +466,8 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
                                                                 owners_[0].data());
     }
     const LatticeRates rates = lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
-    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, now(), next(), keys,
-                                                                          cubes_.data(), owners_[0].data());
+    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, inflow(step), now(), next(),
+                                                                          keys, cubes_.data(), owners_[0].data());
     if (count > 0)
         push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count,
                                                            owners_[0].data(), begun_,
@@ -502,18 +518,30 @@ std::vector<Eigen::Vector4f> GpuWater::cells() const {
     return all;
 }
 
-void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
-    choose();
-    float f[lattice_populations], m[lattice_moments];
+Populations in_equilibrium(const Cell& cell) {
+    Populations made;
+    float m[lattice_moments];
     equilibrium(cell, m);
     const float inverse = 1 / (1 + m[0]);
     // All cumulants of a collision that keeps nothing are 0.
     collide(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{},
-            [&](int i, float value) { f[i] = value; });
-    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), f, sizeof(float), sizeof(float),
+            [&](int i, float value) { made.of[i] = value; });
+    return made;
+}
+
+void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
+    choose();
+    const Populations made = in_equilibrium(cell);
+    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), made.of, sizeof(float), sizeof(float),
                                   lattice_populations, cudaMemcpyHostToDevice, stream_.get()),
                 "upload");
     wait();
+}
+
+void GpuWater::set_cells(const Cell& all) {
+    choose();
+    fill_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, in_equilibrium(all), now());
+    cuda::check(cudaGetLastError(), "launch");
 }
 
 void GpuWater::save(ByteWriter& to) const {

@@ -26,4 +26,12 @@ void equilibrium(const Cell& cell, float (&to)[17]) {
     for (int e = 0; e < 17; ++e) to[e] = static_cast<float>(values[e]);
 }
 
+Populations Water::inflow(double step) const {
+    const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
+    const float u[3] = {current.x(), current.y(), current.z()};
+    Populations populations;
+    for (int i = 0; i < physics::lattice_populations; ++i) populations.of[i] = physics::moving_population(i, u);
+    return populations;
+}
+
 }  // namespace natator::lattice

@@ -9,6 +9,7 @@
 #include "base/byte_writer.h"
 #include "box.h"
 #include "immersed.h"
+#include "physics/lattice.h"
 
 namespace natator::lattice {
 
@@ -16,6 +17,11 @@ namespace natator::lattice {
 struct Cell {
     double excess = 0;
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+};
+
+/// A cell's populations, less those of water at rest.
+struct Populations {
+    float of[physics::lattice_populations];
 };
 
 /// Moments of a cell (physics/lattice.h) in equilibrium.
@@ -36,8 +42,8 @@ class Water {
 public:
     /// At rest, with open ends that let in water of the box' current.
     static std::unique_ptr<Water> on_cpu(const Box& box, int threads);
-    /// At rest, without open ends. Throws NoDevice without that GPU or if this library was built without CUDA,
-    /// std::bad_alloc if its memory is too small.
+    /// The same. Throws NoDevice without that GPU or if this library was built without CUDA, std::bad_alloc if its
+    /// memory is too small.
     static std::unique_ptr<Water> on_gpu(const Box& box, int device);
     virtual ~Water() = default;
 
@@ -52,6 +58,7 @@ public:
     /// Density over that at rest and velocity, cells/step, of all cells, x first, then y, then z.
     virtual std::vector<Eigen::Vector4f> cells() const = 0;
     virtual void set_cell(const Eigen::Vector3i& at, const Cell& cell) = 0;
+    virtual void set_cells(const Cell& all) = 0;
 
     /// All that goes from one step to the next.
     virtual void save(ByteWriter& to) const = 0;
@@ -61,6 +68,8 @@ public:
 
 protected:
     explicit Water(const Box& box) : box_(box) {}
+    /// What comes in at open ends in a step of so long, s.
+    Populations inflow(double step) const;
     [[noreturn]] static void refuse_saved() {
         throw InputError("state: its water is not of this lattice on this kind of processor");
     }
