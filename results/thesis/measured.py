@@ -1,6 +1,6 @@
 """What the study has found: rows of its files, means with their errors, winners, and whether they swim.
 
-measurements.jsonl holds evaluations, processor.jsonl some of them again on the processor, convergence.jsonl gaits at half the spacing, and
+measurements.jsonl, with its first rows compressed beside it, holds evaluations, processor.jsonl some of them again on the processor, convergence.jsonl gaits at half the spacing, and
 motions.jsonl how recorded bodies move. A row answers a request, and stays: it names the program that made it."""
 import dataclasses
 import functools
@@ -30,7 +30,7 @@ def canonical(value):
 ASKED = "program request.scene request.gait.frequency request.scheme request.overrides "
 NEEDED = {"measurements.jsonl": ASKED + "backend result.status result.stopped", "processor.jsonl": ASKED + "backend result.status result.stopped result.hash",
           "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll largestYaw heights measuredPart",
-          "finalists.json": "gaits", "checkpoint.json": "generation", "config.json": "population generations",
+          "finalists.json": "gaits", "config.json": "population generations",
           "json.gz": "request spine.times spine.centres centres attitude flow"}
 
 
@@ -49,19 +49,33 @@ def checked(text, where, needed):
     return value
 
 
+def unpacked(file):
+    """What a compressed file holds; ValueError where it is damaged."""
+    try:
+        return gzip.decompress(file.read_bytes())
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ValueError(f"{file}: {error}; expected a whole compressed file") from error
+
+
 class Log:
-    """Rows of a file of JSON lines, by the request that each answers; a line that was cut off as it was written counts for nothing, and goes
-    with the next row."""
+    """Rows of a file of JSON lines and of its compressed one (.gz), by the request that each answers; a line that was cut off as it was written
+    counts for nothing, and goes with the next row."""
 
     def __init__(self, file):
         self.file, self.rows, self.cut = file, {}, None
+        packed = file.with_name(file.name + ".gz")
+        if packed.exists():
+            self.take(unpacked(packed), packed)
         if file.exists():
             text = file.read_bytes()
             whole = text[:text.rfind(b"\n") + 1]
             self.cut = len(whole) if whole != text else None
-            for number, line in enumerate(whole.splitlines(), 1):
-                row = checked(line, f"{file}: line {number}", NEEDED.get(file.name, "request"))
-                self.rows[canonical(row["request"])] = row
+            self.take(whole, file)
+
+    def take(self, text, file):
+        for number, line in enumerate(text.splitlines(), 1):
+            row = checked(line, f"{file}: line {number}", NEEDED.get(self.file.name, "request"))
+            self.rows[canonical(row["request"])] = row
 
     def add(self, row):
         with open(self.file, "a", encoding="utf-8") as lines:
@@ -134,7 +148,11 @@ class Study:
     def finished(self):
         """Evolutions that have come to their end, and of which the finalists are known."""
         return [one for one in self.plan.evolutions if (one.folder(self.folder) / "finalists.json").exists()
-                and self.read(one, "checkpoint.json")["generation"] >= self.size.generations]
+                and self.generation(one) >= self.size.generations]
+
+    def generation(self, evolution):
+        """The last of an evolution."""
+        return int((evolution.folder(self.folder) / "generations.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")[0])
 
     def read(self, evolution, name):
         """A file of its run folder. What is finished does not change."""
@@ -213,10 +231,7 @@ class Study:
         file = self.recording_file(name)
         if not file.exists():
             return None
-        try:
-            found = checked(gzip.decompress(file.read_bytes()), file, NEEDED["json.gz"])
-        except (EOFError, zlib.error) as error:
-            raise ValueError(f"{file}: {error}; expected compressed JSON") from error
+        found = checked(unpacked(file), file, NEEDED["json.gz"])
         return found if canonical(found["request"]) == canonical(request) else None
 
     # Runs and means.
