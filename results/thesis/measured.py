@@ -272,11 +272,16 @@ class Study:
         water, half = self.means(subject, "water"), self.means(subject, "half-step")
         return Speed(water.mean, water.interval, half.mean - water.mean, self.half_spacing(subject)) if water.count else None
 
-    def half_spacing(self, subject):
-        """Speed at half the spacing less that as it is, from the same starts; NaN if it was not measured or became unstable."""
+    def spacings(self, subject):
+        """Speed as it is and at half the spacing, from the same starts; NaN if it was not measured or became unstable."""
         row = self.convergence.find(self.plan.of(subject, "water").request)
         levels = {one["level"]: one.get("speed", {}).get("mean", math.nan) for one in row["answer"]["levels"]} if row else {}
-        return levels.get("spacing/2", math.nan) - levels.get("base", math.nan)
+        return levels.get("base", math.nan), levels.get("spacing/2", math.nan)
+
+    def half_spacing(self, subject):
+        """The change of its speed at half the spacing, or NaN."""
+        base, half = self.spacings(subject)
+        return half - base
 
     def number(self, subject, name):
         """Mean of a dimensionless number of its swims, or None."""
@@ -310,7 +315,8 @@ class Study:
             return None
         on_gpu = any(row["backend"] != "cpu" for row in map(self.measurements.find, swim.runs()) if row)
         ways["cpu"] = self.results(swim, self.processor) if on_gpu else []
-        return judged({name: one for name, one in ways.items() if one}, self.length(subject.creature), self.duration, self.under_water(subject))
+        base, half = self.spacings(subject)
+        return judged({name: one for name, one in ways.items() if one}, self.length(subject.creature), self.duration, self.under_water(subject), half / base)
 
     def swims_by_every_control(self, subject):
         return (self.verdict(subject) or "–")[0] == "✔"
@@ -350,11 +356,12 @@ def percent(share):
     return f"{fixed(100 * share, 0)} %"
 
 
-def judged(runs, length, duration, under_water):
-    """One verdict from all controls, as natator check has it: it swims if it gets further than a dead body does, by more than chance, in the
-    water, and not by the vacuum's drift, the clamp, the time step, one side of its body, or one backend.
+def judged(runs, length, duration, under_water, finer):
+    """One verdict from all controls, as natator check has it, and half the spacing: it swims if it gets further than a dead body does, by more than
+    chance, in the water, and not by the vacuum's drift, the clamp, the time step, the spacing, one side of its body, or one backend.
 
-    runs: results by condition; length: of the body in scene units; under_water: share of the body, or None."""
+    runs: results by condition; length: of the body in scene units; under_water: share of the body, or None; finer: share of its speed that is left
+    at half the spacing, or NaN."""
     ways = {name: Sample.of(map(way, results)) for name, results in runs.items()}
     net = ways["water"].mean - ways["resting"].mean
     drift, known = abs(ways["vacuum"].mean) / net, {name: 2 * one.error / net for name, one in ways.items()}
@@ -370,16 +377,16 @@ def judged(runs, length, duration, under_water):
     at_wall = mostly_stopped(runs["water"]) == "touched-plane"
     speed = f"{with_error(net / duration / length, sd / duration / length)} body lengths/s more than a resting body" \
         + (", until it touches a wall" if at_wall else "")
-    doubts = list(doubted(runs, ways, net, length, drift, known, left, under_water, at_wall))
+    doubts = list(doubted(runs, ways, net, length, drift, known, left, under_water, at_wall, finer))
     if doubts:
         return "–", f"may swim: {speed}; but " + "; ".join(doubts)
     where = ["not in vacuum"] + ([f"without the acceleration clamp ({percent(left['no-clamp'])})"] if "no-clamp" in left else []) \
-        + [f"at half the time step ({percent(left['half-step'])} of its way)", f"mirrored ({percent(left['mirrored'])})"] \
+        + [f"at half the time step ({percent(left['half-step'])} of its way)", f"at half the spacing ({percent(finer)})", f"mirrored ({percent(left['mirrored'])})"] \
         + ([f"on cpu ({percent(left['cpu'])})"] if "cpu" in left else [])
     return "✔", f"swims: {speed}, " + ", ".join(where) + ("" if under_water is None else f"; {percent(under_water)} under water")
 
 
-def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall):
+def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall, finer):
     error = math.hypot(ways["water"].error, ways["resting"].error)
     if (net - 2 * error) / length < 0.05:
         yield "its runs differ too much to tell"
@@ -393,6 +400,8 @@ def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall):
         yield f"it skims: {percent(under_water)} of its body are under water"
     if abs(left["half-step"] - 1) > 0.5:
         yield f"at half the time step it has {percent(left['half-step'])} of its way"
+    if not abs(finer - 1) <= 0.5:
+        yield "it has no stable run at half the spacing" if math.isnan(finer) else f"at half the spacing it has {percent(finer)} of its speed"
     words = {"water": "", "resting": " at rest", "vacuum": " in vacuum", "no-clamp": " without the acceleration clamp",
              "half-step": " at half the time step", "mirrored": " mirrored", "cpu": " on cpu"}
     for name in words.keys() & runs.keys():
