@@ -117,7 +117,7 @@ def speeds(study):
             mean = statistics.mean(water_speeds)
             scatter = STUDENT[len(water_speeds) - 1] * statistics.stdev(water_speeds) / math.sqrt(len(water_speeds))
             step = statistics.mean(half) - mean
-            levels = {one["level"]: one["speed"]["mean"] for one in study.change.get(key, [])}
+            levels = {one["level"]: one["speed"]["mean"] for one in study.change.get(key, []) if "speed" in one}
             spacing = levels["spacing/2"] - levels["base"] if "spacing/2" in levels else None
             error = max(scatter, abs(step), abs(spacing or 0))
             where = (water, str(creature), label)
