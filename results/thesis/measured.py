@@ -29,7 +29,7 @@ def canonical(value):
 # What files must hold: parts that the page rests on.
 ASKED = "program request.scene request.gait.frequency request.scheme request.overrides "
 NEEDED = {"measurements.jsonl": ASKED + "backend result.status result.stopped", "processor.jsonl": ASKED + "backend result.status result.stopped result.hash",
-          "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll largestYaw heights measuredPart",
+          "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll end.pitch largestYaw heights measuredPart",
           "finalists.json": "gaits", "config.json": "population generations",
           "json.gz": "request spine.times spine.centres centres attitude flow"}
 
