@@ -1,6 +1,7 @@
 """The page of the study, README.md, and its tables, tables/*.csv. All that they say of numbers follows from the rows."""
 import csv
 import io
+import json
 import math
 import re
 import statistics
@@ -238,6 +239,11 @@ class Page:
     def seconds(self, subject):
         return f"{self.study.lasted(subject).mean:.1f} s"
 
+    def not_converged(self, water):
+        changes = [half / base - 1 for base, half in map(self.study.spacings, self.study.evolved(water))]
+        known = [abs(one) for one in changes if not math.isnan(one)]
+        return f"{sum(one > 0.1 for one in known)} of {len(known)}" if known else None
+
     def fastest(self, water):
         swimmers = [one for one in self.study.bests(water) if self.study.swims_by_every_control(one)]
         if not swimmers:
@@ -253,8 +259,9 @@ class Page:
         return f"{fixed(max(speeds))} units/s" if speeds else None
 
     def answer(self):
-        published, evolved, fastest, without = (in_each(one) for one in (
-            lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest, self.without_water))
+        published, evolved, fastest, without, finer = (in_each(one) for one in (
+            lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest, self.without_water,
+            self.not_converged))
         kept = in_each(lambda water: claims.kept(self.claims, water), "; ")
         if not published:
             return "**Nothing is measured yet.**"
@@ -262,7 +269,15 @@ class Page:
                                                                                          else ".**")]
                         + ([f"The fastest that swims is {fastest}."] if fastest else [])
                         + ([f"Without water, where nothing can swim, the evolved gaits move at up to {without}."] if without else [])
-                        + ["Creatures 3 and 4 are our own drawings."] + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
+                        + ([f"At half the spacing {finer} change by more than a tenth."] if finer else [])
+                        + ["Creatures 3 and 4 are our own drawings; open water is not the thesis', nor are its bodies' masses and stiffness."] + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
+
+    def made(self):
+        """By which programs and on what it evolved."""
+        found = [json.loads((one.folder(self.study.folder) / "environment.json").read_text(encoding="utf-8")) for one in self.study.finished()]
+        commits = ", ".join(sorted({one.get("commit", "?")[:8] for one in found}))
+        machines = ", ".join(sorted({one.get("gpu", "0: a processor").split(": ", 1)[1].split(",")[0] for one in found}))
+        return f"Evolved by the program of commit {commits}, on {machines}." if found else ""
 
     def evidence(self):
         rows = [["creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex", "evolved, open water"]]
