@@ -240,6 +240,18 @@ def of_settings(rows, settings):
                 yield f"| {case.replace('-', ' ')}: {name} | {exact(shown[0])} | " + " | ".join(cell(each) for each in shown) + " |"
 
 
+def of_losses(rows, settings):
+    """What some figures are with each of the settings, on the CPU at resolution 20."""
+    figures = [("still-water", "bobbing (length/s)"), ("column", "depth (length)"), ("added-mass", ADDED), ("heavier-sphere", SPEED), ("lighter-sphere", SPEED)]
+    known = [pick(rows, case=case, quantity=quantity, scheme="conserving", backend="cpu", resolution="20") for case, quantity in figures]
+    yield "| setting | still water bobs (length/s) | depth of 2 | added mass | terminal speed of heavier, lighter sphere |"
+    yield "|---|---:|---:|---:|---:|"
+    yield "| target | " + " | ".join(target(some[0]) for some in known[:2]) + f" | {exact(known[2])} | {exact(known[3])} |"
+    for steps in settings:
+        *cells, heavier, lighter = (cell(pick(some, setting=steps)) for some in known)
+        yield f"| {in_words(steps)} | " + " | ".join(cells) + f" | {heavier}, {lighter} |"
+
+
 def of_depths(rows, settings, depths):
     """How fast still water bobs on the GPU, by its depth and the steps."""
     yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
@@ -255,6 +267,7 @@ def tables(rows):
     return {"answer": of_answer(rows),
             "figures": of_figures(rows),
             "larva": of_larva(rows),
+            "losses": of_losses(rows, ("2x4", "1x8", "1x6", "1x4", *modified)),
             "cases": of_cases(rows),
             "deep": of_depths(rows, [f"{count}x4" for count in substeps], (40, 48, 60, 80, 100)),
             "modified-deep": of_depths(rows, modified, (20, 28, 40, 60, 80, 100)),
