@@ -16,6 +16,7 @@ import plan
 import study
 from plan import SECONDS, SUBSTEPS, WATERS
 
+STILL = 0.01  # units/s: slower is no motion worth the name
 FISH = ("anguilliform", "carangiform", "thunniform")
 
 
@@ -207,7 +208,20 @@ class Study:
         """All that is known by now to be measured; what is found adds to it."""
         every = self.plan.independent() + [self.plan.finalist(one) for run in self.finished() for one in self.finalists(run)]
         every += [experiment for subject in self.evolved() for experiment in self.plan.all_of(subject)]
+        every += [one for water in WATERS if (gait := self.two_clusters_that_move(water)) for one in self.plan.controls_of_two_clusters(gait, water).values()]
+        every += [self.plan.weaker(subject) for subject in self.studied("flex")]
         return every + [one for water in WATERS for subject in self.studied(water) for one in self.plan.studies(subject)]
+
+    def two_clusters_that_move(self, water):
+        """The gait by which the body of two clusters goes furthest, if that is further than at rest by more than chance; else None."""
+        gaits = self.plan.gaits_of_two_clusters()
+        rest = self.forward(self.plan.two_clusters(gaits[0], water, "resting"))
+        known = [(one, gait) for gait in gaits if (one := self.forward(self.plan.two_clusters(gait, water, "water"))).count]
+        if not rest.count or not known:
+            return None
+        best, gait = max(known, key=lambda pair: pair[0].mean)
+        net = best.mean - rest.mean
+        return gait if net > 2 * math.hypot(best.error, rest.error) and net > STILL else None
 
     def swims(self):
         """Every gait in its water."""

@@ -158,7 +158,7 @@ def why(case, quantity, cells):
     reason = next((reason for begin, reason in WHY.get(case, {}).items() if quantity.startswith(begin)), None)
     if reason is None:
         sys.exit(f"table.py: {case} misses the target of \"{quantity}\"; expected a reason in WHY")
-    return f"[{reason.replace('-', ' ')}](#{reason})"
+    return f"[{reason.replace('-', ' ')}](#{'what-it-cant-do' if reason == 'noise' else reason})"
 
 
 def of_cases(rows):
