@@ -52,7 +52,7 @@ def bending():
 
 def make(folder):
     found = json.loads((HERE / "creature-2.json").read_text(encoding="utf-8"))
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", sample=sample(), levels=levels(found), estimate=estimate(found), bending=bending()),
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=sample(), levels=levels(found), estimate=estimate(found), bending=bending()),
                                       encoding="utf-8")
 
 

@@ -212,8 +212,8 @@ def of_answer(rows):
         case = line[0] or case
         missed |= {case} if "*" not in line[4] else set()
     sure, some = (sum(line[4].startswith(sign) for line in figures) for sign in ("**", "*"))
-    yield (f"In scheme `conserving` {sure} of {len(figures)} targets are reached for sure at resolution 20, {some - sure} more by the mean; {len(missed)} of "
-           f"{len(CASES)} cases miss one.")
+    yield (f"**In scheme `conserving` {sure} of {len(figures)} targets are reached for sure at resolution 20, {some - sure} more by the mean; {len(missed)} of "
+           f"{len(CASES)} cases miss one.**")
 
 
 def of_larva(rows):
