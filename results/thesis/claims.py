@@ -3,6 +3,8 @@ import dataclasses
 import math
 import statistics
 
+from scipy import stats
+
 import measured
 from measured import STILL, fixed
 from plan import PARAMETERS, POWERS
@@ -44,17 +46,22 @@ def name(subject):
     return f"creature {subject.creature}" + (" evolved" if subject.seed else "")
 
 
+def chance(one, other):
+    """How far two means are apart by chance, but for 5 %, by Student's t."""
+    return stats.t.ppf(0.975, max(one.count + other.count - 2, 1)) * math.hypot(one.error, other.error)
+
+
 class Trend:
-    """How a speed goes as a parameter moves away from its own value; the farthest is last. What differs, differs by two standard errors and a tenth."""
+    """How a speed goes as a parameter moves away from its own value; the farthest is last. What differs, differs by chance of 5 % and a tenth."""
 
     def __init__(self, usual, changed):
         self.usual, self.changed, self.last = usual, changed, changed[-1] if changed else None
         self.is_known = usual.count > 1 and bool(changed) and all(one.count for one in changed)
-        self.swims = usual.mean > 2 * usual.error and usual.mean > 0
+        self.swims = usual.mean > (usual.interval if usual.count > 1 else 0)
 
     def differs(self, one, direction):
         difference = direction * (one.mean - self.usual.mean)
-        return difference > 2 * math.hypot(one.error, self.usual.error) and difference > 0.1 * self.usual.mean
+        return difference > chance(one, self.usual) and difference > 0.1 * self.usual.mean
 
     def hinders(self):
         if not self.differs(self.last, -1):
@@ -65,7 +72,7 @@ class Trend:
         """Open where chance alone is larger than a tenth."""
         if any(self.differs(one, -1) or self.differs(one, 1) for one in self.changed):
             return FAILS
-        return HOLDS if all(2 * math.hypot(one.error, self.usual.error) <= 0.1 * self.usual.mean for one in self.changed) else OPEN
+        return HOLDS if all(chance(one, self.usual) <= 0.1 * self.usual.mean for one in self.changed) else OPEN
 
     def stops(self):
         return told(abs(self.last.mean) < 0.1 * self.usual.mean)
@@ -75,7 +82,7 @@ class Trend:
 
     def is_unstable(self):
         """Little is left of the swimming, or nothing that is sure."""
-        return told(self.last.mean < 0.1 * self.usual.mean or self.last.mean < 2 * self.last.error)
+        return told(self.last.mean < 0.1 * self.usual.mean or self.last.mean < self.last.interval)
 
     def text(self):
         return f"{fixed(self.usual.mean)}: " + ", ".join(f"{100 * one.mean / self.usual.mean:.0f}" for one in self.changed) + " %"
@@ -211,7 +218,7 @@ def activation(study, water):
     if weak:
         yield Claim("reduced amplitudes lose most of the thrust", water, "with half of them — " + "; ".join(
             f"{name(one)} {Trend(usual, [half]).text()}" for one, usual, half in weak),
-            agreed([told(half.mean + 2 * half.error < usual.mean / 2) if abs(half.mean - usual.mean / 2) > 2 * half.error else OPEN
+            agreed([told(half.mean < usual.mean / 2) if abs(half.mean - usual.mean / 2) > half.interval else OPEN
                     for _, usual, half in weak]))
 
     def by_creatures(says, pair, rule, ours=False):
@@ -225,7 +232,7 @@ def activation(study, water):
         return Claim(says, water, "; ".join(texts) or "nothing moves", agreed(outcomes, VOID), ours)
 
     def sure(one):
-        return abs(one.mean) > 2 * one.error
+        return abs(one.mean) > one.interval
 
     def turns(ahead, back):
         return ahead.mean * back.mean < 0 and sure(ahead) and sure(back)

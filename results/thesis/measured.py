@@ -221,7 +221,7 @@ class Study:
             return None
         best, gait = max(known, key=lambda pair: pair[0].mean)
         net = best.mean - rest.mean
-        return gait if net > 2 * math.hypot(best.error, rest.error) and net > STILL else None
+        return gait if net > math.hypot(best.interval, rest.interval) and net > STILL else None
 
     def swims(self):
         """Every gait in its water."""
