@@ -39,7 +39,8 @@ def speeds(study, folder):
                               color=COLOURS[number], capsize=3, label=name)
             number += 1
     axis.set(title="Speed in water, of what may swim", xlabel="creature", ylabel="scene units/s", xticks=study.size.creatures)
-    axis.legend(fontsize="small")
+    if axis.containers:
+        axis.legend(fontsize="small")
     save(figure, folder, "speeds")
 
 

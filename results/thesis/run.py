@@ -91,7 +91,7 @@ class Work:
                 fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 raise Failure(f"{held.name} is in use by another run") from error
-            for work in (self.evolve, self.measure, self.finer, self.on_processor, self.record, self.portray):
+            for work in (self.evolve, self.measure, self.on_processor, self.record, self.finer, self.portray):
                 work()
 
     def say(self, count, what):
