@@ -172,5 +172,5 @@ def draw(study, found, anew):
         for _, picture in drawings.values():
             picture()
     shown = {name: f"![{about}](figures/{name}.png)" for name, (about, _) in drawings.items()}
-    gallery = "\n".join(f"- {picture.removeprefix('!')}" for name, picture in shown.items() if name != "speeds")
+    gallery = ",\n".join(f"[{name}](figures/{name}.png)" for name in shown if name != "speeds") + "."
     return {"speeds_drawn": shown["speeds"], "gallery": gallery}
