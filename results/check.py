@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks what results/ holds: python3 results/check.py [--prune]
 
-Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, all JSON
-must be whole, and all of it must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything
-is wrong that --prune did not mend.
+Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, every page must
+name at its head the commit that made its rows, README.md must have every page's answer, all JSON must be whole, and all of it
+must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything is wrong
+that --prune did not mend.
 """
 import json
 import pathlib
@@ -14,6 +15,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KINDS = {".md", ".csv", ".json", ".jsonl", ".gz", ".png", ".py", ".sh", ".txt"}
 LIMIT = 25_000_000
+MADE, HEAD = re.compile(r"commits? (up to )?[0-9a-f]{8}"), 1800
+ANSWER = re.compile(r"<!-- answer[^>]*-->\n\*\*(.*?)\*\*")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -53,6 +56,13 @@ def main():
     superfluous += [(file, "is a picture on no page") for file in files if file.suffix == ".png" and file not in linked]
     wrong = [f"{page.relative_to(ROOT)}: links to {target}, which is not there"
              for page in pages for target in links(page) if not target.exists()]
+    index = (ROOT / "results/README.md").read_text(encoding="utf-8")
+    for page in (ROOT / "results").glob("*/README.md"):
+        if page.parent.name != "pictures" and not MADE.search(page.read_text(encoding="utf-8")[:HEAD]):
+            wrong.append(f"{page.relative_to(ROOT)}: names no program; expected in its first {HEAD} characters: commit, and 8 digits or more")
+        answer = ANSWER.search(page.read_text(encoding="utf-8"))
+        if answer and answer[1] not in index:
+            wrong.append(f"results/README.md: does not have the answer of {page.parent.name}; expected: {answer[1]}")
     for file in files:
         fault = damage(file) if file.suffix in {".json", ".jsonl"} else None
         if fault:

@@ -1,10 +1,12 @@
 """What the pages' make.py share: their command line, numbers in words, statistics, tables and charts."""
 import argparse
+import csv
 import filecmp
 import functools
 import itertools
 import math
 import pathlib
+import statistics
 import sys
 import tempfile
 from decimal import ROUND_HALF_UP, Decimal
@@ -74,6 +76,22 @@ def with_error(value, error, decimals):
     """A number ± its error, with up to two more decimals where the error would round to nothing."""
     shown = next((d for d in range(decimals, decimals + 3) if abs(error) >= 0.5 * 10**-d), decimals)
     return f"{fixed(value, shown)} ± {fixed(error, shown)}"
+
+
+def water_viscosity(given, resolution=20):
+    """Of water of scheme conserving at 4 × 4 and a spacing of 2 / resolution, length²/s: the one that was set, as it comes out, and the water's own;
+    by the vortices of results/water, of Re U L / ν with U L = 1 and a set viscosity of 0.02."""
+    with open(ROOT / "results/water/water.csv", encoding="utf-8", newline="") as lines:
+        rows = [row for row in csv.DictReader(lines) if (row["scheme"], row["resolution"], row["substeps"], row["iterations"], row["support"],
+                                                         row["modified_pressure"]) == ("conserving", str(resolution), "4", "4", "2.5", "no")]
+    own, total = (statistics.fmean(float(row["value"]) for row in rows if (row["case"], row["quantity"]) == key)
+                  for key in (("vortex", "numerical Reynolds number"), ("viscous-vortex", "viscosity (length^2/s)")))
+    return given * (total - 1 / own) / 0.02 + 1 / own
+
+
+def larva(reynolds):
+    """Strouhal number of a fish larva: a power of Re through 2.5 at 60 and 0.72 at 1400 (van Leeuwen, Voesenek, Müller 2015)."""
+    return 2.5 * (reynolds / 60) ** (math.log(0.72 / 2.5) / math.log(1400 / 60))
 
 
 class Random:

@@ -28,18 +28,19 @@ def panels(columns, rows, width=4.6, height=3.2):
 
 
 def speeds(study, folder):
-    """Of each creature the thesis' gait and the best that evolved, with error bars."""
+    """Of each creature the thesis' gait and the best that evolved, if it may swim, with error bars."""
     figure, (axis,) = panels(1, 1, 7, 4)
     number = 0
     for water in WATERS:
         for name, subjects in ((f"thesis' gait, {WORDS[water]}", study.plan.published(water)), (f"evolved, {WORDS[water]}", study.bests(water))):
-            known = [(one.creature + 0.12 * (number - 1.5), speed) for one in subjects if (speed := study.speed(one))]
+            known = [(one.creature + 0.12 * (number - 1.5), speed) for one in subjects if study.may_swim(one) and (speed := study.speed(one))]
             if known:
                 axis.errorbar([x for x, _ in known], [one.mean for _, one in known], [one.error for _, one in known], fmt="osD^"[number],
                               color=COLOURS[number], capsize=3, label=name)
             number += 1
-    axis.set(title="Speed in water", xlabel="creature", ylabel="scene units/s", xticks=study.size.creatures)
-    axis.legend(fontsize="small")
+    axis.set(title="Speed in water, of what may swim", xlabel="creature", ylabel="scene units/s", xticks=study.size.creatures)
+    if axis.containers:
+        axis.legend(fontsize="small")
     save(figure, folder, "speeds")
 
 
@@ -171,5 +172,5 @@ def draw(study, found, anew):
         for _, picture in drawings.values():
             picture()
     shown = {name: f"![{about}](figures/{name}.png)" for name, (about, _) in drawings.items()}
-    gallery = "\n".join(f"- {picture.removeprefix('!')}" for name, picture in shown.items() if name != "speeds")
+    gallery = ",\n".join(f"[{name}](figures/{name}.png)" for name in shown if name != "speeds") + "."
     return {"speeds_drawn": shown["speeds"], "gallery": gallery}

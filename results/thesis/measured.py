@@ -1,6 +1,6 @@
 """What the study has found: rows of its files, means with their errors, winners, and whether they swim.
 
-measurements.jsonl holds evaluations, processor.jsonl some of them again on the processor, convergence.jsonl gaits at half the spacing, and
+measurements.jsonl, with its first rows compressed beside it, holds evaluations, processor.jsonl some of them again on the processor, convergence.jsonl gaits at half the spacing, and
 motions.jsonl how recorded bodies move. A row answers a request, and stays: it names the program that made it."""
 import dataclasses
 import functools
@@ -16,6 +16,7 @@ import plan
 import study
 from plan import SECONDS, SUBSTEPS, WATERS
 
+STILL = 0.01  # units/s: slower is no motion worth the name
 FISH = ("anguilliform", "carangiform", "thunniform")
 
 
@@ -29,8 +30,8 @@ def canonical(value):
 # What files must hold: parts that the page rests on.
 ASKED = "program request.scene request.gait.frequency request.scheme request.overrides "
 NEEDED = {"measurements.jsonl": ASKED + "backend result.status result.stopped", "processor.jsonl": ASKED + "backend result.status result.stopped result.hash",
-          "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll largestYaw heights measuredPart",
-          "finalists.json": "gaits", "checkpoint.json": "generation", "config.json": "population generations",
+          "convergence.jsonl": ASKED + "answer.levels", "motions.jsonl": ASKED + "bodyLength tailSwing fits fitsOfBody end.roll end.pitch largestYaw heights measuredPart",
+          "finalists.json": "gaits", "config.json": "population generations",
           "json.gz": "request spine.times spine.centres centres attitude flow"}
 
 
@@ -49,19 +50,33 @@ def checked(text, where, needed):
     return value
 
 
+def unpacked(file):
+    """What a compressed file holds; ValueError where it is damaged."""
+    try:
+        return gzip.decompress(file.read_bytes())
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ValueError(f"{file}: {error}; expected a whole compressed file") from error
+
+
 class Log:
-    """Rows of a file of JSON lines, by the request that each answers; a line that was cut off as it was written counts for nothing, and goes
-    with the next row."""
+    """Rows of a file of JSON lines and of its compressed one (.gz), by the request that each answers; a line that was cut off as it was written
+    counts for nothing, and goes with the next row."""
 
     def __init__(self, file):
         self.file, self.rows, self.cut = file, {}, None
+        packed = file.with_name(file.name + ".gz")
+        if packed.exists():
+            self.take(unpacked(packed), packed)
         if file.exists():
             text = file.read_bytes()
             whole = text[:text.rfind(b"\n") + 1]
             self.cut = len(whole) if whole != text else None
-            for number, line in enumerate(whole.splitlines(), 1):
-                row = checked(line, f"{file}: line {number}", NEEDED.get(file.name, "request"))
-                self.rows[canonical(row["request"])] = row
+            self.take(whole, file)
+
+    def take(self, text, file):
+        for number, line in enumerate(text.splitlines(), 1):
+            row = checked(line, f"{file}: line {number}", NEEDED.get(self.file.name, "request"))
+            self.rows[canonical(row["request"])] = row
 
     def add(self, row):
         with open(self.file, "a", encoding="utf-8") as lines:
@@ -134,7 +149,11 @@ class Study:
     def finished(self):
         """Evolutions that have come to their end, and of which the finalists are known."""
         return [one for one in self.plan.evolutions if (one.folder(self.folder) / "finalists.json").exists()
-                and self.read(one, "checkpoint.json")["generation"] >= self.size.generations]
+                and self.generation(one) >= self.size.generations]
+
+    def generation(self, evolution):
+        """The last of an evolution."""
+        return int((evolution.folder(self.folder) / "generations.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")[0])
 
     def read(self, evolution, name):
         """A file of its run folder. What is finished does not change."""
@@ -189,7 +208,20 @@ class Study:
         """All that is known by now to be measured; what is found adds to it."""
         every = self.plan.independent() + [self.plan.finalist(one) for run in self.finished() for one in self.finalists(run)]
         every += [experiment for subject in self.evolved() for experiment in self.plan.all_of(subject)]
+        every += [one for water in WATERS if (gait := self.two_clusters_that_move(water)) for one in self.plan.controls_of_two_clusters(gait, water).values()]
+        every += [self.plan.weaker(subject) for subject in self.studied("flex")]
         return every + [one for water in WATERS for subject in self.studied(water) for one in self.plan.studies(subject)]
+
+    def two_clusters_that_move(self, water):
+        """The gait by which the body of two clusters goes furthest, if that is further than at rest by more than chance; else None."""
+        gaits = self.plan.gaits_of_two_clusters()
+        rest = self.forward(self.plan.two_clusters(gaits[0], water, "resting"))
+        known = [(one, gait) for gait in gaits if (one := self.forward(self.plan.two_clusters(gait, water, "water"))).count]
+        if not rest.count or not known:
+            return None
+        best, gait = max(known, key=lambda pair: pair[0].mean)
+        net = best.mean - rest.mean
+        return gait if net > math.hypot(best.interval, rest.interval) and net > STILL else None
 
     def swims(self):
         """Every gait in its water."""
@@ -213,10 +245,7 @@ class Study:
         file = self.recording_file(name)
         if not file.exists():
             return None
-        try:
-            found = checked(gzip.decompress(file.read_bytes()), file, NEEDED["json.gz"])
-        except (EOFError, zlib.error) as error:
-            raise ValueError(f"{file}: {error}; expected compressed JSON") from error
+        found = checked(unpacked(file), file, NEEDED["json.gz"])
         return found if canonical(found["request"]) == canonical(request) else None
 
     # Runs and means.
@@ -257,11 +286,16 @@ class Study:
         water, half = self.means(subject, "water"), self.means(subject, "half-step")
         return Speed(water.mean, water.interval, half.mean - water.mean, self.half_spacing(subject)) if water.count else None
 
-    def half_spacing(self, subject):
-        """Speed at half the spacing less that as it is, from the same starts; NaN if it was not measured or became unstable."""
+    def spacings(self, subject):
+        """Speed as it is and at half the spacing, from the same starts; NaN if it was not measured or became unstable."""
         row = self.convergence.find(self.plan.of(subject, "water").request)
         levels = {one["level"]: one.get("speed", {}).get("mean", math.nan) for one in row["answer"]["levels"]} if row else {}
-        return levels.get("spacing/2", math.nan) - levels.get("base", math.nan)
+        return levels.get("base", math.nan), levels.get("spacing/2", math.nan)
+
+    def half_spacing(self, subject):
+        """The change of its speed at half the spacing, or NaN."""
+        base, half = self.spacings(subject)
+        return half - base
 
     def number(self, subject, name):
         """Mean of a dimensionless number of its swims, or None."""
@@ -295,7 +329,8 @@ class Study:
             return None
         on_gpu = any(row["backend"] != "cpu" for row in map(self.measurements.find, swim.runs()) if row)
         ways["cpu"] = self.results(swim, self.processor) if on_gpu else []
-        return judged({name: one for name, one in ways.items() if one}, self.length(subject.creature), self.duration, self.under_water(subject))
+        base, half = self.spacings(subject)
+        return judged({name: one for name, one in ways.items() if one}, self.length(subject.creature), self.duration, self.under_water(subject), half / base)
 
     def swims_by_every_control(self, subject):
         return (self.verdict(subject) or "–")[0] == "✔"
@@ -335,11 +370,12 @@ def percent(share):
     return f"{fixed(100 * share, 0)} %"
 
 
-def judged(runs, length, duration, under_water):
-    """One verdict from all controls, as natator check has it: it swims if it gets further than a dead body does, by more than chance, in the
-    water, and not by the vacuum's drift, the clamp, the time step, one side of its body, or one backend.
+def judged(runs, length, duration, under_water, finer):
+    """One verdict from all controls, as natator check has it, and half the spacing: it swims if it gets further than a dead body does, by more than
+    chance, in the water, and not by the vacuum's drift, the clamp, the time step, the spacing, one side of its body, or one backend.
 
-    runs: results by condition; length: of the body in scene units; under_water: share of the body, or None."""
+    runs: results by condition; length: of the body in scene units; under_water: share of the body, or None; finer: share of its speed that is left
+    at half the spacing, or NaN."""
     ways = {name: Sample.of(map(way, results)) for name, results in runs.items()}
     net = ways["water"].mean - ways["resting"].mean
     drift, known = abs(ways["vacuum"].mean) / net, {name: 2 * one.error / net for name, one in ways.items()}
@@ -355,16 +391,16 @@ def judged(runs, length, duration, under_water):
     at_wall = mostly_stopped(runs["water"]) == "touched-plane"
     speed = f"{with_error(net / duration / length, sd / duration / length)} body lengths/s more than a resting body" \
         + (", until it touches a wall" if at_wall else "")
-    doubts = list(doubted(runs, ways, net, length, drift, known, left, under_water, at_wall))
+    doubts = list(doubted(runs, ways, net, length, drift, known, left, under_water, at_wall, finer))
     if doubts:
         return "–", f"may swim: {speed}; but " + "; ".join(doubts)
     where = ["not in vacuum"] + ([f"without the acceleration clamp ({percent(left['no-clamp'])})"] if "no-clamp" in left else []) \
-        + [f"at half the time step ({percent(left['half-step'])} of its way)", f"mirrored ({percent(left['mirrored'])})"] \
+        + [f"at half the time step ({percent(left['half-step'])} of its way)", f"at half the spacing ({percent(finer)})", f"mirrored ({percent(left['mirrored'])})"] \
         + ([f"on cpu ({percent(left['cpu'])})"] if "cpu" in left else [])
     return "✔", f"swims: {speed}, " + ", ".join(where) + ("" if under_water is None else f"; {percent(under_water)} under water")
 
 
-def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall):
+def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall, finer):
     error = math.hypot(ways["water"].error, ways["resting"].error)
     if (net - 2 * error) / length < 0.05:
         yield "its runs differ too much to tell"
@@ -378,6 +414,8 @@ def doubted(runs, ways, net, length, drift, known, left, under_water, at_wall):
         yield f"it skims: {percent(under_water)} of its body are under water"
     if abs(left["half-step"] - 1) > 0.5:
         yield f"at half the time step it has {percent(left['half-step'])} of its way"
+    if not abs(finer - 1) <= 0.5:
+        yield "it has no stable run at half the spacing" if math.isnan(finer) else f"at half the spacing it has {percent(finer)} of its speed"
     words = {"water": "", "resting": " at rest", "vacuum": " in vacuum", "no-clamp": " without the acceleration clamp",
              "half-step": " at half the time step", "mirrored": " mirrored", "cpu": " on cpu"}
     for name in words.keys() & runs.keys():

@@ -1,9 +1,12 @@
 """The page of the study, README.md, and its tables, tables/*.csv. All that they say of numbers follows from the rows."""
 import csv
 import io
+import json
 import math
 import re
 import statistics
+
+from scipy import stats
 
 import claims
 import measured
@@ -45,16 +48,25 @@ class Page:
 
     def speeds(self, water):
         rows = [["creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "lasts (s)"]
-                + (["Re", "St", "cavities"] if water == "open-water" else [])]
+                + (["Re", "Re by the water's viscosity", "St", "St over a larva's", "cavities"] if water == "open-water" else [])]
         for one, speed in self.known(water):
             length = self.study.length(one.creature)
             changes = ["–" if math.isnan(change) else f"{change / length:+.2f}" for change in (speed.half_step, speed.half_spacing)]
             rows.append([str(one.creature), one.label, with_error(speed.mean / length, speed.error / length), error_text(speed.scatter / length),
                          *changes, fixed(speed.mean / length / one.gait["frequency"]), f"{self.study.lasted(one).mean:.1f}"])
             if water == "open-water":
-                numbers = [self.study.number(one, name) if self.study.may_swim(one) else None for name in ("reynolds", "strouhal", "cavities")]
-                rows[-1] += ["–" if number is None else fixed(number, digits) for number, digits in zip(numbers, (0, 2, 2))]
+                rows[-1] += ["–" if number is None else fixed(number, digits) for number, digits in zip(self.numbers(one), (0, 0, 2, 2, 2))]
         return rows
+
+    def numbers(self, subject):
+        """Of what may swim in open water: Re by the viscosity that is set and by the water's, St, that over a larva's at the latter Re, and cavities."""
+        given = plan.PARAMETERS["kinematic viscosity"][1]["open-water"][0]
+        names = ("reynolds", "strouhal", "cavities")
+        re, st, cavities = ((self.study.number(subject, name) for name in names) if self.study.may_swim(subject) else (None,) * 3)
+        if re is None or st is None:
+            return [None] * 5
+        own = re * given / study.water_viscosity(given)
+        return [re, own, st, st / study.larva(own), cavities]
 
     def verdicts(self, water):
         return [["creature", "gait", "verdict"]] + [[str(one.creature), one.label, " ".join(verdict)] for one in self.study.subjects(water)
@@ -78,11 +90,13 @@ class Page:
             for creature in self.study.size.creatures:
                 speeds = {one.seed: speed for one in self.study.evolved(water, creature) if (speed := self.study.speed(one))}
                 if len(speeds) > 1:
-                    length, ends = self.study.length(creature), [rule(speeds.values(), key=lambda one: one.mean) for rule in (min, max)]
-                    apart = ends[1].mean - ends[0].mean
+                    length, means = self.study.length(creature), [one.mean for one in speeds.values()]
+                    samples = [self.study.means(one, "water") for one in self.study.evolved(water, creature)]
+                    apart, freedom = max(means) - min(means), sum(one.count - 1 for one in samples)
+                    chance = stats.studentized_range.ppf(0.95, len(samples), freedom) * math.sqrt(statistics.fmean(one.error**2 for one in samples))
                     rows.append([str(creature), WORDS[water], *(with_error(speeds[seed].mean / length, speeds[seed].error / length) if seed in speeds
                                                                 else "–" for seed in seeds), fixed(apart / length),
-                                 "✔" if apart <= max(one.error for one in ends) else "✘"])
+                                 "✔" if apart <= chance else "✘"])
         return rows
 
     def gait_table(self):
@@ -225,6 +239,11 @@ class Page:
     def seconds(self, subject):
         return f"{self.study.lasted(subject).mean:.1f} s"
 
+    def not_converged(self, water):
+        changes = [half / base - 1 for base, half in map(self.study.spacings, self.study.evolved(water))]
+        known = [abs(one) for one in changes if not math.isnan(one)]
+        return f"{sum(one > 0.1 for one in known)} of {len(known)}" if known else None
+
     def fastest(self, water):
         swimmers = [one for one in self.study.bests(water) if self.study.swims_by_every_control(one)]
         if not swimmers:
@@ -239,16 +258,10 @@ class Page:
         speeds = [abs(one) for subject in self.study.bests(water) if math.isfinite(one := self.study.means(subject, "vacuum").mean)]
         return f"{fixed(max(speeds))} units/s" if speeds else None
 
-    def eel(self, water):
-        best = self.study.best(2, water)
-        runs = self.study.moves(best) if best else []
-        like = measured.like(runs, "fitsOfBody") if runs else None
-        return None if not runs else "no fish" if like is None else f"{FISH[like]} fish"
-
     def answer(self):
-        published, evolved, fastest, without, eel = (in_each(one) for one in (
-            lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest,
-            self.without_water, self.eel))
+        published, evolved, fastest, without, finer = (in_each(one) for one in (
+            lambda water: self.swimming(self.published(water)), lambda water: self.swimming(self.study.evolved(water)), self.fastest, self.without_water,
+            self.not_converged))
         kept = in_each(lambda water: claims.kept(self.claims, water), "; ")
         if not published:
             return "**Nothing is measured yet.**"
@@ -256,8 +269,15 @@ class Page:
                                                                                          else ".**")]
                         + ([f"The fastest that swims is {fastest}."] if fastest else [])
                         + ([f"Without water, where nothing can swim, the evolved gaits move at up to {without}."] if without else [])
-                        + ([f"Creature 2, which the thesis found to swim like an eel, evolves to swim like {eel}."] if eel else [])
-                        + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
+                        + ([f"At half the spacing {finer} change by more than a tenth."] if finer else [])
+                        + ["Creatures 3 and 4 are our own drawings; open water is not the thesis', nor are its bodies' masses and stiffness."] + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
+
+    def made(self):
+        """By which programs and on what it evolved."""
+        found = [json.loads((one.folder(self.study.folder) / "environment.json").read_text(encoding="utf-8")) for one in self.study.finished()]
+        commits = ", ".join(sorted({one.get("commit", "?")[:8] for one in found}))
+        machines = ", ".join(sorted({one.get("gpu", "0: a processor").split(": ", 1)[1].split(",")[0] for one in found}))
+        return f"Evolved by the program of commit {commits}, on {machines}." if found else ""
 
     def evidence(self):
         rows = [["creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex", "evolved, open water"]]
@@ -270,7 +290,8 @@ class Page:
 
     def told(self, subject):
         speed = self.study.speed(subject) if subject else None
-        return f"{(self.study.verdict(subject) or '–')[0]} {with_error(speed.mean, speed.error)}" if speed else ""
+        sign = (self.study.verdict(subject) or "–")[0] if speed else ""
+        return f"{sign} {with_error(speed.mean, speed.error)}" if speed and sign != "✘" else sign
 
     def told_of_seeds(self, creature, water):
         seeds = self.swimming(self.study.evolved(water, creature))
@@ -283,9 +304,12 @@ class Page:
     # What README.md asks for by name.
 
     def reynolds(self):
-        known = [one for subject in self.study.subjects("open-water") if self.study.may_swim(subject)
-                 and (one := self.study.number(subject, "reynolds")) is not None]
-        return f": what swims there has a Reynolds number of {min(known):.0f} to {max(known):.0f}, as the larva of a fish" if known else ""
+        found = [numbers for subject in self.study.subjects("open-water") if (numbers := self.numbers(subject))[0]]
+        if not found:
+            return ""
+        (least, most), (low, high), (first, last) = ((min(values), max(values)) for values in ([one[k] for one in found] for k in (0, 1, 3)))
+        return f": what may swim there has Reynolds numbers of {least:.0f} to {most:.0f} by it, {low:.0f} to {high:.0f} by " \
+               f"[the water's](../water/README.md), and {fixed(first, 1)} to {fixed(last, 1)} times a larva's Strouhal number"
 
     def sinking(self):
         runs = [one for creature in self.study.size.creatures for one in self.study.results(self.plan.sinking(creature))]
@@ -310,7 +334,7 @@ class Page:
         programs = {row["program"] for log in logs for row in log.rows.values()}
         counts = [len(log.rows) for log in logs]
         return f"{len(self.study.finished())} of {len(self.plan.evolutions)} evolutions are finished. {counts[0]} evaluations on {', '.join(backends)} " \
-               f"(`measurements.jsonl`), {counts[1]} of them again on the processor (`processor.jsonl`), {counts[2]} gaits at half the spacing " \
+               f"(`measurements.jsonl.gz`), {counts[1]} of them again on the processor (`processor.jsonl`), {counts[2]} gaits at half the spacing " \
                f"(`convergence.jsonl`) and {counts[3]} recorded motions (`motions.jsonl`), by {len(programs)} builds of the native program, " \
                "which every row names by its SHA-256."
 

@@ -16,6 +16,8 @@ FEW = 4  # runs of what is not a gait in its water, at most
 # What may be special about a swim; clamp and masses that the thesis may have meant are flex' alone.
 CONDITIONS = {"flex": ("water", "resting", "vacuum", "no-clamp", "half-step", "mirrored", "other-water", "inverse-mass"),
               "open-water": ("water", "resting", "vacuum", "half-step", "mirrored", "other-water")}
+CHANGES = {"no-clamp": {"solver": {"maxAcceleration": 3.4028234663852886e38}}, "half-step": {"solver": {"substeps": 2 * SUBSTEPS}},
+           "inverse-mass": {"fluid": {"mass": {"gradient": "inverse-mass-linear"}}}}
 POWERS, PHASE_STEPS = (0.5, 1.0, 2.0, 4.0), (0.25, 0.75)  # of potentiated activation (thesis 4.2)
 STUDIED = "2-step-0.862"  # the published gait that swims: parameters are studied with it and with what evolved
 # Thesis 4.1: name, how it is set, and by water its own value and those that are tried.
@@ -195,8 +197,7 @@ class Plan:
         asked = request(scene(subject.creature, water), gait, water, stopping(subject.seed > 0), self.size.duration)
         if condition == "vacuum":
             asked = in_vacuum(asked)
-        change = {"no-clamp": {"solver": {"maxAcceleration": 3.4028234663852886e38}}, "half-step": {"solver": {"substeps": 2 * SUBSTEPS}},
-                  "inverse-mass": {"fluid": {"mass": {"gradient": "inverse-mass-linear"}}}}.get(condition, {})
+        change = CHANGES.get(condition, {})
         central = condition in ("water", "half-step") and first == FRESH
         return self.experiment(merged(asked, change), self.size.runs if central else None, first)
 
@@ -211,6 +212,11 @@ class Plan:
         asked = self.of(subject, "water").request
         asked = asked if value == own else merged(asked, set_to(name, value))
         return self.experiment(in_vacuum(asked) if vacuum else asked)
+
+    def weaker(self, subject):
+        """A gait of half the amplitudes."""
+        asked = self.of(subject, "water").request
+        return self.experiment({**asked, "gait": {**asked["gait"], "amplitude": [one / 2 for one in asked["gait"]["amplitude"]]}})
 
     def parameters(self, water):
         """(name, own value, values, whether in vacuum too) of those that mean anything in a water."""
@@ -240,8 +246,14 @@ class Plan:
     def two_clusters(self, gait, water, setting):
         """Thesis 4.3: a body of two clusters and one joint."""
         name, change = ("thesis/two-clusters", {}) if water == "flex" else (scene(1, water), {"creature": {"name": "two-clusters"}})
-        asked = request(name, resting(gait) if setting == "resting" else gait, water, {**stopping(False), **change}, self.size.duration)
-        return self.experiment(in_vacuum(asked) if setting == "vacuum" else asked)
+        gait = resting(gait) if setting == "resting" else mirrored(gait) if setting == "mirrored" else gait
+        asked = merged(request(name, gait, water, {**stopping(False), **change}, self.size.duration), CHANGES.get(setting, {}))
+        return self.experiment(in_vacuum(asked) if setting == "vacuum" else asked, first=LUCKY if setting == "again" else FRESH)
+
+    def controls_of_two_clusters(self, gait, water):
+        """What tells whether it swims, by starts that did not choose it."""
+        names = ("again", "resting", "vacuum", "half-step", "mirrored") + (("no-clamp",) if water == "flex" else ())
+        return {"water" if name == "again" else name: self.two_clusters(gait, water, name) for name in names}
 
     def sinking(self, creature):
         """The thesis' tank and bodies as they are, in scheme conserving."""

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Recomputes the speeds of results/thesis/tables from the raw files: python3 results/thesis/recompute.py [--entries N] [--seed S]
 
-Draws N entries (50; 0 for all) by chance from tables/speeds-*.csv, works each out anew from measurements.jsonl,
+Draws N entries (50; 0 for all) by chance from tables/speeds-*.csv, works each out anew from measurements.jsonl.gz,
 convergence.jsonl, motions.jsonl and finalists.json, with nothing of what made the tables, and compares what they have. Exit status 1 if any differs.
 """
 import argparse
 import collections
 import csv
+import gzip
 import json
 import math
 import pathlib
@@ -23,8 +24,9 @@ STOPPING = {"flex": "thesis", "open-water": "open-water"}
 
 
 def lines(name):
-    with open(HERE / name, encoding="utf-8") as file:
-        return [json.loads(line) for line in file]
+    """Rows of a file of JSON lines and of its compressed one."""
+    files = [(HERE / name, open), (HERE / f"{name}.gz", gzip.open)]
+    return [json.loads(line) for path, opened in files if path.exists() for line in opened(path, "rt", encoding="utf-8")]
 
 
 def canonical(value):
@@ -115,7 +117,7 @@ def speeds(study):
             mean = statistics.mean(water_speeds)
             scatter = STUDENT[len(water_speeds) - 1] * statistics.stdev(water_speeds) / math.sqrt(len(water_speeds))
             step = statistics.mean(half) - mean
-            levels = {one["level"]: one["speed"]["mean"] for one in study.change.get(key, [])}
+            levels = {one["level"]: one["speed"]["mean"] for one in study.change.get(key, []) if "speed" in one}
             spacing = levels["spacing/2"] - levels["base"] if "spacing/2" in levels else None
             error = max(scatter, abs(step), abs(spacing or 0))
             where = (water, str(creature), label)

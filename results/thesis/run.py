@@ -91,7 +91,7 @@ class Work:
                 fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 raise Failure(f"{held.name} is in use by another run") from error
-            for work in (self.evolve, self.measure, self.finer, self.on_processor, self.record, self.portray):
+            for work in (self.evolve, self.measure, self.on_processor, self.record, self.finer, self.portray):
                 work()
 
     def say(self, count, what):
@@ -105,7 +105,7 @@ class Work:
         """What is, of all that is known by now, in words."""
         study = self.study
         return (f"{len(self.unfinished())} evolutions to finish; then, of what is evolved so far, {len(self.to_measure())} evaluations, "
-                f"{len(study.convergence.missing(self.evolved_requests()))} gaits at half the spacing, {len(study.processor.missing(self.again()))} runs on "
+                f"{len(study.convergence.missing(self.to_refine()))} gaits at half the spacing, {len(study.processor.missing(self.again()))} runs on "
                 f"the processor, {len(study.motions.missing(self.to_record()))} motions and {len(self.undrawn())} recordings")
 
     # Evolutions.
@@ -169,12 +169,13 @@ class Work:
         if asked:
             self.evaluate(asked, self.study.processor, "cpu")
 
-    def evolved_requests(self):
-        return [self.study.plan.of(one, "water").request for one in self.study.evolved() if one.water in self.study.size.finer]
+    def to_refine(self):
+        return [self.study.plan.of(one, "water").request for water in self.study.size.finer for one in self.study.subjects(water)
+                if one.seed or self.study.may_swim(one)]
 
     def finer(self):
-        """What evolved at half the spacing of all particles, from three starts."""
-        asked = self.study.convergence.missing(self.evolved_requests())
+        """What evolved, and what else may swim, at half the spacing of all particles, from three starts."""
+        asked = self.study.convergence.missing(self.to_refine())
         if asked:
             self.say(len(asked), "gaits at half the spacing")
         for request in asked:

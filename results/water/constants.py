@@ -3,8 +3,7 @@
 
 usage: constants.py --build FOLDER          builds the program there, from this tree, with the constants of dfsph.h read from the environment
        constants.py --run FOLDER            runs it for all that constants.csv lacks
-       constants.py                         writes the table of constants.csv into README.md, of those constants that change some figure
-       constants.py --all                   prints the table of all
+       constants.py                         prints the table of constants.csv
 
 Shares of rest density are moved a third of their way to 1, or as far away from it; determinants by a quarter down, or a half up, so that
 ranges stay ranges. Each figure is a mean over three starts, less that of the constants as they are; bold from three standard errors on.
@@ -23,7 +22,6 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 HEADER = "sim-native/src/physics/dfsph.h"
-MARK = "<!-- constants: by constants.py -->"
 TABLE = HERE / "constants.csv"
 CASES = {"column": 8, "vortex": 8, "neutral-sphere": 8}  # resolution of each
 STARTS = 3
@@ -128,43 +126,28 @@ def cell(figure, plain):
     return f"**{text}**" if abs(difference) > 3 * spread * math.sqrt(2 / STARTS) else text
 
 
-def table(everything):
-    """Lines: every constant, or those that change some figure by three standard errors."""
+def table():
+    """Lines, of every constant."""
     all_rows = rows()
     plain = figures(row for row in all_rows if not row["constant"])
-    lines = ["| constant | other value | " + " | ".join(FIGURES.values()) + " |",
-             "|---|---:|" + "---:|" * len(FIGURES),
-             "| as they are | | " + " | ".join(f"{statistics.mean(plain[key]):.3g}" for key in FIGURES) + " |"]
+    yield "| constant | other value | " + " | ".join(FIGURES.values()) + " |"
+    yield "|---|---:|" + "---:|" * len(FIGURES)
+    yield "| as they are | | " + " | ".join(f"{statistics.mean(plain[key]):.3g}" for key in FIGURES) + " |"
     for name, (kind, value) in constants().items():
         for other in variants(name, kind, value):
             own = figures(row for row in all_rows if row["constant"] == name and float(row["value"]) == other)
-            cells = [cell(own[key], plain[key]) for key in FIGURES] if own else []
-            if cells and (everything or any(one.startswith(("**", "unstable")) for one in cells)):
-                lines.append(f"| `{name}` {value:g} | {other:g} | " + " | ".join(cells) + " |")
-    return lines
-
-
-def show():
-    lines = table(everything=False)
-    page = HERE / "README.md"
-    before, after = page.read_text(encoding="utf-8").split(MARK + "\n")
-    rest = after.split("\n")
-    while rest[0].startswith("|"):
-        rest.pop(0)
-    page.write_text("\n".join([before + MARK, *lines, *rest]), encoding="utf-8")
+            if own:
+                yield f"| `{name}` {value:g} | {other:g} | " + " | ".join(cell(own[key], plain[key]) for key in FIGURES) + " |"
 
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--build", type=pathlib.Path)
 parser.add_argument("--run", type=pathlib.Path)
-parser.add_argument("--all", action="store_true")
 if __name__ == "__main__":
     options = parser.parse_args()
     if options.build:
         build(options.build)
     if options.run:
         run(options.run)
-    if options.all:
-        print(*table(everything=True), sep="\n")
-    elif not options.build and not options.run:
-        show()
+    if not options.build and not options.run:
+        print(*table(), sep="\n")

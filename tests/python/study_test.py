@@ -52,22 +52,45 @@ class Statistics(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    def check(self, root):
-        return subprocess.run([sys.executable, root / "results/precision/make.py", "--check"], capture_output=True, text=True, check=False,
-                              env={"PYTHONPATH": str(root / "results")})
+    def check(self, page, change):
+        """What --check of a page's copy says (exit code, errors), when the data are as they are and when they were changed."""
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder) / "results"
+            shutil.copytree(ROOT / "results" / page, root / page)
+            shutil.copy(ROOT / "results/study.py", root / "study.py")
+
+            def told():
+                done = subprocess.run([sys.executable, root / page / "make.py", "--check"], capture_output=True, text=True, check=False,
+                                      env={"PYTHONPATH": str(root)})
+                return done.returncode, done.stderr
+            before = told()
+            change(root / page)
+            return before, told()
+
+    def changed(self, page, name, old, new):
+        def change(folder):
+            text = (folder / name).read_text()
+            self.assertIn(old, text)
+            (folder / name).write_text(text.replace(old, new))
+        return self.check(page, change)
 
     def test_tells_of_what_the_data_do_not_give(self):
-        with tempfile.TemporaryDirectory() as folder:
-            root = pathlib.Path(folder)
-            shutil.copytree(ROOT / "results/precision", root / "results/precision")
-            shutil.copy(ROOT / "results/study.py", root / "results/study.py")
-            self.assertEqual((0, ""), ((done := self.check(root)).returncode, done.stderr))
-            data = root / "results/precision/precision.csv"
+        def change(folder):
+            data = folder / "precision.csv"
             text = data.read_text().splitlines(keepends=True)
-            data.write_text("".join(line for line in text if "tank-creature-1,flex" not in line))
-            done = self.check(root)
-            self.assertEqual(1, done.returncode)
-            self.assertRegex(done.stderr, r"^\S*precision-tank-creature-1.png: is not what make.py makes of the data; run: results/redo.sh precision\n$")
+            data.write_text("".join(line for line in text if not line.startswith("hanging-chain,flex,double")))
+        before, (code, errors) = self.check("precision", change)
+        self.assertEqual((0, ""), before)
+        self.assertEqual(1, code)
+        self.assertRegex(errors, r"^\S*precision-hanging-chain.png: is not what make.py makes of the data; run: results/redo.sh precision\n$")
+
+    def test_tells_of_an_answer_that_no_longer_follows(self):
+        for page, name, old, new in (("convergence", "gaits.csv", "1.72,1.31,", "1.72,1.70,"), ("stability", "stability.csv", "dt,32,,,ok,,", "dt,32,,,unstable,tank,"),
+                                     ("endless", "results.jsonl", '"distance":2.869', '"distance":3.869')):
+            before, (code, errors) = self.changed(page, name, old, new)
+            self.assertEqual((0, ""), before, page)
+            self.assertEqual(1, code, page)
+            self.assertRegex(errors, rf"^\S*README.md: is not what make.py makes of the data; run: results/redo.sh {page}\n$")
 
 
 if __name__ == "__main__":

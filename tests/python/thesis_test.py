@@ -44,11 +44,23 @@ class Conclusions(unittest.TestCase):
         self.assertEqual([FAILS, HOLDS], [trend(-0.09).stops(), trend(0.005).stops()])
         self.assertEqual([HOLDS, FAILS, FAILS], [trend(mean).slows_a_little() for mean in (0.07, 0.03, 0.10)])
 
+    def test_unstable_is_what_hardly_swims_or_swims_by_chance(self):
+        wild = Trend(about(0.10), [Sample.of([0.3, -0.1, 0.2, -0.05])])
+        self.assertEqual([HOLDS, FAILS, HOLDS, HOLDS], [one.is_unstable() for one in (trend(0.005), trend(0.05), trend(-0.05), wild)])
+
+    def test_one_recording_leaves_a_quarter_open(self):
+        self.assertEqual([HOLDS, OPEN, OPEN, FAILS], [claims.surely(value, 2) for value in (2.6, 2.4, 1.7, 1.5)])
+
+    def test_a_body_that_rises_is_not_straight(self):
+        rows = [{"largestYaw": 0.1, "end": {"roll": -0.2}, "heights": [0.8, 1.2], "speed": 0.25, "simulated": 4.0}]
+        yaw, roll, rise = claims.straightness(rows)
+        self.assertEqual((5.7, 11.5, 0.4), (round(yaw, 1), round(roll, 1), round(rise, 1)))
+
     def test_no_difference_is_said_only_where_one_would_show(self):
         wild = Sample.of([0.0, 0.2, 0.05, 0.15])
         self.assertEqual([HOLDS, FAILS, OPEN], [Trend(usual, [other]).makes_no_difference() for usual, other in
                                                 ((about(0.2), about(0.2)), (about(0.2), about(0.14)), (wild, wild))])
-        self.assertEqual([True, False], [Trend(one, []).swims for one in (wild, Sample.of([-0.1, 0.1, 0.02]))])
+        self.assertEqual([True, False], [Trend(one, []).swims for one in (Sample.of([0.05, 0.2, 0.1, 0.15]), wild)])
 
     def test_several_tests_agree_or_are_open(self):
         self.assertEqual([HOLDS, OPEN, claims.VOID], [claims.agreed([HOLDS, HOLDS]), claims.agreed([HOLDS, FAILS]), claims.agreed([], claims.VOID)])
@@ -76,6 +88,13 @@ class Numbers(unittest.TestCase):
             self.assertEqual([asked[1]], again.missing([*asked, {**asked[1], "start": 2.0}]))
             again.add({"request": asked[1], "result": {}})
             self.assertEqual(whole, file.read_text())
+            packed = file.with_name("rows.jsonl.gz")
+            packed.write_bytes(gzip.compress(whole.replace('"a"', '"b"').encode()))
+            both = measured.Log(file)
+            self.assertEqual([asked[0], {**asked[0], "scene": "b"}], [both.find(one)["request"] for one in (asked[0], {**asked[0], "scene": "b"})])
+            packed.write_bytes(packed.read_bytes()[:-4])
+            with self.assertRaisesRegex(ValueError, "rows.jsonl.gz: .*; expected a whole compressed file"):
+                measured.Log(file)
 
 
 class Finalists(unittest.TestCase):
@@ -119,10 +138,13 @@ class Verdicts(unittest.TestCase):
                 ({"water": swims(0.1, 4.0)}, "–", "its runs differ too much to tell"),
                 ({"water": swims(0.4, 0.4, stopped="touched-plane")}, "–", "the wall is nearer than 0.5 body lengths"),
                 ({"mirrored": unstable}, "–", "1 of 2 runs was unstable mirrored")):
-            verdict = measured.judged({**self.GOOD, **changed}, 1.0, 4.0, None)
+            verdict = measured.judged({**self.GOOD, **changed}, 1.0, 4.0, None, 0.9)
             self.assertEqual(sign, verdict[0], (changed, verdict))
             self.assertIn(words, verdict[1])
-        self.assertIn("it skims: 30 %", measured.judged(self.GOOD, 1.0, 4.0, 0.3)[1])
+        self.assertIn("it skims: 30 %", measured.judged(self.GOOD, 1.0, 4.0, 0.3, 0.9)[1])
+        for finer, words in ((0.45, "at half the spacing it has 45 % of its speed"), (math.nan, "it has no stable run at half the spacing")):
+            sign, said = measured.judged(self.GOOD, 1.0, 4.0, None, finer)
+            self.assertEqual(("–", True), (sign, words in said), said)
 
 
 class Motion(unittest.TestCase):

@@ -1,0 +1,45 @@
+"""The page's answer and tables, of stability.csv: where a law is broken, and by how much of what it allows. Its picture is draw.py's."""
+import pathlib
+
+import pandas
+import study
+
+HERE = pathlib.Path(__file__).parent
+SCHEMES = ("flex", "conserving")
+
+
+def breaches(runs, scheme):
+    """16, 24, 32: tank, 2.55: the values, the law, the most that is used of what it allows"""
+    own = runs[runs.scheme == scheme]
+    broken = own[own.status != "ok"]
+    if broken.empty:
+        return "–"
+    values = ", ".join(f"{value:g}" for value in sorted(broken.value))
+    how = "while settling" if (broken.stage == "settling").all() else f"{broken.largest.max():.2f}"
+    return f"{values}: {', '.join(dict.fromkeys(broken.law))}, {how}"
+
+
+def make(folder):
+    table = pandas.read_csv(HERE / "stability.csv")
+    single, pairs = table[table.second_axis.isna()], table[table.second_axis.notna()]
+    tank = single[(single.scene == "small-tank") & (single.precision == "float")]
+    rows = [[axis, f"{own.value.min():g} to {own.value.max():g}", *(breaches(own, scheme) for scheme in SCHEMES)] for axis, own in tank.groupby("axis", sort=False)]
+    calm = [f"{axis} ({extent})" for axis, extent, *found in rows if found == ["–", "–"]]
+    alike = all(set(map(tuple, own[own.precision == "float"][["scheme", "value", "status"]].values)) >= set(
+        map(tuple, own[own.precision == "double"][["scheme", "value", "status"]].values)) for _, own in single[single.scene == "small-tank"].groupby("axis"))
+    scenes = [[scene] + ["; ".join(f"{axis} {found.split(':')[0]}" for axis, runs in own.groupby("axis", sort=False) if (found := breaches(runs, scheme)) != "–") or "–"
+                         if scheme in set(own.scheme) else "" for scheme in SCHEMES]
+              for scene, own in single[single.scene != "small-tank"].groupby("scene", sort=False)]
+    both = [[f"{first}, {second}", *(f"{(own[own.scheme == scheme].status != 'ok').sum()} of {(own.scheme == scheme).sum()}" for scheme in SCHEMES)]
+            for (first, second), own in pairs.groupby(["axis", "second_axis"], sort=False)]
+    broken = table[table.status != "ok"].scheme.value_counts()
+    finite = "No value was infinite. " if not (table.law == "finite").any() else ""
+    answer = f"**Of {len(table)} runs {broken.get('flex', 0)} in `flex` and {broken.get('conserving', 0)} in `conserving` break a law.** {finite}" \
+             + ("Double breaks at the same points as float.\n" if alike else "Double breaks at other points than float.\n")
+    (folder / "README.md").write_text(study.filled(
+        HERE / "README.md", answer=answer, axes=study.table(["axis", "range", *SCHEMES], [row for row in rows if row[2:] != ["–", "–"]], "<<<<")
+        + f"\nNowhere: {', '.join(calm)}.\n", scenes=study.table(["scene", *SCHEMES], scenes, "<<<"),
+        pairs=study.table(["two things", *SCHEMES], both)), encoding="utf-8")
+
+
+study.main(make)

@@ -1,0 +1,25 @@
+"""The page's answer, of swimmers-targets.csv: which targets each scheme meets in its largest box, with the most beats, at its finest."""
+import pathlib
+
+import pandas
+import study
+
+HERE = pathlib.Path(__file__).parent
+
+
+def make(folder):
+    table = pandas.read_csv(HERE / "swimmers-targets.csv", keep_default_na=False)
+    table = table[table.mach.astype(str).isin(["", "0.15"])]
+    told = []
+    for scheme in ("lattice", "conserving"):
+        own = table[table.scheme == scheme].sort_values(["box", "beats", "resolution", "met"], ascending=[True, True, True, False], kind="stable")
+        finest = own.drop_duplicates(["case", "variant", "quantity", "over"], keep="last")  # at all pressures: "no" is last
+        missed = finest[finest.met != "yes"]
+        names = dict.fromkeys(" ".join(filter(None, (row.case, row.variant if row.variant != "all" else "", row.quantity, row.over and f"by {row.over.replace('_', ' ')}")))
+                              for row in missed.itertuples())
+        confirmed = (finest.confirmed == "yes").sum()
+        told.append(f"In `{scheme}` {(finest.met == 'yes').sum()} of {len(finest)} targets, {confirmed} of them confirmed, are met at its finest; not: {', '.join(names)}.")
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=f"**{told[0]}** {told[1]}\n"), encoding="utf-8")
+
+
+study.main(make)
