@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/field.h"
+#include "base/side_by_side.h"
 #include "base/strict_json.h"
 #include "commands.h"
 #include "job.h"
@@ -13,7 +14,6 @@
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "options.h"
-#include "base/side_by_side.h"
 
 namespace natator::cli {
 namespace {

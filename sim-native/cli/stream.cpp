@@ -6,8 +6,8 @@
 #include <sstream>
 #include <vector>
 
-#include "base/text.h"
 #include "backend.h"
+#include "base/text.h"
 #include "commands.h"
 #include "gait_argument.h"
 #include "job.h"
@@ -73,7 +73,8 @@ void run_stream(StreamOptions& options) {
     if (size.swims > 1) execution.threads = 1;
     const SimulationSetup setup = read_setup(options);
     SharedGpu shared;
-    if (options.backend.name != "cpu" && on_gpu(options.backend, load_scene(setup.scene, SceneOptions{setup.overrides, setup.data}))) {
+    if (options.backend.name != "cpu" &&
+        on_gpu(options.backend, load_scene(setup.scene, SceneOptions{setup.overrides, setup.data}))) {
         execution.gpu = options.backend.device;
         execution.shared = &shared;
     }
@@ -143,9 +144,10 @@ void add_stream(CLI::App& app, int& status) {
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
     command
-        ->add_option("--backend", options->backend.name,
-                     "cpu, cuda (a GPU), or auto (a GPU where there is one). Swims on a GPU that are told to act by one "
-                     "message go on by the same kernels.")
+        ->add_option(
+            "--backend", options->backend.name,
+            "cpu, cuda (a GPU), or auto (a GPU where there is one). Swims on a GPU that are told to act by one "
+            "message go on by the same kernels.")
         ->check(one_of({"cpu", "cuda", "auto"}))
         ->capture_default_str();
     command->add_option("--device", options->backend.device, "Number of the GPU, see natator-sim info.")

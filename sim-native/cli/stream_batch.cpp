@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/side_by_side.h"
 #include "base/strict_json.h"
 #include "base/text.h"
 #include "commands.h"
 #include "natator/error.h"
 #include "protocol/protocol.h"
-#include "base/side_by_side.h"
 
 namespace natator::cli {
 namespace {

@@ -50,8 +50,10 @@ TEST_P(GpuTogether, EachHasTheBitsThatItHasAlone) {
         std::vector<Simulation<float>*> together;
         for (int number = 0; number < 9; ++number) {
             steer(number, frame, *swims[number]);
-            if (number == 4 && frame == 2) EXPECT_TRUE(swims[number]->step()) << "one goes by itself";
-            else together.push_back(swims[number].get());
+            if (number == 4 && frame == 2)
+                EXPECT_TRUE(swims[number]->step()) << "one goes by itself";
+            else
+                together.push_back(swims[number].get());
         }
         for (const bool stable : step_together(together, 4)) EXPECT_TRUE(stable);
     }

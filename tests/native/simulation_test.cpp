@@ -256,6 +256,28 @@ TEST(SimulationTest, WaterThatIsCompressedEndsAStreamAsItEndsAnEvaluation) {
     EXPECT_EQ(simulation.instability()->law, "compression");
 }
 
+/// Each as by itself, in any company; what is unstable stands still.
+TEST(SimulationTest, SeveralGoOnTogether) {
+    const json falling{{"settling", {{"updates", 0}}}, {"solver", {{"gravity", {0, -1000, 0}}, {"maxSpeed", 1e9}}}};
+    std::vector<Simulation<float>> alone, together;
+    for (auto* swims : {&alone, &together}) {
+        swims->push_back(swimmer(in_water, hardly_settled));
+        swims->push_back(swimmer(in_water, falling));
+        swims->push_back(swimmer(in_vacuum));
+        swims->back().drive({0.5, -0.5});
+    }
+    std::vector<bool> stable;
+    for (int frame = 0; frame < 4; ++frame) {
+        for (Simulation<float>& swim : alone) swim.step();
+        stable = step_together<float>({&together[0], &together[1], &together[2]}, 2);
+    }
+    EXPECT_EQ(stable, (std::vector<bool>{true, false, true}));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(together[k].frames(), alone[k].frames()) << k;
+        EXPECT_EQ(state_hash(together[k].state()), state_hash(alone[k].state())) << k;
+    }
+}
+
 /// The densities of a state are the same whether or not an update has just led to it, but for pairs that come to less
 /// than the radius within a substep: they weigh (1 - r/R)^2, next to nothing.
 TEST(SimulationTest, DensitiesOfAStateNeedNoUpdate) {

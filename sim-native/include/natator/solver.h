@@ -58,8 +58,8 @@ struct Residuals {
     Residual clusters{};
 };
 
-/// What Solvers on a GPU share (Execution::shared): they take turns in the memory of as few States as compute at a time,
-/// and those of equal Models can go on together (step_together). Any number of threads.
+/// What Solvers on a GPU share (Execution::shared): they take turns in the memory of as few States as compute at a
+/// time, and those of equal Models can go on together (step_together). Any number of threads.
 class SharedGpu {
 public:
     SharedGpu();
@@ -67,15 +67,15 @@ public:
     SharedGpu(const SharedGpu&) = delete;
     SharedGpu& operator=(const SharedGpu&) = delete;
 
-    struct Pools;                        ///< of the sources
+    struct Pools;                       ///< of the sources
     Pools& pools() { return *pools_; }  ///< likewise
 
 private:
     std::unique_ptr<Pools> pools_;
 };
 
-/// Where and how something is computed. None of these but `gpu` and `shared` changes the result. What they point to must live as
-/// long as what they are given to, and a profile is that of one thread.
+/// Where and how something is computed. None of these but `gpu` and `shared` changes the result. What they point to
+/// must live as long as what they are given to, and a profile is that of one thread.
 struct Execution {
     StageProfile* profile = nullptr;            ///< where the time goes; null costs nothing
     const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
@@ -88,8 +88,8 @@ struct Execution {
     /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU.
     /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
     std::optional<int> gpu{};
-    /// With others on that GPU. In scheme `flex` by kernels of the whole GPU, whose last digits may differ (GpuPath); no
-    /// pressures and forces
+    /// With others on that GPU. In scheme `flex` by kernels of the whole GPU, whose last digits may differ (GpuPath);
+    /// no pressures and forces
     SharedGpu* shared = nullptr;
     bool skip = true;  ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };

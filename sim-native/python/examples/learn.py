@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Learns to swim by PPO (Schulman et al. 2017, of skrl) in many environments at a time, and swims it from starts that learning never drew."""
+"""Learns to swim by PPO (Schulman et al. 2017) in many environments at a time, then swims from starts that learning never drew."""
 
 import argparse
 import csv
+import json
 import os
 import time
 
@@ -17,16 +18,16 @@ from skrl.trainers.jax import SequentialTrainer
 
 from natator.gym import SwimmerVectorEnv
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter, allow_abbrev=False)
-parser.add_argument("folder", help="gets curve.csv, returns.csv of new starts, and agent.pickle")
-parser.add_argument("--scene", default="pool/tadpole")
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+parser.add_argument("folder", help="gets policy.npz and curve.csv; a policy that is there is swum, not learned again")
+parser.add_argument("--scene", default="endless/small")
+parser.add_argument("--vary", type=json.loads, nargs="*", default=[None], help="overrides that environments learn with by turns")
+parser.add_argument("--check", type=json.loads, nargs="*", default=[None], help="overrides to swim with in the end")
 parser.add_argument("--target", type=float, nargs=3, help="where to; without it, ahead")
-parser.add_argument("--num-envs", type=int, default=256)
-parser.add_argument("--steps", type=int, default=3200, help="of each environment")
-parser.add_argument("--rollouts", type=int, default=40, help="steps between updates")
+for name, default, text in (("num-envs", 256, "at a time"), ("steps", 1500, "of each"), ("rollouts", 20, "steps between updates"), ("seed", 1, "of all")):
+    parser.add_argument(f"--{name}", type=int, default=default, help=text)
 parser.add_argument("--duration", type=float, default=4.0, help="of an episode, s")
-parser.add_argument("--backend", default="auto")
-parser.add_argument("--seed", type=int, default=1)
+parser.add_argument("--backend", default="auto", help="cpu, cuda or auto")
 options = parser.parse_args()
 
 
@@ -62,34 +63,47 @@ class Episodes(SwimmerVectorEnv):
         observations, rewards, terminated, truncated, infos = super().step(actions)
         self.sums, ended = self.sums + rewards, terminated | truncated
         if np.any(ended):
-            self.rows.append([round(time.time() - self.begin, 1), np.sum(ended), self.sums[ended].mean()])
+            self.rows.append([round(time.time() - self.begin, 1), np.sum(ended), round(self.sums[ended].mean(), 4)])
             self.sums = np.where(ended, 0, self.sums)
         return observations, rewards, terminated, truncated, infos
 
 
-env = Episodes(options.num_envs, "SameStep", scene=options.scene, target=options.target, duration=options.duration, backend=options.backend)
-wrapped = wrap_env(env, wrapper="gymnasium")
-config.jax.key = options.seed
-spaces = {"observation_space": wrapped.observation_space, "action_space": wrapped.action_space, "device": wrapped.device}
-models = {"policy": Policy(**spaces), "value": Value(**spaces)}
-for role, model in models.items():
-    model.init_state_dict(role=role)
-agent = PPO(models=models, memory=RandomMemory(memory_size=options.rollouts, num_envs=env.num_envs, device=wrapped.device), **spaces,
-            cfg={"rollouts": options.rollouts, "mini_batches": 4, "discount_factor": 0.98, "grad_norm_clip": 0.5,
-                 "rewards_shaper": lambda rewards, *_: 10 * rewards, "experiment": {"write_interval": 0, "checkpoint_interval": 0}})
-SequentialTrainer(env=wrapped, agents=agent, cfg={"timesteps": options.steps, "headless": True, "close_environment_at_exit": False}).train()
+def learn(env):
+    env.reset(options={"overrides": [options.vary[k % len(options.vary)] for k in range(env.num_envs)]})  # from now on
+    config.jax.key = options.seed
+    wrapped = wrap_env(env, wrapper="gymnasium")
+    spaces = {"observation_space": wrapped.observation_space, "action_space": wrapped.action_space, "device": wrapped.device}
+    models = {"policy": Policy(**spaces), "value": Value(**spaces)}
+    for role, model in models.items():
+        model.init_state_dict(role=role)
+    agent = PPO(models=models, memory=RandomMemory(memory_size=options.rollouts, num_envs=env.num_envs, device=wrapped.device), **spaces,
+                cfg={"rollouts": options.rollouts, "mini_batches": 4, "discount_factor": 0.98, "grad_norm_clip": 0.5,
+                     "rewards_shaper": lambda rewards, *_: 10 * rewards, "experiment": {"write_interval": 0, "checkpoint_interval": 0}})
+    SequentialTrainer(env=wrapped, agents=agent, cfg={"timesteps": options.steps, "headless": True, "close_environment_at_exit": False}).train()
+    os.makedirs(options.folder, exist_ok=True)
+    with open(f"{options.folder}/curve.csv", "w", newline="") as file:
+        csv.writer(file).writerows(env.rows)
+    layers = models["policy"].state_dict.params["params"]
+    np.savez(f"{options.folder}/policy.npz", *[layers[f"Dense_{k}"][part] for k in (2, 1, 0) for part in ("kernel", "bias")])  # inmost first
 
-# Without noise, from starts that learning never drew.
-observations, _ = env.reset(options={"start": [1000 + k for k in range(env.num_envs)]})
-returns, over = np.zeros((2, env.num_envs))
-while not np.all(over):
-    observations, rewards, terminated, truncated, _ = env.step(agent.act(observations, None, timestep=0, timesteps=0)[1]["mean_actions"])
-    returns, over = returns + np.where(over, 0, rewards), np.maximum(over, terminated | truncated)
+
+def swim(env, layers, overrides=None):
+    """Returns without noise in the actions."""
+    observations, _ = env.reset(options={"start": [1000 + k for k in range(env.num_envs)], "overrides": overrides})
+    returns, over = np.zeros((2, env.num_envs))
+    while not np.all(over):
+        hidden = np.tanh(np.tanh(observations @ layers[0] + layers[1]) @ layers[2] + layers[3])
+        observations, rewards, terminated, truncated, _ = env.step(hidden @ layers[4] + layers[5])
+        returns, over = returns + np.where(over, 0, rewards), np.maximum(over, terminated | truncated)
+    print(f"{options.scene}, overrides {overrides}: {returns.mean():.3f} body lengths, standard deviation {returns.std(ddof=1):.3f}, "
+          f"{env.num_envs} new starts of {options.duration:g} s")
+    return returns
+
+
+env = Episodes(options.num_envs, "SameStep", backend=options.backend, scene=options.scene, target=options.target, duration=options.duration)
+if not os.path.exists(f"{options.folder}/policy.npz"):
+    learn(env)
+layers = list(np.load(f"{options.folder}/policy.npz").values())
+for overrides in options.check:
+    swim(env, layers, overrides)
 env.close()
-os.makedirs(options.folder, exist_ok=True)
-with open(f"{options.folder}/curve.csv", "w", newline="") as file:
-    csv.writer(file).writerows(env.rows)
-np.savetxt(f"{options.folder}/returns.csv", returns, "%.4f")
-agent.save(f"{options.folder}/agent.pickle")
-print(f"{options.scene}: {returns.mean():.3f} body lengths in {options.duration:g} s, standard deviation {returns.std(ddof=1):.3f} "
-      f"of {env.num_envs} new starts")

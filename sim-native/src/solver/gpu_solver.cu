@@ -269,8 +269,7 @@ private:
         const auto ends = runner.run(update, nullptr, trace);
         runner.download_all(states);
         const std::vector<Real> densities = runner.densities();
-        const std::vector<int> neighbours =
-            solvers.front()->own_ ? runner.neighbour_counts() : std::vector<int>{};
+        const std::vector<int> neighbours = solvers.front()->own_ ? runner.neighbour_counts() : std::vector<int>{};
         std::vector<cuda::Progress> progress(states.size());
         for (std::size_t k = 0; k < states.size(); ++k) {
             if (ends[k].finite) {
@@ -316,8 +315,7 @@ struct SharedGpu::Pools {
         const std::lock_guard lock(mutex);
         std::shared_ptr<cuda::GridPool<Real>>& pool =
             std::get<ByModel<Real>>(pools)[std::to_string(device) + ' ' + model_key(model)];
-        if (!pool)
-            pool = std::make_shared<cuda::GridPool<Real>>(model, cuda::GridOptions{}, device);
+        if (!pool) pool = std::make_shared<cuda::GridPool<Real>>(model, cuda::GridOptions{}, device);
         return pool;
     }
 
@@ -389,8 +387,7 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
-    const auto dev = [](const char* n, int d) { const char* v = std::getenv(n); return v ? std::atoi(v) : d; };
-    const int max_streams = dev("DEV_STREAMS", 3), particles_at_a_time = dev("DEV_MOST", 2'000'000);  // as evaluate_on_gpu
+    const int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
     std::map<cuda::GridPool<Real>*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {
         check_state(all[k].solver->implementation_->model(), *all[k].state);

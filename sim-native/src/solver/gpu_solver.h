@@ -23,7 +23,7 @@ enum class GpuPath {
 struct GpuSolverOptions {
     int device = 0;  ///< number of the GPU, see cuda_devices in batch.h
     GpuPath path = GpuPath::by_size;
-    bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
+    bool forces = false;          ///< keeps what GpuSolver::forces gives; scheme conserving only
     SharedGpu* shared = nullptr;  ///< as Execution::shared; then by the whole GPU
 };
 

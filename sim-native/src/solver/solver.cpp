@@ -257,8 +257,7 @@ template <class Real>
 Solver<Real>::Solver(const Model& model, const Execution& execution) {
     if (execution.gpu && model.scheme != Scheme::lattice)
         gpu_ = std::make_unique<GpuSolver<Real>>(
-            model,
-            GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces, .shared = execution.shared});
+            model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces, .shared = execution.shared});
     else
         implementation_ = std::make_unique<Implementation>(model, execution);
 }

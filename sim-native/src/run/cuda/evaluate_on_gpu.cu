@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <new>
 
+#include "base/side_by_side.h"
 #include "evaluate_on_grid.h"
 #include "evaluation.h"
 #include "natator/batch.h"
@@ -8,7 +9,6 @@
 #include "natator/settled_state_cache.h"
 #include "run/laws.h"
 #include "run/perturb.h"
-#include "base/side_by_side.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/kernel_choice.h"
 #include "solver/cuda/refusal.h"

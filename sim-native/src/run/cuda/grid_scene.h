@@ -12,12 +12,12 @@
 #include <tuple>
 #include <vector>
 
+#include "base/side_by_side.h"
 #include "busy_time.h"
 #include "evaluation.h"
 #include "model_group.h"
 #include "natator/settled_state_cache.h"
 #include "run/perturb.h"
-#include "base/side_by_side.h"
 #include "shared_once.h"
 #include "solver/cuda/device.h"
 #include "solver/cuda/grid/grid_runner.h"

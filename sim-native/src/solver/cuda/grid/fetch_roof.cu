@@ -39,8 +39,7 @@ FetchRoof measure_fetch_roof(const Scene& scene, const std::vector<Gait>& gaits,
     const Settling& settling = scene.settling;
     for (int k = 0; k < settling.updates; ++k) run_stable(runner, {settling.time_step, settling.substeps, {}, true});
     FetchRunner::Update frame{scene.time_step, model.parameters.substeps, {}, false};
-    for (const Gait& gait : gaits)
-        frame.muscles.push_back({[&](double time) { return drive(model, gait, time); }, 0});
+    for (const Gait& gait : gaits) frame.muscles.push_back({[&](double time) { return drive(model, gait, time); }, 0});
     run_stable(runner, frame);
     FetchRoof roof;
     StageProfile profile;

@@ -281,10 +281,13 @@ template <class Real>
 void GridMemory<Real>::upload_all(const std::vector<const State<Real>*>& states) {
     stage();
     const std::size_t particles = view_.particles, clusters = view_.clusters, solids = view_.solids;
-    side_by_side(states.size(), [&](std::size_t k) {
-        to_rows(*states[k], staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
-                staged_.fit.data() + k * clusters);
-    }, states.size() / short_calls + 1);
+    side_by_side(
+        states.size(),
+        [&](std::size_t k) {
+            to_rows(*states[k], staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
+                    staged_.fit.data() + k * clusters);
+        },
+        states.size() / short_calls + 1);
     const StateArrays<Real>& arrays = slots_.arrays;
     const int rows = static_cast<int>(states.size());
     const auto copy = [&](auto* to, const auto* from, std::size_t count) {
@@ -310,10 +313,13 @@ void GridMemory<Real>::download_all(const std::vector<State<Real>*>& states) {
     copy(staged_.velocity.data(), arrays.state_velocity, particles);
     copy(staged_.fit.data(), arrays.fit, clusters);
     wait();
-    side_by_side(states.size(), [&](std::size_t k) {
-        from_rows(staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
-                  staged_.fit.data() + k * clusters, *states[k]);
-    }, states.size() / short_calls + 1);
+    side_by_side(
+        states.size(),
+        [&](std::size_t k) {
+            from_rows(staged_.position.data() + k * particles, staged_.velocity.data() + k * particles,
+                      staged_.fit.data() + k * clusters, *states[k]);
+        },
+        states.size() / short_calls + 1);
 }
 
 template <class Real>

@@ -106,20 +106,24 @@ void GridRunner<Real>::set_muscles(const Update& update) {
         device_rest_lengths_ = DeviceBuffer<Real>(size);
     }
     const bool by_substep = base_.model.scheme != Scheme::flex;
-    side_by_side(base_.states, [&](std::size_t state) {
-        const Muscles* const by = update.muscles.empty() || memory_.is_idle(static_cast<int>(state)) ? nullptr : &update.muscles[state];
-        const std::vector<Real>& before = muscles_[state].spring_rest_length;
-        std::copy(before.begin(), before.end(), rest_lengths_.data() + state * of_state);
-        for (int k = 0; k < update.substeps; ++k) {
-            if (by && (by_substep || k == 0)) {
-                const double end = by->start_time + update.time_step * (k + 1) / update.substeps;
-                const double time = by_substep ? end : by->start_time;
-                actuate(host_model_, by->drive(time), time, muscles_[state]);
+    side_by_side(
+        base_.states,
+        [&](std::size_t state) {
+            const Muscles* const by =
+                update.muscles.empty() || memory_.is_idle(static_cast<int>(state)) ? nullptr : &update.muscles[state];
+            const std::vector<Real>& before = muscles_[state].spring_rest_length;
+            std::copy(before.begin(), before.end(), rest_lengths_.data() + state * of_state);
+            for (int k = 0; k < update.substeps; ++k) {
+                if (by && (by_substep || k == 0)) {
+                    const double end = by->start_time + update.time_step * (k + 1) / update.substeps;
+                    const double time = by_substep ? end : by->start_time;
+                    actuate(host_model_, by->drive(time), time, muscles_[state]);
+                }
+                const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
+                std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
             }
-            const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
-            std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
-        }
-    }, base_.states / short_calls + 1);
+        },
+        base_.states / short_calls + 1);
 }
 
 template <class Real>

@@ -25,9 +25,10 @@ void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_str
         return;
     }
     for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
-        check(cudaMemcpyAsync(reinterpret_cast<char*>(to) + row * to_stride,
-                              reinterpret_cast<const char*>(from) + row * from_stride, bytes, cudaMemcpyDefault, stream),
-              "copy");
+        check(
+            cudaMemcpyAsync(reinterpret_cast<char*>(to) + row * to_stride,
+                            reinterpret_cast<const char*>(from) + row * from_stride, bytes, cudaMemcpyDefault, stream),
+            "copy");
 }
 
 /// Sets `rows` rows of `count` to 0.
