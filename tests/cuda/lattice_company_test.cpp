@@ -32,8 +32,7 @@ json hoop() {
     return overrides;
 }
 
-const Gait creature_wave{
-    2, {0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45}, {0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65}};
+const Gait creature_wave{2, {0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45}, {0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65}};
 
 class GpuLatticeCompany : public test::OnGpu<testing::TestWithParam<Company>> {
 protected:
@@ -107,7 +106,8 @@ TEST_P(GpuLatticeCompany, GoesOnFromASavedMoment) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GpuLatticeCompany,
-                         testing::Values(Company{"pair", "plane/pair", test::pair_json(json::object()), test::loach_wave},
+                         testing::Values(Company{"pair", "plane/pair", test::pair_json(json::object()),
+                                                 test::loach_wave},
                                          Company{"crowd", "plane/pair", test::pair_json(test::crowd), test::loach_wave},
                                          Company{"hoop", "lake/creature-2", hoop(), creature_wave}),
                          [](const auto& tested) { return std::string(tested.param.name); });
