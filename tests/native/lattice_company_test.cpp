@@ -267,6 +267,9 @@ TEST(LatticeCompany, RefusesWhatItHasNot) {
     EXPECT_EQ(refusal("open-water/eel", {{"fluid", {{"current", {0.1, 0, 0}}}}}),
               "scene \"open-water/eel\": fluid.current: must be [0, 0, 0] in schemes flex and conserving; lattice has "
               "a current");
+    EXPECT_EQ(refusal("open-water/eel", {{"fluid", {{"smagorinsky", 0.1}}}}),
+              "scene \"open-water/eel\": fluid.smagorinsky: must be 0 in schemes flex and conserving; lattice adds "
+              "eddies");
     EXPECT_EQ(test::refusal_of([] {
                   const json current = {{"planes", json::array()}, {"fluid", {{"current", {0.1, 0, 0}}}}};
                   evaluate(load_scene("plane/loach", current), loach_wave);

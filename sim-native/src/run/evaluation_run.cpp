@@ -67,6 +67,7 @@ Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& en
                                         result_.simulated, record_.tail());
     if (result_.swimming) result_.swimming->cavities = cavities(model_, end, densities);
     if (has_muscle_work(model_)) result_.work = work_;
+    if (model_.water_box) result_.smagorinsky = model_.water_box->smagorinsky;
     if (!model_.body.particles.empty()) result_.course = course_of(model_, model_.body, end, result_.distance);
     result_.companions = companion_results(scene_, model_, begin, end);
     record_.write_to(result_);

@@ -50,7 +50,7 @@ private:
     std::vector<double> spacing_;    ///< of bodies' particles, which come first; obstacles' have none
     std::vector<double> displaced_;  ///< mass of water in place of these
     Immersed immersed_;
-    std::vector<Cube> obstacles_;
+    std::vector<std::vector<Cube>> obstacles_;  ///< of each its cubes
     std::unique_ptr<Water> water_;
     std::vector<Push> pushes_;
     std::vector<Eigen::Vector3d> impulses_, places_, velocities_;
