@@ -108,6 +108,18 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
 }
 
 template <class Real>
+std::optional<int> Coupling<Real>::first_not_finite() const {
+    std::size_t push = spacing_.size();
+    auto particle = static_cast<int>(push);
+    for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+        for (const std::size_t end = push + obstacles_[k].size(); push < end; ++push)
+            if (!Eigen::Map<const Eigen::Vector3d>(pushes_[push].j).allFinite()) return particle;
+        particle += model_.water_box->obstacles[k].particles;
+    }
+    return std::nullopt;
+}
+
+template <class Real>
 void Coupling<Real>::clear_forces() {
     forces_.assign(model_.position.size(), Eigen::Vector3d::Zero());
     force_time_ = 0;

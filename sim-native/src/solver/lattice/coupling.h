@@ -38,6 +38,8 @@ public:
     /// The greatest speed of a particle in a substep so far, cells.
     double fastest() const { return fastest_; }
     int fastest_particle() const { return fastest_particle_; }
+    /// The first particle of an obstacle that the last substep gave no finite impulse: its water has none either.
+    std::optional<int> first_not_finite() const;
 
 private:
     void begin(double h);
