@@ -163,6 +163,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     }
     text << "simulated  " << result.simulated << " s in " << result.frames
          << (result.frames == 1 ? " frame, " : " frames, ") << to_string(result.stopped) << "\n";
+    if (result.smagorinsky > 0)
+        text << "eddies     by Smagorinsky's constant " << figure_text(result.smagorinsky) << "\n";
     if (result.instability) {
         text << "unstable   " << sentence_of(*result.instability) << "\n";
     } else if (scene.creature) {
@@ -174,8 +176,6 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         text << "\n";
         if (result.swimming && !options.gait.empty())
             text << swimming_line(*result.swimming);  // a resting tail has no beat
-        if (result.smagorinsky > 0)
-            text << "eddies     by Smagorinsky's constant " << figure_text(result.smagorinsky) << "\n";
         for (const GoalResult& goal : result.goals) text << goal_line(goal);
         for (const CompanionResult& one : result.companions)
             text << "beside it  " << one.creature << ", " << figure_text(one.distance) << " units\n";

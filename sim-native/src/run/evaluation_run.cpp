@@ -53,6 +53,7 @@ void EvaluationRun::take(const double* path, int frames, StopReason stopped,
 template <class Real>
 Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& end, const std::vector<Real>& densities) {
     result_.hash = state_hash(end);
+    if (model_.water_box) result_.smagorinsky = model_.water_box->smagorinsky;
     result_.distance = record_.path().back() - record_.path().front();
     result_.simulated = result_.frames * scene_.time_step;
     if (!result_.instability) {
@@ -67,7 +68,6 @@ Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& en
                                         result_.simulated, record_.tail());
     if (result_.swimming) result_.swimming->cavities = cavities(model_, end, densities);
     if (has_muscle_work(model_)) result_.work = work_;
-    if (model_.water_box) result_.smagorinsky = model_.water_box->smagorinsky;
     if (!model_.body.particles.empty()) result_.course = course_of(model_, model_.body, end, result_.distance);
     result_.companions = companion_results(scene_, model_, begin, end);
     record_.write_to(result_);
