@@ -163,6 +163,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     }
     text << "simulated  " << result.simulated << " s in " << result.frames
          << (result.frames == 1 ? " frame, " : " frames, ") << to_string(result.stopped) << "\n";
+    if (result.smagorinsky > 0)
+        text << "eddies     by Smagorinsky's constant " << figure_text(result.smagorinsky) << "\n";
     if (result.instability) {
         text << "unstable   " << sentence_of(*result.instability) << "\n";
     } else if (scene.creature) {

@@ -72,6 +72,22 @@ TEST_F(GpuLattice, FlowsAsOnTheCpuBetweenEndsOfAllKinds) {
                 }
 }
 
+TEST_F(GpuLattice, HasTheEddiesOfTheCpu) {
+    Box box = box_of(13, 10, 7);
+    box.faces[2][0] = box.faces[2][1] = Face::no_slip;
+    box.viscosity = 1e-4;
+    const auto plain = Water::on_gpu(box, 0);
+    box.smagorinsky = 0.2;
+    const auto cpu = Water::on_cpu(box, 1), gpu = Water::on_gpu(box, 0);
+    std::vector<Push> pushes;
+    for (Water* water : {plain.get(), cpu.get(), gpu.get()}) {
+        stir(*water);
+        for (int k = 0; k < 100; ++k) water->advance({}, 1, pushes);
+    }
+    EXPECT_LT(max_difference(*cpu, *gpu), 1e-4);
+    EXPECT_GT(max_difference(*plain, *gpu), 1e-2);
+}
+
 /// Steps of a bar that moves as the CPU's water lets it, after some of which both waters are shifted by a cell; back in
 /// a step, then on, so that it comes to lie in cells that it left.
 void expect_same_pushes(const Face face, bool shifts) {

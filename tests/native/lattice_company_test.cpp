@@ -242,6 +242,18 @@ TEST(LatticeCompany, ACylinderHasAVortexStreet) {
     EXPECT_NEAR(mean / (faster * faster), 1.355, 0.1 * 1.355);
 }
 
+TEST(LatticeCompany, WaterThatIsNotFiniteIsToldOf) {
+    const Scene scene = load_scene("plane/street");
+    Model model = build_model(scene);
+    model.water_box->viscosity = std::nan("");
+    Solver<float> solver(model);
+    State<float> state = initial_state<float>(model);
+    const auto instability = solver.update(state, scene.time_step, scene.solver.substeps);
+    ASSERT_TRUE(instability);
+    EXPECT_EQ(instability->law, "finite");
+    EXPECT_EQ(instability->stage, "collision and streaming");
+}
+
 TEST(LatticeCompany, RefusesWhatItHasNot) {
     const auto refusal = [](const char* scene, const json& changes) {
         return test::refusal_of([&] { build_model(load_scene(scene, changes)); });
@@ -267,6 +279,9 @@ TEST(LatticeCompany, RefusesWhatItHasNot) {
     EXPECT_EQ(refusal("open-water/eel", {{"fluid", {{"current", {0.1, 0, 0}}}}}),
               "scene \"open-water/eel\": fluid.current: must be [0, 0, 0] in schemes flex and conserving; lattice has "
               "a current");
+    EXPECT_EQ(refusal("open-water/eel", {{"fluid", {{"smagorinsky", 0.1}}}}),
+              "scene \"open-water/eel\": fluid.smagorinsky: must be 0 in schemes flex and conserving; lattice adds "
+              "eddies");
     EXPECT_EQ(test::refusal_of([] {
                   const json current = {{"planes", json::array()}, {"fluid", {{"current", {0.1, 0, 0}}}}};
                   evaluate(load_scene("plane/loach", current), loach_wave);

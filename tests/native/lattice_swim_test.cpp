@@ -12,6 +12,7 @@
 #include "natator/model.h"
 #include "natator/simulation.h"
 #include "natator/solver.h"
+#include "protocol/protocol.h"
 #include "refusal_of.h"
 #include "run/converge/level.h"
 #include "run/perturb.h"
@@ -82,6 +83,27 @@ TEST(LatticeSwim, IsTheSameForAnyNumberOfThreads) {
     three.execution.threads = 3;
     EXPECT_EQ(evaluate(lake(json::object(), 0.2), wave()).hash,
               evaluate(lake(json::object(), 0.2), wave(), three).hash);
+}
+
+TEST(LatticeSwim, EddiesAreAddedWhereTheyAreAskedFor) {
+    const json none = {{"fluid", {{"smagorinsky", 0}}}}, some = {{"fluid", {{"smagorinsky", 0.15}}}};
+    EXPECT_EQ(FluidBlock{}.smagorinsky, 0);
+    const auto swim = [](const json& changes, int threads) {
+        EvaluationOptions options;
+        options.execution.threads = threads;
+        return evaluate(lake(changes, 0.2), wave(), options);
+    };
+    const Evaluation plain = swim(json::object(), 1), eddies = swim(some, 1);
+    EXPECT_EQ(plain.hash, swim(none, 1).hash);
+    EXPECT_NE(plain.hash, eddies.hash);
+    EXPECT_EQ(eddies.hash, swim(some, 3).hash);
+    const auto result = [](const Evaluation& of) {
+        return result_json(1, of, Scheme::lattice, Precision::single_precision);
+    };
+    EXPECT_FALSE(result(plain).contains("smagorinsky"));
+    EXPECT_EQ(result(eddies).at("smagorinsky"), 0.15);
+    EXPECT_NE(describe_plan(build_model(lake(some))).back().find("Smagorinsky's constant 0.15"), std::string::npos);
+    EXPECT_EQ(describe_plan(build_model(lake())).back().find("Smagorinsky"), std::string::npos);
 }
 
 TEST(LatticeSwim, EachStartIsAnother) {

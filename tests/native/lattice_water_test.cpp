@@ -64,17 +64,52 @@ TEST(LatticeWater, VorticesDecayAsTheirViscositySays) {
     expect_vortices_decay(2, 0);
 }
 
+/// Eddies add C^2 |S| to the viscosity. Here |S| = 2 k u |cos cos|, and the vortices' energy falls by 4 k^2 times the
+/// mean of viscosity times |S|^2 over that of |S|^2, in which the mean of |cos|^3 is 4 / 3 pi.
+TEST(LatticeWater, EddiesSlowVorticesAsSmagorinskySays) {
+    constexpr int n = 32, steps = 100;
+    constexpr double k = 2 * pi / n, u0 = 0.04, smagorinsky = 0.4;
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        Eigen::Vector3i size(n, n, n);
+        size[3 - a - b] = 1;
+        Box box = box_of(size.x(), size.y(), size.z());
+        box.viscosity = 2e-3;
+        box.smagorinsky = smagorinsky;
+        const auto water = Water::on_cpu(box, 1);
+        for_each_cell(box, [&](const Eigen::Vector3i& at) {
+            Eigen::Vector3d u = Eigen::Vector3d::Zero();
+            u[a] = u0 * std::sin(k * at[a]) * std::cos(k * at[b]);
+            u[b] = -u0 * std::cos(k * at[a]) * std::sin(k * at[b]);
+            water->set_cell(at, {0.75 * u0 * u0 * (std::cos(2 * k * at[a]) + std::cos(2 * k * at[b])), u});
+        });
+        const auto energy = [&] {
+            double sum = 0;
+            for_each_cell(box, [&](const Eigen::Vector3i& at) { sum += water->cell(at).velocity.squaredNorm() / 2; });
+            return sum / (n * n);
+        };
+        advance(*water, 100);  // they began without stress
+        const double before = energy();
+        advance(*water, steps);
+        const double u = std::sqrt(before) + std::sqrt(energy());  // of the mean amplitude: energy is u^2 / 4
+        const double added = smagorinsky * smagorinsky * 128 / (9 * pi * pi) * k * u;
+        const double measured = std::log(energy() / before) / (-4 * k * k * steps);
+        EXPECT_NEAR(measured / (box.viscosity + added), 1, 0.02) << a;
+    }
+}
+
 /// Flow between walls, half a cell beyond the outer centres, after a start at rest under nothing but a moving layer in
-/// the middle.
-TEST(LatticeWater, ShearBetweenWallsIsLinear) {
+/// the middle; with eddies by Smagorinsky's constant.
+void expect_shear_is_linear(int n, double viscosity, double smagorinsky, double speed, int steps) {
     for (int axis = 0; axis < 3; ++axis) {
-        const int n = 17, along = (axis + 1) % 3;
+        const int along = (axis + 1) % 3;
         Eigen::Vector3i size(4, 4, 4);
         size[axis] = n;
         Box box = box_of(size.x(), size.y(), size.z());
         box.faces[axis][0] = Face::no_slip;
         box.faces[axis][1] = Face::free_slip;
-        box.viscosity = 0.15;
+        box.viscosity = viscosity;
+        box.smagorinsky = smagorinsky;
         const auto water = Water::on_cpu(box, 1);
         // A slab of body, cubes of a cell each, at the middle, moves along.
         std::vector<Cube> cubes;
@@ -87,23 +122,30 @@ TEST(LatticeWater, ShearBetweenWallsIsLinear) {
                 cube.to_rest[4 * a] = 2;
                 cube.reach[a] = 0.5f;
             }
-            cube.v[along] = 0.01f;
+            cube.v[along] = static_cast<float>(speed);
             cubes.push_back(cube);
         });
         std::vector<Push> pushes;
-        for (int k = 0; k < 3000; ++k) water->advance(cubes, 1, pushes);
+        for (int k = 0; k < steps; ++k) water->advance(cubes, 1, pushes);
         double drag = 0;
         for (const Push& push : pushes) drag -= push.j[along];
-        const double gradient = 0.01 / (middle + 0.5), area = 16;
+        const double gradient = speed / (middle + 0.5), area = 16;
         Eigen::Vector3i at(1, 1, 1);
         for (int i = 0; i < n; ++i) {
             at[axis] = i;
             // The forced layer's velocity is the mean before and after the force: half of the force of a step less.
-            const double expected = i < middle ? gradient * (i + 0.5) : 0.01;
-            EXPECT_NEAR(water->cell(at).velocity[along] / 0.01, expected / 0.01, 0.02) << axis << ' ' << i;
+            const double expected = i < middle ? gradient * (i + 0.5) : speed;
+            EXPECT_NEAR(water->cell(at).velocity[along] / speed, expected / speed, 0.02) << axis << ' ' << i;
         }
-        EXPECT_NEAR(drag / (box.viscosity * gradient * area), 1, 0.02) << axis;
+        const double with_eddies = viscosity + smagorinsky * smagorinsky * gradient;
+        EXPECT_NEAR(drag / (with_eddies * gradient * area), 1, 0.02) << axis;
     }
+}
+TEST(LatticeWater, ShearBetweenWallsIsLinear) {
+    expect_shear_is_linear(17, 0.15, 0, 0.01, 3000);
+}
+TEST(LatticeWater, EddiesAddSmagorinskysViscosityToShear) {
+    expect_shear_is_linear(9, 0.003, 0.5, 0.1, 12000);
 }
 
 class LatticeBar : public ::testing::Test, protected Bar {};

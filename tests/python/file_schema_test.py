@@ -32,7 +32,7 @@ SOLVER = {"substeps": 4, "numIterations": 4, "densityTolerance": 0, "maxIteratio
           "freeSurfaceDrag": 0, "buoyancy": 1, "collisionDistance": 0.05, "particleCollisionMargin": 0,
           "shapeCollisionMargin": 0, "relaxationMode": "local", "relaxationFactor": 1, "maxNeighborsPerParticle": 96,
           "wind": [0, 0, 0], "drag": 0, "lift": 0, "plasticThreshold": 0, "plasticCreep": 0}
-FLUID = {"count": [10, 5, 5], "spacing": 0.1, "origin": [0.05, 0.05, 0.05], "clearance": 0.1, "disorder": 3, "current": [0.2, 0, -0.1],
+FLUID = {"count": [10, 5, 5], "spacing": 0.1, "origin": [0.05, 0.05, 0.05], "clearance": 0.1, "disorder": 3, "current": [0.2, 0, -0.1], "smagorinsky": 0.1,
          "mass": {"gradient": "uniform", "bottom": 1, "top": 1}}
 SCENES = {
     "all of slices, goals and company": {

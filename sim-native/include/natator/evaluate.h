@@ -73,6 +73,7 @@ struct Evaluation {
     /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
+    double smagorinsky = 0;                   ///< FluidBlock::smagorinsky, by which the water was computed
     std::optional<Course> course;             ///< where the body went; none without a body
     std::vector<GoalResult> goals;            ///< result of each goal, in the scene's order
     std::optional<WaterRenewal> renewal;      ///< what a moving tank took from its water; none in another tank

@@ -36,6 +36,7 @@ struct WaterBox {
     double density = 1;               ///< mass/length^3
     /// Velocity with which all water begins, and comes in at open ends, length/s
     Eigen::Vector3d current{0, 0, 0};
+    double smagorinsky = 0;                     ///< constant of the eddies' viscosity; 0: no eddies are added
     std::vector<WaterObstacle> obstacles = {};  ///< in the order of their particles, which are behind all bodies'
 
     double cell_mass() const { return density * cell * cell * cell; }  ///< of water in a cell, mass

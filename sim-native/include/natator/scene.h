@@ -185,6 +185,8 @@ struct FluidBlock {
     /// Scheme `lattice`: velocity over ground with which all water begins, and comes in at the ends across it,
     /// length/s, horizontal. Obstacles and walls stand in it, and bodies begin at rest.
     Eigen::Vector3d current{0, 0, 0};
+    /// Scheme `lattice`: Smagorinsky's constant, for the viscosity of eddies smaller than cells; 0: none is added.
+    double smagorinsky = 0;
 };
 
 /// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole

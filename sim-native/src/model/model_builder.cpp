@@ -194,6 +194,8 @@ Model build_model(const Scene& scene) {
     } else if (scene.fluid) {
         if (!scene.fluid->current.isZero(0))
             refuse(scene, "fluid.current: must be [0, 0, 0] in schemes flex and conserving; lattice has a current");
+        if (scene.fluid->smagorinsky != 0)
+            refuse(scene, "fluid.smagorinsky: must be 0 in schemes flex and conserving; lattice adds eddies");
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);
     }

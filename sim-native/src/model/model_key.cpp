@@ -32,8 +32,8 @@ void add_parameters(ByteWriter& key, const SolverParameters& parameters) {
 }
 
 void add_water_box(ByteWriter& key, const WaterBox& box) {
-    const auto& [cells, cell, corner, faces, viscosity, density, current, obstacles] = box;
-    add(key, cells, cell, corner, viscosity, density, current);
+    const auto& [cells, cell, corner, faces, viscosity, density, current, smagorinsky, obstacles] = box;
+    add(key, cells, cell, corner, viscosity, density, current, smagorinsky);
     for (const auto& ends : faces) add(key, ends[0], ends[1]);
     for (const auto& [obstacle, particles] : obstacles) {
         const auto& [shape, centre, radius, size, points, spacing] = obstacle;

@@ -106,6 +106,7 @@ WaterBox water_box(const Scene& scene) {
     box.cell = fluid.spacing;
     box.corner = fluid.origin - Eigen::Vector3d::Constant(fluid.spacing / 2);
     box.viscosity = scene.solver.conserving.kinematic_viscosity;
+    box.smagorinsky = fluid.smagorinsky;
     box.density = fluid.bottom_mass / std::pow(fluid.spacing, 3);
     for (auto& ends : box.faces) ends[0] = ends[1] = WaterFace::free_slip;
     for (std::size_t k = 0; k < scene.planes.size(); ++k) add_wall(scene, k, box);

@@ -12,18 +12,44 @@ namespace natator::physics {
 constexpr int lattice_populations = 27, lattice_moments = 17;
 
 /// Part of each kind of cumulant that is left after a collision.
+template <class V>
+struct CellRates {
+    V shear;
+    float trace;
+    V third;
+};
+/// The same where no eddies are added, and what those need: 1/w - 1/2, and 18 sqrt(2) C^2, 0 without.
 struct LatticeRates {
-    float shear, trace, third;
+    float shear, trace, third, slack, eddies;
 };
 
 inline namespace NATATOR_SET {
 
-/// The relaxation for a kinematic viscosity, cells^2/step, above 0. Bulk viscosity: the trace is relaxed at once. Third
-/// cumulants so that (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells on their centres at any
-/// viscosity (d'Humières, Ginzburg: Viscosity independent numerical errors for lattice Boltzmann models, 2009).
-NATATOR_HD LatticeRates lattice_rates(double viscosity) {
+/// The relaxation for a kinematic viscosity, cells^2/step, above 0, and Smagorinsky's constant C. Bulk viscosity: the
+/// trace is relaxed at once. Third cumulants so that (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells
+/// on their centres at any viscosity (d'Humières, Ginzburg: Viscosity independent numerical errors for lattice
+/// Boltzmann models, 2009).
+NATATOR_HD LatticeRates lattice_rates(double viscosity, double smagorinsky) {
+    constexpr double root_of_two = 1.4142135623730951;
     const double slack = 3 * viscosity;  // 1/w - 1/2
-    return {static_cast<float>(1 - 1 / (slack + 0.5)), 0, static_cast<float>(1 - 1 / (0.25 / slack + 0.5))};
+    return {static_cast<float>(1 - 1 / (slack + 0.5)), 0, static_cast<float>(1 - 1 / (0.25 / slack + 0.5)),
+            static_cast<float>(slack), static_cast<float>(18 * root_of_two * smagorinsky * smagorinsky)};
+}
+
+/// Of a cell of second cumulants xx ..., times `inverse`, of the density. Eddies smaller than cells add the viscosity
+/// C^2 |S|, |S|^2 = 2 S:S, to it (Smagorinsky: General circulation experiments with the primitive equations, 1963).
+/// The strain S is -3/2 w times the cumulants without their trace, so that 1/w solves a quadratic equation (Hou,
+/// Sterling, Chen, Doolen: A lattice Boltzmann subgrid model for high Reynolds number flows, 1996).
+template <class V>
+NATATOR_HD CellRates<V> rates_with_eddies(const LatticeRates& rates, V inverse, V xx, V yy, V zz, V xy, V xz, V yz) {
+    const V mean = (xx + yy + zz) * (1.0f / 3);
+    xx -= mean, yy -= mean, zz -= mean;
+    const V stress = square_root(xx * xx + yy * yy + zz * zz + 2.0f * (xy * xy + xz * xz + yz * yz));
+    const float time = rates.slack + 0.5f;  // 1/w without eddies
+    const V more = rates.eddies * stress * inverse;
+    const V slack = rates.slack + 0.5f * more / (time + square_root(time * time + more));
+    const V shear = (slack - 0.5f) / (slack + 0.5f);
+    return {shear, rates.trace, -shear};  // as lattice_rates has them
 }
 
 /// Raw moments of populations.
@@ -87,30 +113,36 @@ NATATOR_HD void populations_of_line(V k0, V k1, V k2, V u, W rest, V& minus, V& 
 /// A third cumulant after a collision: small ones keep `keep` of themselves, those well above 0.1 nothing (Geier,
 /// Pasquali, Schönherr: Parametrization of the cumulant lattice Boltzmann method for fourth order accurate diffusion,
 /// 2017, eq. 119).
-template <class V>
-NATATOR_HD V limited(V t, float keep) {
+template <class V, class Keep>
+NATATOR_HD V limited(V t, Keep keep) {
     const V size = t < 0.0f ? -t : t;
     return keep * t * 0.1f / (0.1f + size);
 }
 
 /// Collision by cumulants (Geier, Schönherr, Pasquali, Krafczyk: The cumulant lattice Boltzmann equation in three
 /// dimensions, 2015), after which the water moves at u: populations are made about it, which is where forces act.
-/// `put(i, f)` gets each population less that of water at rest.
-template <class V, class Put>
-NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const LatticeRates& rates, const Put& put) {
+/// `put(i, f)` gets each population less that of water at rest. `eddies`: whether the rates have any.
+template <bool eddies, class V, class Put>
+NATATOR_HD void collide(const V (&m)[lattice_moments], V ux, V uy, V uz, const LatticeRates& all, const Put& put) {
     constexpr float third = 1.0f / 3, ninth = 1.0f / 9;
     const V r = m[0], rho = r + 1.0f, ir = 1.0f / rho, jx = m[1], jy = m[2], jz = m[3];
     const V ox = jx * ir, oy = jy * ir, oz = jz * ir, r3 = r * third, rho3 = rho * third;
     V xx = m[4] - r3 - jx * ox, yy = m[5] - r3 - jy * oy, zz = m[6] - r3 - jz * oz;
     V xy = m[7] - jx * oy, xz = m[8] - jx * oz, yz = m[9] - jy * oz;
+    const auto rates = [&] {
+        if constexpr (eddies)
+            return rates_with_eddies(all, ir, xx, yy, zz, xy, xz, yz);
+        else
+            return all;
+    }();
     const V a0 = rho3 + xx, b0 = rho3 + yy, c0 = rho3 + zz;
-    const V xxy = limited<V>(m[10] - 2.0f * ox * xy - oy * a0 - jx * ox * oy, rates.third);
-    const V xxz = limited<V>(m[11] - 2.0f * ox * xz - oz * a0 - jx * ox * oz, rates.third);
-    const V xyy = limited<V>(m[12] - 2.0f * oy * xy - ox * b0 - jy * oy * ox, rates.third);
-    const V yyz = limited<V>(m[13] - 2.0f * oy * yz - oz * b0 - jy * oy * oz, rates.third);
-    const V xzz = limited<V>(m[14] - 2.0f * oz * xz - ox * c0 - jz * oz * ox, rates.third);
-    const V yzz = limited<V>(m[15] - 2.0f * oz * yz - oy * c0 - jz * oz * oy, rates.third);
-    const V xyz = limited<V>(m[16] - ox * yz - oy * xz - oz * xy - jx * oy * oz, rates.third);
+    const V xxy = limited(m[10] - 2.0f * ox * xy - oy * a0 - jx * ox * oy, rates.third);
+    const V xxz = limited(m[11] - 2.0f * ox * xz - oz * a0 - jx * ox * oz, rates.third);
+    const V xyy = limited(m[12] - 2.0f * oy * xy - ox * b0 - jy * oy * ox, rates.third);
+    const V yyz = limited(m[13] - 2.0f * oy * yz - oz * b0 - jy * oy * oz, rates.third);
+    const V xzz = limited(m[14] - 2.0f * oz * xz - ox * c0 - jz * oz * ox, rates.third);
+    const V yzz = limited(m[15] - 2.0f * oz * yz - oy * c0 - jz * oz * oy, rates.third);
+    const V xyz = limited(m[16] - ox * yz - oy * xz - oz * xy - jx * oy * oz, rates.third);
     xy *= rates.shear, xz *= rates.shear, yz *= rates.shear;
     const V trace = xx + yy + zz, mean = trace * third, kept = rates.trace * mean;
     xx = rates.shear * (xx - mean) + kept;

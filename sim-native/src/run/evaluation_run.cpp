@@ -53,6 +53,7 @@ void EvaluationRun::take(const double* path, int frames, StopReason stopped,
 template <class Real>
 Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& end, const std::vector<Real>& densities) {
     result_.hash = state_hash(end);
+    if (model_.water_box) result_.smagorinsky = model_.water_box->smagorinsky;
     result_.distance = record_.path().back() - record_.path().front();
     result_.simulated = result_.frames * scene_.time_step;
     if (!result_.instability) {

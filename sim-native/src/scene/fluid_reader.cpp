@@ -12,6 +12,7 @@ const std::vector<Field<FluidBlock>>& block_fields() {
         {"clearance", &F::clearance, {0, 1000, false, "length"}},
         {"disorder", &F::disorder, {0, 2147483647}},
         {"current", &F::current, {-1000, 1000, false, "length/s"}},
+        {"smagorinsky", &F::smagorinsky, {0, 1}},
     };
     return fields;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "base/text.h"
 #include "model/background_pressure.h"
 #include "model/water_volumes.h"
 #include "stage.h"
@@ -162,7 +163,11 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(plan.restitution, once(name(Stage::restitution)));
     add(plan.sleep, once(name(Stage::sleep)));
     add(true, once("check finite"));
-    add(model.water_box.has_value(), once("lattice: cells that the body covers, collision and streaming"));
+    if (model.water_box) {
+        const double eddies = model.water_box->smagorinsky;
+        add(true, once("lattice: cells that the body covers, collision and streaming" +
+                       (eddies > 0 ? ", eddies by Smagorinsky's constant " + number_text(eddies) : "")));
+    }
     return lines;
 }
 

@@ -237,6 +237,8 @@ private:
                 coupling_->follow(state, static_cast<double>(h), end);
                 if (coupling_->fastest() > max_cells_per_substep)
                     return Instability{coupling_->fastest_particle(), "frame", end, name(physics::Law::mach)};
+                if (const auto particle = coupling_->first_not_finite())
+                    return Instability{*particle, "collision and streaming", end};
             }
             if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
             if (observer) observer->substep_ended(state.velocity);

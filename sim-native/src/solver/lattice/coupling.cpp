@@ -45,10 +45,8 @@ Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu
       spacing_(spacings_of(model)),
       displaced_(displaced_by(model, spacing_)),
       immersed_(bodies_of(model, spacing_)) {
-    for (const WaterObstacle& one : model.water_box->obstacles) {
-        const std::vector<Cube> cubes = cubes_of(one.obstacle, *model.water_box);
-        obstacles_.insert(obstacles_.end(), cubes.begin(), cubes.end());
-    }
+    for (const WaterObstacle& one : model.water_box->obstacles)
+        obstacles_.push_back(cubes_of(one.obstacle, *model.water_box));
 }
 
 template <class Real>
@@ -96,7 +94,7 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
         fastest_particle_ = static_cast<int>(i);
     }
     std::vector<Cube> cubes = immersed_.cubes(places_, velocities_, *model_.water_box, h);
-    cubes.insert(cubes.end(), obstacles_.begin(), obstacles_.end());
+    for (const std::vector<Cube>& obstacle : obstacles_) cubes.insert(cubes.end(), obstacle.begin(), obstacle.end());
     water_->advance(cubes, h, pushes_);
     const std::vector<Eigen::Vector3d> given = immersed_.impulses(pushes_, *model_.water_box, h);
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -107,6 +105,18 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
     if (!forces_.empty()) sum_forces(given, h);
     time_ = time;
     step_ = h;
+}
+
+template <class Real>
+std::optional<int> Coupling<Real>::first_not_finite() const {
+    std::size_t push = spacing_.size();
+    auto particle = static_cast<int>(push);
+    for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+        for (const std::size_t end = push + obstacles_[k].size(); push < end; ++push)
+            if (!Eigen::Map<const Eigen::Vector3d>(pushes_[push].j).allFinite()) return particle;
+        particle += model_.water_box->obstacles[k].particles;
+    }
+    return std::nullopt;
 }
 
 template <class Real>
@@ -122,13 +132,13 @@ void Coupling<Real>::sum_forces(const std::vector<Eigen::Vector3d>& given, doubl
     for (std::size_t i = 0; i < given.size(); ++i)
         forces_[i] += given[i] - displaced_[i] * h * model_.parameters.gravity;
     std::size_t push = given.size(), particle = push;
-    for (const WaterObstacle& one : model_.water_box->obstacles) {
-        const std::size_t cubes = one.obstacle.shape == Obstacle::Shape::mesh ? one.obstacle.points.size() : 1;
+    for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+        const int particles = model_.water_box->obstacles[k].particles;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const std::size_t end = push + cubes; push < end; ++push)
+        for (const std::size_t end = push + obstacles_[k].size(); push < end; ++push)
             sum += Eigen::Map<const Eigen::Vector3d>(pushes_[push].j);
-        sum *= impulse_unit(*model_.water_box, h) / std::max(1, one.particles);
-        for (const std::size_t end = particle + static_cast<std::size_t>(one.particles); particle < end; ++particle)
+        sum *= impulse_unit(*model_.water_box, h) / std::max(1, particles);
+        for (const std::size_t end = particle + static_cast<std::size_t>(particles); particle < end; ++particle)
             forces_[particle] += sum;
     }
 }

@@ -38,6 +38,8 @@ public:
     /// The greatest speed of a particle in a substep so far, cells.
     double fastest() const { return fastest_; }
     int fastest_particle() const { return fastest_particle_; }
+    /// The first particle of an obstacle that the last substep gave no finite impulse: its water has none either.
+    std::optional<int> first_not_finite() const;
 
 private:
     void begin(double h);
@@ -50,7 +52,7 @@ private:
     std::vector<double> spacing_;    ///< of bodies' particles, which come first; obstacles' have none
     std::vector<double> displaced_;  ///< mass of water in place of these
     Immersed immersed_;
-    std::vector<Cube> obstacles_;
+    std::vector<std::vector<Cube>> obstacles_;  ///< of each its cubes
     std::unique_ptr<Water> water_;
     std::vector<Push> pushes_;
     std::vector<Eigen::Vector3d> impulses_, places_, velocities_;

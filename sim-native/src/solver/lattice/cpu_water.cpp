@@ -242,7 +242,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     remember();
     begun_ = true;
 
-    const physics::LatticeRates rates = physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
+    const physics::LatticeRates rates = rates_in(step);
     exchange(rates, pushes);
     if (!box_.current.isZero(0)) let_in(step);
     const View lattice = view();
@@ -266,8 +266,13 @@ const Populations& CpuWater::after_collision(long cell, const physics::LatticeRa
         float m[moments];
         for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
         const float density = 1 + m[0];
-        physics::collide(m, m[1] / density + change_[0][cell], m[2] / density + change_[1][cell],
-                         m[3] / density + change_[2][cell], rates, [&](int i, float value) { f.of[i] = value; });
+        const float ux = m[1] / density + change_[0][cell], uy = m[2] / density + change_[1][cell],
+                    uz = m[3] / density + change_[2][cell];
+        const auto put = [&](int i, float value) { f.of[i] = value; };
+        if (rates.eddies > 0)
+            physics::collide<true>(m, ux, uy, uz, rates, put);
+        else
+            physics::collide<false>(m, ux, uy, uz, rates, put);
     }
     return made_[made_of_[cell]];
 }

@@ -214,7 +214,8 @@ struct Put {
     }
 };
 
-/// Collides and streams: a thread a cell.
+/// Collides and streams: a thread a cell. `eddies`: whether the rates have any.
+template <bool eddies>
 __global__ void __launch_bounds__(block)
     advance_cells(Lattice lattice, LatticeRates rates, Populations inflow, const float* __restrict__ from,
                   float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes, Owners* __restrict__ owners) {
@@ -251,7 +252,7 @@ __global__ void __launch_bounds__(block)
     const float inverse = 1.0f / (m[0] + 1.0f);
     const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse,
                 uz = held ? told.z : m[3] * inverse;
-    collide(m, ux, uy, uz, rates, Put{ways});
+    collide<eddies>(m, ux, uy, uz, rates, Put{ways});
 }
 
 /// Sums what each cube is pushed by, in a fixed order, and forgets who has its cells.
@@ -465,9 +466,10 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
             cover<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), cubes_.data(), count,
                                                                 owners_[0].data());
     }
-    const LatticeRates rates = lattice_rates(box_.viscosity * step / (box_.cell * box_.cell));
-    advance_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, rates, inflow(step), now(), next(),
-                                                                          keys, cubes_.data(), owners_[0].data());
+    const LatticeRates rates = rates_in(step);
+    (rates.eddies > 0 ? advance_cells<true>
+                      : advance_cells<false>)<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(
+        lattice_, rates, inflow(step), now(), next(), keys, cubes_.data(), owners_[0].data());
     if (count > 0)
         push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count,
                                                            owners_[0].data(), begun_,
@@ -524,8 +526,8 @@ Populations in_equilibrium(const Cell& cell) {
     equilibrium(cell, m);
     const float inverse = 1 / (1 + m[0]);
     // All cumulants of a collision that keeps nothing are 0.
-    collide(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{},
-            [&](int i, float value) { made.of[i] = value; });
+    collide<false>(m, m[1] * inverse, m[2] * inverse, m[3] * inverse, LatticeRates{},
+                   [&](int i, float value) { made.of[i] = value; });
     return made;
 }
 

@@ -26,6 +26,7 @@ class Planes {
 public:
     Planes(const View& view, const LatticeRates& rates, float* room) : view_(view), rates_(rates), room_(room) {}
 
+    template <bool eddies>
     void collide_plane(int z) const;
     void gather_plane(int z) const;
 
@@ -39,6 +40,7 @@ private:
     float* room_;
 };
 
+template <bool eddies>
 void Planes::collide_plane(int z) const {
     const long size_of_one = size();
     const int inside = (z + view_.nz) % view_.nz;
@@ -56,8 +58,8 @@ void Planes::collide_plane(int z) const {
                 uy += load_unaligned(view_.change[1] + row + x);
                 uz += load_unaligned(view_.change[2] + row + x);
             }
-            collide(m, ux, uy, uz, rates_,
-                    [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
+            collide<eddies>(m, ux, uy, uz, rates_,
+                            [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
         }
     }
 }
@@ -114,10 +116,11 @@ void Planes::gather_plane(int z) const {
     }
 }
 
-void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
+template <bool eddies>
+void advance_with(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
     Planes planes(view, rates, room);
     const auto collide_at = [&](int z) {
-        if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane(z);
+        if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane<eddies>(z);
     };
     collide_at(begin - 1);
     collide_at(begin);
@@ -125,6 +128,10 @@ void advance(const View& view, const LatticeRates& rates, int begin, int end, fl
         collide_at(z + 1);
         planes.gather_plane(z);
     }
+}
+
+void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
+    (rates.eddies > 0 ? &advance_with<true> : &advance_with<false>)(view, rates, begin, end, room);
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ void equilibrium(const Cell& cell, float (&to)[17]) {
     for (int e = 0; e < 17; ++e) to[e] = static_cast<float>(values[e]);
 }
 
+physics::LatticeRates Water::rates_in(double step) const {
+    return physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell), box_.smagorinsky);
+}
+
 Populations Water::inflow(double step) const {
     const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
     const float u[3] = {current.x(), current.y(), current.z()};

@@ -68,6 +68,8 @@ public:
 
 protected:
     explicit Water(const Box& box) : box_(box) {}
+    /// In a step of so long, s.
+    physics::LatticeRates rates_in(double step) const;
     /// What comes in at open ends in a step of so long, s.
     Populations inflow(double step) const;
     [[noreturn]] static void refuse_saved() {
