@@ -274,24 +274,6 @@ class RunWriterTest {
         }
     }
 
-    @Test
-    void damageIsToldOf() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Files.writeString(run.resolve("checkpoint.json"), "{\"generation\":1");
-
-        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("checkpoint").hasMessageContaining("line 1");
-    }
-
-    @Test
-    void lostEvaluationsAreToldOf() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Files.writeString(run.resolve("evaluations.jsonl"), "");
-
-        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("evaluations.jsonl has 0 whole lines");
-    }
-
     /** A run after some generation, as a kill leaves it. */
     private Path killed(int generation) throws IOException {
         List<Path> snapshots = new ArrayList<>();

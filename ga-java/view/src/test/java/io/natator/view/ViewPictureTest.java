@@ -121,6 +121,7 @@ class ViewPictureTest extends ViewBrowserTest {
     /** All detail at first, however slow: what is drawn with less is watched. */
     @Test
     void lessDetailIsNoBlackFlash() {
+        useSmallWindow();
         open(water);
         get("quality").selectOption("1");
         get("drawing").selectOption("webgl");
