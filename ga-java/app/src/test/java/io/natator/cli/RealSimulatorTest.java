@@ -48,16 +48,6 @@ class RealSimulatorTest extends CommandTest {
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
     }
 
-    @ParameterizedTest
-    @ValueSource(strings = {"--dry-run", "--stop-after=60"})
-    void aDurationBelowOneTimeStepIsRefused(String option) {
-        Path run = folder.resolve("run");
-
-        refused(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option))
-                .contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
-        assertThat(run).doesNotExist();
-    }
-
     @Test
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
         String swim = "evaluate --scene pool/creature-1 --duration 0.1 --gait 1.5 0.6 0.69 0.5";

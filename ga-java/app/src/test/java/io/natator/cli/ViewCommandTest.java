@@ -218,7 +218,7 @@ class ViewCommandTest extends CommandTest {
             "--scene no/such|2|natator view: unknown scene \"no/such\"",
             "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
             "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
-            "--run no/such --run ./no/such|2|natator view: --run has no/such twice; expected each once",
+            "--run no/such --run ./no/such|2|natator view: --run has ./no/such twice; expected each once",
             "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
             "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
                     + "address of this machine",

@@ -225,15 +225,6 @@ class RunWriterTest {
     }
 
     @Test
-    void aFinishedRunStaysAsItIs() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Map<String, String> before = lastingFiles(run);
-
-        assertThat(evolve(RunWriter.open(run)).calls()).isZero();
-        assertThat(lastingFiles(run)).isEqualTo(before);
-    }
-
-    @Test
     void nothingIsOverwritten() throws IOException {
         Files.createDirectories(run);
         Files.writeString(run.resolve("thesis.tex"), "years of work");

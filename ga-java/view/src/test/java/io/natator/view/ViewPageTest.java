@@ -21,7 +21,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void pauseHoldsStill() {
-        useSmallWindow();
         open(vacuum);
         pause();
         // Frames may be under way, and the camera and the detail follow a little later.
@@ -38,7 +37,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aReloadReconnects() throws InterruptedException {
-        useSmallWindow();
         open(vacuum);
         ProcessHandle before = ViewFixture.simulator();
 
@@ -51,7 +49,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aKilledSimulatorIsReportedAndGoesOn() {
-        useSmallWindow();
         open(vacuum);
 
         ViewFixture.simulator().destroyForcibly();
@@ -65,7 +62,6 @@ class ViewPageTest extends ViewBrowserTest {
     /** That it begins at the start is seen of this one, however late it is looked at. */
     @Test
     void ofAKilledSimulatorThatWasPausedTheNextOneIsToo() {
-        useSmallWindow();
         open(vacuum);
         pause();
 
@@ -78,7 +74,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
-        useSmallWindow();
         open(vacuum);
         for (int i = 0; i < 4; i++) {
             ViewFixture.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
@@ -147,7 +142,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void picturesAndFilmsAreSaved() throws IOException {
-        useSmallWindow();
         open(vacuum);
 
         Download picture = page.waitForDownload(() -> get("picture-save").click());
