@@ -7,8 +7,6 @@ import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.CsvSource;
 
 /** {@code natator evolve}: what it says and writes, the same bytes in every mode, and faults that cost no more than they must. */
 class EvolveCommandTest extends FakeSimulatorTest {
@@ -57,14 +55,6 @@ class EvolveCommandTest extends FakeSimulatorTest {
                 .endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
         ok(natator("show", path("one cut")))
                 .contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
-    }
-
-    @ParameterizedTest
-    @CsvSource({"corrected", "stock"})
-    void theWorkersDoNotChangeAByte(String operators) throws IOException {
-        ok(evolve("one", "--workers", "1", "--operators", operators));
-        ok(evolve("four", "--workers", "4", "--operators", operators));
-        assertSameRuns("four", "one", "config.json");
     }
 
     @Test

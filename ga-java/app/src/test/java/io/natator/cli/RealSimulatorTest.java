@@ -85,19 +85,6 @@ class RealSimulatorTest extends CommandTest {
         ok(execute("show", run.toString())).contains("  checked     ");
     }
 
-    /** As a single run is: no file is begun that would fill the disk. */
-    @Test
-    void moreTimeStepsThanARunMayHaveAreRefused() {
-        Path output = folder.resolve("out.html");
-        for (String duration : List.of("1e6", "200000")) {
-            List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(),
-                    "--max-size", "1000000",
-                    "thesis/creature-1-vacuum");
-            refused(natator(arguments)).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
-            assertThat(output).doesNotExist();
-        }
-    }
-
     /** A duration that frames do not fill ends with the last of them. */
     @Test
     void aSwimIsCheckedAtItsEndWhereverThatIs() throws IOException {

@@ -70,11 +70,6 @@ class PartitionerTest {
         assertThat(sizes).hasSizeLessThan(40);
     }
 
-    @Test
-    void whatTakesLongIsOneEach() {
-        assertThat(sizes(known(10).of(requests(150), 2))).containsOnly(1);
-    }
-
     /** 5 ms each: 150 that would be 150 parts are a few, of which none is shorter than ten times what a part costs. */
     @Test
     void cheapEvaluationsAreFewParts() {

@@ -59,19 +59,6 @@ class ViewPageTest extends ViewBrowserTest {
         assertThat(get("status")).hasAttribute("data-state", "open");
     }
 
-    /** That it begins at the start is seen of this one, however late it is looked at. */
-    @Test
-    void ofAKilledSimulatorThatWasPausedTheNextOneIsToo() {
-        open(vacuum);
-        pause();
-
-        ViewFixture.simulator().destroyForcibly();
-
-        await("natator.frame() === 0");
-        get("step").click();
-        await("natator.frame() === 1");
-    }
-
     @Test
     void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
         open(vacuum);
