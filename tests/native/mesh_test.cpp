@@ -735,7 +735,7 @@ struct BadMesh {
     const char* name;
     std::function<std::string()> content;
     const char* file = "bad.obj";
-    std::vector<const char*> expected;
+    std::vector<std::string> expected;
 };
 
 void PrintTo(const BadMesh& bad, std::ostream* out) {
@@ -897,8 +897,7 @@ class BadMeshTest : public Mesh, public testing::WithParamInterface<BadMesh> {};
 TEST_P(BadMeshTest, IsRefusedWithOneLineThatSaysWhere) {
     const BadMesh& bad = GetParam();
     const std::string file = write(bad.file, bad.content());
-    for (const char* expected : bad.expected)
-        expect_refused("pool/water", {{"creature", creature(file)}}, "creature.mesh.file: \"", expected);
+    expect_refused("pool/water", {{"creature", creature(file)}}, "creature.mesh.file: \"", bad.expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadMeshTest, testing::ValuesIn(bad_meshes));
@@ -932,7 +931,7 @@ class BadBodyTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadBodyTest, IsRefusedWithOneLineThatSaysWhere) {
     const BadInput& bad = GetParam();
-    expect_refused("pool/ray", {{"creature", json::parse(bad.overrides)}}, bad.field, bad.allowed);
+    expect_refused("pool/ray", {{"creature", json::parse(bad.overrides)}}, bad.field, {bad.allowed});
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadBodyTest, testing::ValuesIn(bad_bodies));

@@ -363,7 +363,7 @@ TEST(Periodic, WithoutWaterNothingIsLeftToBePeriodic) {
 class BadPeriodic : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadPeriodic, IsRefused) {
-    expect_refused("pool/creature-1", json::parse(GetParam().overrides), GetParam().field, GetParam().allowed);
+    expect_refused("pool/creature-1", json::parse(GetParam().overrides), GetParam().field, {GetParam().allowed});
 }
 
 INSTANTIATE_TEST_SUITE_P(

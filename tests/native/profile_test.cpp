@@ -300,7 +300,7 @@ class BadProfileTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadProfileTest, IsRefusedWithOneLineThatSaysWhere) {
     const BadInput& bad = GetParam();
-    expect_refused("pool/tuna", {{"creature", json::parse(bad.overrides)}}, bad.field, bad.allowed);
+    expect_refused("pool/tuna", {{"creature", json::parse(bad.overrides)}}, bad.field, {bad.allowed});
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadProfileTest, testing::ValuesIn(bad_profiles));

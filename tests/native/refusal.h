@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "natator/error.h"
 #include "natator/model.h"
@@ -24,9 +25,9 @@ inline void PrintTo(const BadInput& bad, std::ostream* out) {
     test::print_name(bad.overrides, out);
 }
 
-/// The scene with these overrides is refused in one line that says which, where, and what was expected.
+/// The scene with these overrides is refused in one line that says which, where, and all of what was expected.
 inline void expect_refused(const std::string& scene, const nlohmann::json& overrides, const std::string& where,
-                           const std::string& expected) {
+                           const std::vector<std::string>& expected) {
     try {
         build_model(load_scene(scene, overrides));
         FAIL() << "accepted " << overrides;
@@ -34,7 +35,7 @@ inline void expect_refused(const std::string& scene, const nlohmann::json& overr
         const std::string message = error.what();
         EXPECT_EQ(message.find("scene \"" + scene + "\": "), 0u) << message;
         EXPECT_NE(message.find(where), std::string::npos) << message;
-        EXPECT_NE(message.find(expected), std::string::npos) << message;
+        for (const std::string& one : expected) EXPECT_NE(message.find(one), std::string::npos) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
 }

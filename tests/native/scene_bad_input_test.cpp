@@ -177,7 +177,7 @@ class BadSceneTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSceneTest, IsRefusedWithOneLineThatNamesTheField) {
     const BadInput& bad = GetParam();
-    expect_refused("thesis/creature-1", nlohmann::json::parse(bad.overrides), bad.field, bad.allowed);
+    expect_refused("thesis/creature-1", nlohmann::json::parse(bad.overrides), bad.field, {bad.allowed});
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(bad_scenes));

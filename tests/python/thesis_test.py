@@ -196,6 +196,7 @@ class Asked(unittest.TestCase):
     def test_parameters(self):
         for water in plan.WATERS:
             asked = plan.Plan(plan.Size(duration=1 / 60, runs=1)).of(plan.subject_of(plan.GAITS[0], water), "water").request
+            asked = plan.merged(asked, {"settling": {"updates": 2}})
             ranges = {name: ways[water] for name, (_, ways) in plan.PARAMETERS.items() if water in ways}
             own = [plan.merged(asked, plan.set_to(name, value)) for name, (value, _) in ranges.items()]
             extremes = [plan.merged(asked, plan.set_to(name, value)) for name, (_, values) in ranges.items() for value in (values[0], values[-1])]

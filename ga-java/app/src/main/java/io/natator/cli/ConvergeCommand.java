@@ -65,7 +65,6 @@ final class ConvergeCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Limits.checkSeveralStarts("--starts", starts);
-        RejectRepeated.check("--levels", levels, one -> one);
         List<FinerLevel> finer = levels.stream().map(FinerLevel::of).toList();
         RunReader run = RunReader.in(folder);
         Swimmer swimmer = run.requiredBest().swimmer();

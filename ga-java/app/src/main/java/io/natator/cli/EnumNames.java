@@ -34,8 +34,7 @@ final class EnumNames {
         return given -> {
             int index = names.indexOf(given.toLowerCase(Locale.ROOT));
             if (index < 0) {
-                throw new TypeConversionException("expected " + choice(names) + " but was '" + given + "'"
-                        + Closest.hint(given, names));
+                throw new TypeConversionException("expected " + choice(names) + " but was '" + given + "'");
             }
             return type.getEnumConstants()[index];
         };

@@ -1,16 +1,12 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
-import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
-import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.encoding.DenseEncoding;
@@ -18,10 +14,8 @@ import io.natator.encoding.Gait;
 import io.natator.process.Evaluator;
 import io.natator.process.SceneInfo;
 import io.natator.process.TimeLimit;
-import io.natator.protocol.RefusedSceneException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
-import io.natator.verdict.Reproduction;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -70,7 +64,7 @@ final class EvaluateCommand implements Callable<Integer> {
         Swimmer swimmer = swimmer(sceneName, execution.simulator());
         SimulationRequest request = new SimulationRequest(0, sceneName, swimmer.gait(), sceneOptions.duration(),
                 sceneOptions.scheme(), MergePatch.both(swimmer.body(), sceneOptions.overrides()));
-        SceneInfo info = info(sceneName, request.overrides(), execution.simulator());
+        SceneInfo info = SceneInfo.of(sceneName, request.overrides(), execution.simulator());
         if (execution.timeout() == null) {
             execution = execution.withTimeout(TimeLimit.of(info, sceneOptions.duration()));
         }
@@ -79,42 +73,14 @@ final class EvaluateCommand implements Callable<Integer> {
             result = evaluator.evaluate(request);
         }
         spec.commandLine().getOut().println(Json.line(result));
-        warn(result, request, execution);
         return result.status() == SimulationResult.Status.OK ? ExitCode.OK : ExitCode.SOFTWARE;
-    }
-
-    /** If the gait is a run's best and was to do what the run did, but does not. */
-    private void warn(SimulationResult result, SimulationRequest request, ExecutionSettings execution)
-            throws InterruptedException {
-        Path file = Path.of(gait.get(0));
-        Path run = file.getParent() == null ? Path.of(".") : file.getParent();
-        if (!file.endsWith("best.json") || !RunReader.exists(run)) {
-            return;
-        }
-        EvolutionSettings settings = RunReader.settings(run);
-        BestGait stored = RunReader.best(run);
-        if (stored != null && SimulationRequest.of(0, settings, stored.swimmer()).equals(request)) {
-            String difference = new Reproduction(run, stored, execution.simulator(), execution.backend(),
-                    execution.device()).difference(result);
-            if (difference != null) {
-                spec.commandLine().getErr().println(difference);
-            }
-        }
     }
 
     private Swimmer swimmer(String sceneName, Path simulator) throws InterruptedException {
         if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
             return GaitFile.read(Path.of(gait.get(0)));
         }
-        return new Swimmer(gait(info(sceneName, sceneOptions.overrides(), simulator).actuators()), null);
-    }
-
-    private static SceneInfo info(String sceneName, JsonNode overrides, Path simulator) throws InterruptedException {
-        try {
-            return SceneInfo.of(sceneName, overrides, simulator);
-        } catch (RefusedSceneException e) {
-            throw UnknownScene.scene("--scene", sceneName, e, simulator);
-        }
+        return new Swimmer(gait(SceneInfo.of(sceneName, sceneOptions.overrides(), simulator).actuators()), null);
     }
 
     private Gait gait(int actuators) {

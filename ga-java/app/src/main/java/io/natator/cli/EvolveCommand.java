@@ -13,10 +13,11 @@ import io.natator.config.Preset;
 import io.natator.config.SimulatorMode;
 import io.natator.file.OutputFolder;
 import io.natator.process.SceneInfo;
-import io.natator.protocol.RefusedSceneException;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.run.EvolutionRun;
 import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -98,7 +99,10 @@ final class EvolveCommand implements Callable<Integer> {
         RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
             Path folder = outputDir != null ? outputDir : freeFolder(settings.problem().scene());
-            WholeOutput.print(spec.commandLine(), out -> preview.print(folder, out));
+            StringWriter whole = new StringWriter();  // of what is refused meanwhile nothing is printed
+            preview.print(folder, new PrintWriter(whole));
+            spec.commandLine().getOut().print(whole);
+            spec.commandLine().getOut().flush();
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.problem().scene());
@@ -145,20 +149,13 @@ final class EvolveCommand implements Callable<Integer> {
         Preset preset = searchOptions.preset();
         String sceneName = choice.scene(spec, preset);
         EncodingKind encoding = searchOptions.encoding(sceneName);
-        int actuators = actuators(sceneName, encoding, execution.simulator());
+        int actuators = SceneInfo.toEvolve(sceneName, encoding, sceneOptions.overrides(), execution.simulator())
+                .actuators();
         return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
                 sceneOptions.overrides(), execution.simulator())
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(sceneName),
                         sceneOptions.overrides());
-    }
-
-    private int actuators(String sceneName, EncodingKind kind, Path simulator) throws InterruptedException {
-        try {
-            return SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), simulator).actuators();
-        } catch (RefusedSceneException e) {
-            throw choice.refused(sceneName, e, simulator);
-        }
     }
 
     /** A new folder that is this command's, though others that begin now look for one too. */

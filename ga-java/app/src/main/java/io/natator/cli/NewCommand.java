@@ -4,7 +4,6 @@ import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
-import io.natator.protocol.RefusedSceneException;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.UncheckedIOException;
@@ -76,24 +75,17 @@ final class NewCommand implements Callable<Integer> {
         if (Files.exists(file)) {
             throw new InvalidInputException(occupied(file));
         }
-        StartingFiles.StartingFile start = start(new StartingFiles(simulator.path()), file);
+        StartingFiles files = new StartingFiles(simulator.path());
+        StartingFiles.StartingFile start = switch (kind) {
+            case SCENE -> files.scene(name, like, file);
+            case CREATURE -> files.creature(name, like, file);
+            case GAIT -> files.gait(like, file);
+        };
         write(file, Json.document(start.content()));
         PrintWriter out = spec.commandLine().getOut();
         out.println(file + ": a " + EnumNames.of(kind) + " to begin with. Next:");
         start.next().forEach(command -> out.println("  " + command));
         return ExitCode.OK;
-    }
-
-    private StartingFiles.StartingFile start(StartingFiles files, Path file) throws InterruptedException {
-        try {
-            return switch (kind) {
-                case SCENE -> files.scene(name, like, file);
-                case CREATURE -> files.creature(name, like, file);
-                case GAIT -> files.gait(like, file);
-            };
-        } catch (RefusedSceneException e) {
-            throw like == null ? e : UnknownScene.scene("--like", like, e, simulator.path());
-        }
     }
 
     private static void write(Path file, String content) {

@@ -6,12 +6,11 @@ import io.natator.process.ProgramEnd;
 import io.natator.protocol.RequestRejectedException;
 import java.io.UncheckedIOException;
 import java.nio.file.InvalidPathException;
-import java.util.regex.Pattern;
+import java.util.List;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
 import picocli.CommandLine.ExitCode;
-import picocli.CommandLine.IExecutionStrategy;
 import picocli.CommandLine.MissingParameterException;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.ParseResult;
@@ -21,14 +20,6 @@ import picocli.CommandLine.UnmatchedArgumentException;
 final class OneLineErrors {
 
     private static final Logger LOG = LoggerFactory.getLogger(OneLineErrors.class);
-    /** What picocli calls an argument that is no option; in it, the name that the help has for it. */
-    private static final Pattern PLACE = Pattern.compile("positional parameter at index \\S+ \\((.*?)\\)");
-    /** How picocli tells of several arguments that it has too few of. */
-    private static final Pattern TOO_FEW = Pattern
-            .compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
-
-    private static final Pattern NONE = Pattern
-            .compile("(\\S+) requires at least (\\d+) values, but none were specified\\.");
 
     private OneLineErrors() {
     }
@@ -36,17 +27,10 @@ final class OneLineErrors {
     static int badUsage(ParameterException error, String[] arguments) {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
-        String what = unmatched != null ? unknown(unmatched, command)
-                : NumberValues.isNone(error) ? NumberValues.message(error) : inOurWords(error.getMessage());
+        String what = unmatched != null ? unknown(unmatched, command) : error.getMessage();
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName()
                 + " --help");
         return ExitCode.USAGE;
-    }
-
-    private static String inOurWords(String message) {
-        String named = PLACE.matcher(message).replaceAll("$1");
-        String counted = NONE.matcher(named).replaceFirst("found no $1; expected at least $2");
-        return TOO_FEW.matcher(counted).replaceFirst("found $3 $1; expected at least $2");
     }
 
     /** What was not understood; null if nothing, or it stands where an option's value should, which the message alone tells. */
@@ -59,36 +43,14 @@ final class OneLineErrors {
                 .filter(argument -> argument.startsWith("-")).findFirst().orElse(null) : null;
     }
 
-    /** What is unknown, with the nearest known name if one is near. */
+    /** What is unknown, with the known names that picocli finds near. */
     private static String unknown(String argument, CommandLine command) {
-        if (argument.startsWith("-")) {
-            String name = argument.replaceFirst("=.*", "");
-            return name + " is no option of this command"
-                    + Closest.hint(name, command.getCommandSpec().optionsMap().keySet());
-        }
-        return command.getSubcommands().isEmpty() ? "'" + argument + "' is one argument too many"
-                : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
-    }
-
-    /** Makes a command, and those below it, tell in one line what Java itself lacks: memory for what was asked, or a part of the program. */
-    static void installJava(CommandLine command) {
-        IExecutionStrategy usual = command.getExecutionStrategy();
-        command.setExecutionStrategy(parsed -> {
-            try {
-                return usual.execute(parsed);
-            } catch (OutOfMemoryError e) {
-                return lacking(parsed, "not enough memory: Java may take " + (Runtime.getRuntime().maxMemory() >> 20)
-                        + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
-            } catch (LinkageError e) {
-                return lacking(parsed, "a part of the program cannot be loaded: " + e.getMessage()
-                        + "; expected more open files than ulimit -n allows, or the jar as it was at the start");
-            }
-        });
-    }
-
-    private static int lacking(ParseResult parsed, String what) {
-        print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), what);
-        return ExitCode.SOFTWARE;
+        String name = argument.replaceFirst("^(-.*?)=.*", "$1");
+        List<String> near = new UnmatchedArgumentException(command, List.of(name)).getSuggestions();
+        return (argument.startsWith("-") ? name + " is no option of this command"
+                : "'" + argument
+                        + (command.getSubcommands().isEmpty() ? "' is one argument too many" : "' is no command"))
+                + (near.isEmpty() ? "" : "; did you mean " + EnumNames.choice(near) + "?");
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {
@@ -102,7 +64,7 @@ final class OneLineErrors {
             return ExitCode.USAGE;
         }
         if (error instanceof InvalidPathException name) {
-            print(command, FileNames.fault(name));
+            print(command, "'" + name.getInput() + "' cannot be the name of a file: " + name.getReason());
             return ExitCode.USAGE;
         }
         if (error instanceof RequestRejectedException rejected) {

@@ -15,7 +15,6 @@ import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
-import io.natator.verdict.Reproduction;
 import io.natator.verdict.WinnerFacts;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -117,11 +116,8 @@ final class PageCommand implements Callable<Integer> {
         checkOutput();
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
-        List<List<SwimSource>> swimmers = sources.stream().map(this::swimmers).toList();
-        for (int i = 0; i < sources.size(); i++) {
-            for (SwimSource swimmer : swimmers.get(i)) {
-                swims.add(swimmer.simulated(sources.get(i), simulator, () -> recorded(swimmer, simulator)));
-            }
+        for (SwimSource swimmer : sources.stream().map(this::swimmers).flatMap(List::stream).toList()) {
+            swims.add(recorded(swimmer, simulator));
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
         ReplayHtml.Written written = new ReplayHtml(heading, swims, !noWater).write(output,
@@ -186,22 +182,10 @@ final class PageCommand implements Callable<Integer> {
                 .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null);
         Replay swim = new ReplayRecorder(simulator).record(swimmer.name(), options);
         StreamFrame last = swim.frames().get(swim.frames().size() - 1);
-        Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme());
-        if (stored != null) {
-            warn(stored, swim.frames());
-        }
+        boolean asStored = swimmer.best() != null && sceneOptions.overrides() == null && sceneOptions.scheme() == null;
         String name = swimmer.run() == null ? swimmer.name()
                 : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
         return swim.with(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
-                + " s", stored == null ? Map.of() : WinnerFacts.of(swimmer.run(), swimmer.best()));
-    }
-
-    private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {
-        for (StreamFrame frame : frames) {
-            String difference = frame.frame() == stored.lastFrame() ? stored.difference(frame.distance(), 0) : null;
-            if (difference != null) {
-                spec.commandLine().getErr().println(difference);
-            }
-        }
+                + " s", asStored ? WinnerFacts.of(swimmer.run(), swimmer.best()) : Map.of());
     }
 }

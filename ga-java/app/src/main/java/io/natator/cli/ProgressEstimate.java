@@ -2,9 +2,7 @@ package io.natator.cli;
 
 import io.natator.config.Budget;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Search;
 import io.natator.evolution.EvolutionState;
-import io.natator.evolution.GenerationSummary;
 import java.util.function.LongSupplier;
 
 /** How far an evolution is, how fast it goes and how long it will still take, judged by the simulations so far. */
@@ -14,18 +12,11 @@ final class ProgressEstimate {
     static final double CHILDREN_PER_SELECTED = 1.7;
 
     private static final double NANOSECONDS = 1e9;
-    /** What is usual counts as so many generations more, so that the first ones do not change the total much. */
-    private static final int USUAL_GENERATIONS = 4;
-    /** To so many simulations a total that may still change is given. */
-    private static final long ROUNDING = 10;
-
     private final EvolutionSettings settings;
     private final LongSupplier clock;
     private final long started;
     private final long recorded;
     private long done;
-    private int bred;
-    private long children;
     private long expected;
     private boolean certain;
 
@@ -48,23 +39,13 @@ final class ProgressEstimate {
         this.started = clock.getAsLong();
         if (from != null) {
             done = from.evaluations();
-            from.history().stream().filter(one -> one.generation() > 0).mapToInt(GenerationSummary::evaluations)
-                    .forEach(this::count);
         }
         estimate(from == null ? perGeneration(1) : done,
                 settings.budget().generations() - (from == null ? 0 : from.generation()));
     }
 
-    private void count(int simulations) {
-        bred++;
-        children += simulations;
-    }
-
     /** A generation needs so many simulations. */
     void generationStarted(int generation, int simulations) {
-        if (generation > 0) {
-            count(simulations);
-        }
         estimate(done + simulations, settings.budget().generations() - generation);
     }
 
@@ -82,15 +63,8 @@ final class ProgressEstimate {
     private void estimate(double known, int later) {
         long budget = settings.budget().evaluations() == null ? Long.MAX_VALUE : settings.budget().evaluations();
         boolean varies = settings.search().optimizer().usesOperators();
-        double each = varies ? (USUAL_GENERATIONS * perGeneration(CHILDREN_PER_SELECTED) + children)
-                / (USUAL_GENERATIONS + bred) : perGeneration(1);
-        double all = known + later * each;
         certain = !varies || later == 0 || settings.budget().generations() == Budget.NO_LIMIT;
-        if (all >= budget) {
-            expected = budget;
-        } else {
-            expected = certain ? Math.round(all) : Math.round(all / ROUNDING) * ROUNDING;
-        }
+        expected = Math.round(Math.min(budget, known + later * perGeneration(varies ? CHILDREN_PER_SELECTED : 1)));
     }
 
     /** A simulation has ended. */
@@ -147,14 +121,5 @@ final class ProgressEstimate {
             return String.format("%dh%02dm", seconds / 3600, seconds % 3600 / 60);
         }
         return seconds >= 60 ? String.format("%dm%02ds", seconds / 60, seconds % 60) : seconds + "s";
-    }
-
-    /** How many evaluations a run takes, as far as that is known before. */
-    static long evaluations(EvolutionSettings settings) {
-        Search search = settings.search();
-        Budget budget = settings.budget();
-        return budget.evaluations() != null ? budget.evaluations() : Math.round(search.starts() * search.population()
-                * (1 + (search.optimizer().usesOperators() ? CHILDREN_PER_SELECTED : 1) * budget.generations()))
-                + (long) search.repeats() * (budget.generations() + 1);
     }
 }

@@ -3,8 +3,6 @@ package io.natator.cli;
 import io.natator.base.InvalidInputException;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Preset;
-import io.natator.protocol.RefusedSceneException;
-import java.nio.file.Path;
 import java.util.Arrays;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
@@ -52,12 +50,5 @@ final class SceneChoice {
             return SceneOptions.scene("--scene", scene);
         }
         return creature != null ? preset.sceneOf(creature) : preset.scene();
-    }
-
-    /** What to say where the simulator refuses the chosen scene: which there are, if it has none of that name. */
-    InvalidInputException refused(String chosen, RefusedSceneException refusal, Path simulator)
-            throws InterruptedException {
-        return creature != null ? UnknownScene.creature(creature, chosen, refusal, simulator)
-                : UnknownScene.scene("--scene", chosen, refusal, simulator);
     }
 }

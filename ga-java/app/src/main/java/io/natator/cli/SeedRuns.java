@@ -52,7 +52,7 @@ final class SeedRuns {
                 .mapToObj(seed -> new PlannedRun(settings.withSeed(seed), directory.resolve("seed-" + seed))).toList();
         this.err = err;
         runs.forEach(PlannedRun::check);
-        this.evaluations = seeds * ProgressEstimate.evaluations(settings);
+        this.evaluations = seeds * new ProgressEstimate(settings, System::nanoTime).expected();
         this.before = runs.stream().mapToLong(PlannedRun::recorded).sum();
     }
 

@@ -22,6 +22,7 @@ import io.natator.protocol.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.ConvergenceText;
 import java.io.PrintWriter;
+import java.io.StringWriter;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
@@ -56,8 +57,15 @@ final class ShowCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        WholeOutput.print(spec.commandLine(), generation == null ? this::print
-                : out -> out.println(Json.line(SwimSource.bestUntil(generation, RunReader.in(folder))).strip()));
+        StringWriter whole = new StringWriter();  // of what is refused meanwhile nothing is printed
+        PrintWriter out = new PrintWriter(whole);
+        if (generation == null) {
+            print(out);
+        } else {
+            out.println(Json.line(SwimSource.bestUntil(generation, RunReader.in(folder))).strip());
+        }
+        spec.commandLine().getOut().print(whole);
+        spec.commandLine().getOut().flush();
         return ExitCode.OK;
     }
 

@@ -2,7 +2,6 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.InvalidInputException;
@@ -14,17 +13,12 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
-import java.util.stream.Stream;
 
 /** Makes files to begin with that the simulator takes as they are. */
 final class StartingFiles {
 
     private static final String LIKE = "--like";
     private static final String POOL = "pool/water";
-    private static final List<String> ORDER = List.of("mesh", "profile", "slices", "file", "length", "height", "width",
-            "fin",
-            "joints", "muscleSlices", "bend", "spacing", "particleMass");
     private static final String SWIMMER = "pool/eel";
     private static final String BODY = """
             {
@@ -64,8 +58,7 @@ final class StartingFiles {
     }
 
     /**
-     * A fish of curves in the small pool; or what is most often changed in another scene, as it is there, and such a fish if
-     * it has no creature.
+     * A fish of curves in the small pool; or what is most often changed in another scene with a creature, as it is there.
      *
      * @param like a scene, or null
      * @param file where it will be
@@ -82,12 +75,7 @@ final class StartingFiles {
             copy(there, scene, "duration");
             copy(there.path("solver"), scene.putObject("solver"), "gravity",
                     "flex".equals(there.path("scheme").asText("flex")) ? "viscosity" : "kinematicViscosity");
-            if (there.path("creature").isObject()) {
-                copy(there.get("creature"), scene.putObject("creature"), "rearCentre", "clusterStiffness",
-                        "springStiffness");
-            } else {
-                scene.set("creature", bodyIn(SceneOptions.scene(LIKE, like), there.path("fluid")));
-            }
+            copy(bodyOf(like), scene.putObject("creature"), "rearCentre", "clusterStiffness", "springStiffness");
         }
         String gait = file.resolveSibling(name + "-gait") + ".json";
         String view = Main.asCalled() + " view --scene " + ShellWord.of(file);
@@ -113,7 +101,7 @@ final class StartingFiles {
                 + ", of which this file may change everything. Neutrally buoyant where a particle weighs what its water does.");
         ObjectNode body = like == null ? parsed(BODY) : bodyOf(like);
         body.remove(List.of("name", "description"));
-        creature.setAll((ObjectNode) ordered(body));
+        creature.setAll(body);
         Place place = placeOf(body, like);
         creature.set("rearCentre", place.rearCentre());
         ObjectNode overrides = JsonNodeFactory.instance.objectNode();
@@ -171,28 +159,6 @@ final class StartingFiles {
         return (Files.exists(bundled) ? bundled : Path.of(file)).toAbsolutePath().normalize();
     }
 
-    /** The fish at a place where a scene's water takes it: near the rear end, else in the middle. */
-    private ObjectNode bodyIn(String scene, JsonNode fluid) throws InterruptedException {
-        ObjectNode body = parsed(BODY);
-        double length = body.at("/profile/length").asDouble();
-        double[] origin = new double[3];
-        double[] extent = new double[3];
-        for (int axis = 0; axis < 3; axis++) {
-            origin[axis] = fluid.path("origin").path(axis).asDouble();
-            extent[axis] = fluid.path("spacing").asDouble() * fluid.path("count").path(axis).asDouble();
-        }
-        List<Place> places = new ArrayList<>();
-        for (double x : new double[] {extent[0] / 4, (extent[0] - length) / 2}) {
-            ArrayNode centre = JsonNodeFactory.instance.arrayNode();
-            for (double along : new double[] {origin[0] + x, origin[1] + extent[1] / 2, origin[2] + extent[2] / 2}) {
-                centre.add(Math.round(100 * along) / 100.0);
-            }
-            places.add(new Place(scene, centre));
-        }
-        body.set("rearCentre", firstThatTakes(body, places).rearCentre());
-        return body;
-    }
-
     /** Water that takes the body: that of the scene it is from, or one of the bundled. */
     private Place placeOf(ObjectNode body, String like) throws InterruptedException {
         List<Place> places = new ArrayList<>();
@@ -229,22 +195,6 @@ final class StartingFiles {
                 to.set(key, from.get(key));
             }
         }
-    }
-
-    /** With its keys as people write them, not by the alphabet. */
-    private static JsonNode ordered(JsonNode node) {
-        if (node instanceof ArrayNode list) {
-            ArrayNode same = JsonNodeFactory.instance.arrayNode();
-            list.forEach(item -> same.add(ordered(item)));
-            return same;
-        }
-        if (!(node instanceof ObjectNode)) {
-            return node;
-        }
-        ObjectNode sorted = JsonNodeFactory.instance.objectNode();
-        Stream.concat(ORDER.stream().filter(node::has), node.propertyStream().map(Map.Entry::getKey))
-                .distinct().forEach(key -> sorted.set(key, ordered(node.get(key))));
-        return sorted;
     }
 
     private static ObjectNode parsed(String text) {

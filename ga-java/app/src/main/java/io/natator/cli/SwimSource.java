@@ -8,19 +8,14 @@ import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.GaitScore;
 import io.natator.checkpoint.RunReader;
-import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.process.SceneInfo;
-import io.natator.protocol.RefusedSceneException;
-import io.natator.verdict.Reproduction;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Arrays;
-import java.util.Objects;
 
 /**
  * A swimmer and its scene: a run's best swimmer in its scene, or a scene with or without a gait.
@@ -108,38 +103,6 @@ record SwimSource(Path run, String scene, JsonNode overrides, Gait gait, Scheme 
         double seconds = known != null ? known : SceneInfo.of(scene, overrides, simulator).duration();
         Limits.checkDuration("--duration", seconds);
         return seconds;
-    }
-
-    /**
-     * Whether a program of today repeats what is stored.
-     *
-     * @param changes to the scene, the scheme or the precision by the user: null for none
-     * @return null if nothing that can be compared is stored
-     */
-    Reproduction reproduction(Path simulator, Object... changes) {
-        boolean same = best != null && Arrays.stream(changes).allMatch(Objects::isNull);
-        return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
-    }
-
-    /** What simulates a swim. */
-    @FunctionalInterface
-    interface Simulation<T> {
-
-        T run() throws InterruptedException;
-    }
-
-    /**
-     * What a simulation of it gives.
-     *
-     * @param source that the user named
-     * @throws InvalidInputException which is about that, if the simulator refuses the scene
-     */
-    <T> T simulated(String source, Path simulator, Simulation<T> simulation) throws InterruptedException {
-        try {
-            return simulation.run();
-        } catch (RefusedSceneException e) {
-            throw run == null ? UnknownScene.source(source, e, simulator) : e;
-        }
     }
 
     /** Its gait as JSON, or null. */

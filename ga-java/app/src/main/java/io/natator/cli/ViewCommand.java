@@ -11,7 +11,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.process.SceneInfo;
-import io.natator.protocol.RefusedSceneException;
 import io.natator.stream.StreamOptions;
 import io.natator.stream.StreamProcess;
 import io.natator.view.InitialScene;
@@ -143,17 +142,13 @@ final class ViewCommand implements Callable<Integer> {
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
         ObjectNode overrides = InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()),
                 sceneOptions.scheme());
-        try {
-            SceneInfo info = SceneInfo.of(scene, overrides, program);
-            boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
-            InitialScene start = new InitialScene(scene, overrides, fits || given != null ? swimmer.gait() : null);
-            if (given != null) {
-                checkGait(start, program);
-            }
-            return start;
-        } catch (RefusedSceneException e) {
-            throw choice.refused(scene, e, program);
+        SceneInfo info = SceneInfo.of(scene, overrides, program);
+        boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
+        InitialScene start = new InitialScene(scene, overrides, fits || given != null ? swimmer.gait() : null);
+        if (given != null) {
+            checkGait(start, program);
         }
+        return start;
     }
 
     /** Before the page opens, where it would only be told that the simulator refuses it. */

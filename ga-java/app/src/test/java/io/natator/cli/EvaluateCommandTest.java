@@ -15,28 +15,6 @@ import org.junit.jupiter.params.provider.CsvSource;
 class EvaluateCommandTest extends FakeSimulatorTest {
 
     @Test
-    void aStoredGaitThatComesOutOtherwiseIsNamed() throws IOException {
-        ok(evolve("run"));
-        Path best = folder.resolve("run/best.json");
-        String[] again = {"evaluate", "--scene", "pool/creature-1", "--duration", "2", "--gait", best.toString()};
-        ok(natator(again));
-        assertThat(err.toString()).isEmpty();
-
-        JsonNode stored = Json.parse(file("run", "best.json"), JsonNode.class);
-        String distance = stored.get("distance").asText();
-        Files.writeString(best, Files.readString(best).replace(distance, "0.1234")
-                .replace(stored.get("result").get("hash").asText(), "00000000deadbeef"));
-        ok(natator(again));
-        assertThat(err.toString())
-                .isEqualTo(String.format("%s: stored 0.1234, today's program %.4f (the same program: no "
-                        + "reason is known)%n", folder.resolve("run"), stored.get("distance").asDouble()));
-
-        again[4] = "3";
-        ok(natator(again));
-        assertThat(err.toString()).as("another simulation").isEmpty();
-    }
-
-    @Test
     void evaluatesGenes() throws IOException {
         ok(natator("evaluate", "--scene", "thesis/creature-1", "--gait", "1.5", "0.1", "0.2", "0.3"));
 

@@ -47,15 +47,6 @@ class HelpTest extends CommandTest {
     }
 
     @Test
-    void evolveHasItsOptionsInGroupsAndExamples() {
-        ok(execute("evolve", "--help")).containsSubsequence("What swims:", "--creature",
-                "How its gait is searched for:",
-                "--fitness", "How much is done:", "--generations", "How it is computed:", "--workers",
-                "What is written, and where:", "--output-dir", "Other options:", "--dry-run", "Examples:",
-                "natator evolve --creature 2");
-    }
-
-    @Test
     void withoutACommandTheHelpSaysWhichThereAre() {
         refused(execute()).startsWith("Usage: natator [").contains("Commands:");
         assertThat(out.toString()).isEmpty();
@@ -63,8 +54,8 @@ class HelpTest extends CommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-            "evolv|natator: 'evolv' is no command; did you mean evolve? See natator --help",
-            "resum|natator: 'resum' is no command; did you mean resume? See natator --help",
+            "evolv|natator: 'evolv' is no command; did you mean evolve or evaluate? See natator --help",
+            "resum|natator: 'resum' is no command; did you mean resume or compare? See natator --help",
             "swim|natator: 'swim' is no command; see natator --help",
             "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
             "view --zzz|natator view: --zzz is no option of this command; see natator view --help"})

@@ -32,7 +32,7 @@ class KilledRunTest {
     private static final List<String> HOW = List.of("--simulator", "resident", "--workers", "2", "--no-cache",
             "--timeout", "3600");
     private static final List<String> SETTINGS = List.of("--creature", "1", "--population", "30", "--evaluations",
-            "400");
+            "150");
     /** Answers that a simulator gives at most until it waits to be killed: no run gets to its end between two kills. */
     private static final String ANSWERS = "4";
     private static final int TIMES = Integer.getInteger("natator.kills", 1);
@@ -99,7 +99,8 @@ class KilledRunTest {
         Files.delete(folder.resolve("slow"));
         Files.delete(folder.resolve("most"));
 
-        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertThat(start(command("resume", "--no-cache", "--simulator", "resident", run.toString())).waitFor())
+                .as(Files.readString(log)).isZero();
 
         RunFiles.assertSame(run, whole);
     }
@@ -146,7 +147,7 @@ class KilledRunTest {
         Path whole = whole();
         Path run = folder.resolve("full");
         Files.delete(folder.resolve("slow"));
-        List<String> limited = new ArrayList<>(List.of("bash", "-c", "ulimit -f 40; exec \"$@\"", "natator"));
+        List<String> limited = new ArrayList<>(List.of("bash", "-c", "ulimit -f 20; exec \"$@\"", "natator"));
         limited.addAll(evolve(run));
 
         assertThat(start(limited).waitFor()).isEqualTo(1);
@@ -154,7 +155,8 @@ class KilledRunTest {
         assertThat(Files.readAllLines(log)).last().asString().startsWith("natator evolve: cannot write " + run)
                 .contains("File too large");
         assertThat(Files.size(run.resolve("evaluations.jsonl"))).isGreaterThan(10_000);
-        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertThat(start(command("resume", "--no-cache", "--simulator", "resident", run.toString())).waitFor())
+                .as(Files.readString(log)).isZero();
         RunFiles.assertSame(run, whole);
     }
 

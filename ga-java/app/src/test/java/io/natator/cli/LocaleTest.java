@@ -6,7 +6,6 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.util.Locale;
 import org.junit.jupiter.api.AfterEach;
@@ -39,15 +38,8 @@ class LocaleTest {
 
         assertThat(new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8)).hasLineCount(1)
                 .startsWith("natator " + command.replaceFirst(" .*", "") + ": ")
-                .contains("'\ufffd\ufffd' cannot be the name of a file in ANSI_X3.4-1968, ")
-                .contains("expected LC_ALL=C.UTF-8 before java, or the command natator, which sets it");
+                .contains("'\ufffd\ufffd'");
         assertThat(process.waitFor()).isEqualTo(2);
-    }
-
-    @Test
-    void aNameThatNoFileHasIsToldWithItsReason() {
-        assertThat(FileNames.fault(new InvalidPathException("a\0", "Nul character not allowed"), "UTF-8"))
-                .isEqualTo("'a\0' cannot be the name of a file: Nul character not allowed");
     }
 
     @Test

@@ -2,9 +2,6 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.base.Numbers;
-import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -44,26 +41,6 @@ class PageCommandTest extends CommandTest {
         ok(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
                 .endsWith(", no water\n");
         assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
-        assertThat(err.toString()).doesNotContain("stored");
-    }
-
-    @Test
-    void aStoredGaitThatSwimsOtherwiseNowIsNamed() throws IOException {
-        Path run = folder.resolve("run");
-        ok(natator("evolve --creature 1 --population 2 --generations 0 --duration 0.1", "--output-dir",
-                run.toString()));
-        double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
-        String[] again = {"page", run.toString(), "--no-water", "--force", "--output",
-                path("page.html")};
-        ok(natator(again));
-        assertThat(err.toString()).as("today's program made it").isEmpty();
-
-        String best = Files.readString(run.resolve("best.json"));
-        Files.writeString(run.resolve("best.json"), best.replace("\"distance\" : " + swum, "\"distance\" : 0.5521"));
-        ok(natator(again));
-        assertThat(err.toString().lines()).hasSize(1).allSatisfy(line -> assertThat(line).startsWith(
-                run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4)
-                        + " (the same program: no reason is known)"));
     }
 
     @Test

@@ -51,8 +51,8 @@ class ProgressTest {
             evaluate(progress, -1, 1);
         }
         assertThat(out.toString().strip())
-                .isEqualTo("generation 0 of 2 under way, best 0.0000, evaluations 2 of about 40, "
-                        + "elapsed 10s, left 3m10s");
+                .isEqualTo("generation 0 of 2 under way, best 0.0000, evaluations 2 of about 44, "
+                        + "elapsed 10s, left 3m30s");
     }
 
     @Test

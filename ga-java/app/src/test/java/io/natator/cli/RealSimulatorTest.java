@@ -48,16 +48,6 @@ class RealSimulatorTest extends CommandTest {
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
     }
 
-    @ParameterizedTest
-    @ValueSource(strings = {"--dry-run", "--stop-after=60"})
-    void aDurationBelowOneTimeStepIsRefused(String option) {
-        Path run = folder.resolve("run");
-
-        refused(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option))
-                .contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
-        assertThat(run).doesNotExist();
-    }
-
     @Test
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
         String swim = "evaluate --scene pool/creature-1 --duration 0.1 --gait 1.5 0.6 0.69 0.5";
@@ -93,19 +83,6 @@ class RealSimulatorTest extends CommandTest {
         assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
 
         ok(execute("show", run.toString())).contains("  checked     ");
-    }
-
-    /** As a single run is: no file is begun that would fill the disk. */
-    @Test
-    void moreTimeStepsThanARunMayHaveAreRefused() {
-        Path output = folder.resolve("out.html");
-        for (String duration : List.of("1e6", "200000")) {
-            List<String> arguments = List.of("page", "--duration", duration, "--output", output.toString(),
-                    "--max-size", "1000000",
-                    "thesis/creature-1-vacuum");
-            refused(natator(arguments)).contains("must be at most 10 million time steps of timeStep").hasLineCount(1);
-            assertThat(output).doesNotExist();
-        }
     }
 
     /** A duration that frames do not fill ends with the last of them. */
@@ -173,8 +150,8 @@ class RealSimulatorTest extends CommandTest {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
-            ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "1",
-                    "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode,
+            ok(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "4", "--generations", "1",
+                    "--duration", "0.05", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode,
                     "--output-dir", run.toString()));
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
@@ -199,17 +176,6 @@ class RealSimulatorTest extends CommandTest {
         assertThat(RunReader.statistics(folder.resolve("without")).fromCache()).isZero();
     }
 
-    @ParameterizedTest
-    @CsvSource({"1, 2", "2, 8", "3, 5", "4, 3"})
-    void everyCreatureHasItsActuators(int creature, int actuators) throws IOException {
-        Path run = folder.resolve("run");
-
-        ok(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0", "--duration",
-                "0.02", "--output-dir", run.toString()));
-        assertThat(Json.parse(Files.readString(run.resolve("config.json")), JsonNode.class).get("actuators").asInt())
-                .isEqualTo(actuators);
-    }
-
     /** With one joint there is no muscle between two. */
     @ParameterizedTest
     @ValueSource(strings = {"evolve --creature 1", "evolve --creature 2"})
@@ -222,14 +188,5 @@ class RealSimulatorTest extends CommandTest {
         assertThat(err.toString().lines()).singleElement().asString().startsWith("natator " + arguments[0])
                 .contains("cannot move by itself: it has no actuators").contains("at least two joints");
         assertThat(output).doesNotExist();
-    }
-
-    @ParameterizedTest
-    @CsvSource(delimiter = '|', value = {
-            "thesis/creature-9|{}|thesis/creature-9",
-            "thesis/creature-1|{\"no such setting\":1}|no such setting"})
-    void whatTheSimulatorRefusesIsOneLineAndStatus2(String scene, String overrides, String named) {
-        refused(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
-                .hasLineCount(1).contains(named);
     }
 }

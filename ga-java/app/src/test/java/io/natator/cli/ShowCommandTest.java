@@ -108,7 +108,7 @@ class ShowCommandTest extends FakeSimulatorTest {
             "{'generation':0,'genes':[1]}|gait is missing",
             "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]}}|result is missing",
             "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]},'result':{'status':'failed','simulated':0}}|id is missing",
-            "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
+            "{'generation':zero}|Unrecognized token 'zero'"})
     void aLineThatIsNoEvaluationIsNamed(String line, String message) throws IOException {
         evolved("map-elites");
         Files.writeString(file("evaluations.jsonl"), line.replace('\'', '"') + "\n");

@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-/** The tutorial's commands, run one after another in an empty folder with the real simulator; swims and evolution are cut short. */
+/** The tutorial's commands, run one after another in an empty folder with the real simulator; all that swims is cut short. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class TutorialTest {
 
@@ -54,8 +54,9 @@ class TutorialTest {
     }
 
     private static String shorter(String command) {
-        return command.replace("--duration 2", "--duration 0.5").replace("--population 12 --generations 3",
-                "--population 4 --generations 1");
+        return command.replace("--duration 2", "--duration 0.2").replace("--population 12 --generations 3",
+                "--population 3 --generations 1 --starts 1").replace("natator check", "natator check --starts 2")
+                .replace("natator converge", "natator converge --starts 2 --levels time/2");
     }
 
     private void runs(String command) throws IOException, InterruptedException {

@@ -154,17 +154,4 @@ class DebianJarCheck {
 
         assertThat(elsewhere.resolve("eel.html")).content().contains("<html");
     }
-
-    @Test
-    void aProgramOfAnotherVersionIsRefusedInOneLine() throws IOException, InterruptedException {
-        Path other = elsewhere.resolve("other");
-        Files.writeString(other, "#!/bin/sh\necho natator-sim 0.0.1, commit unknown, instruction set portable\n");
-        assertThat(other.toFile().setExecutable(true)).isTrue();
-
-        Ended ended = run(elsewhere, List.of("NATATOR_SIM=" + other), program("natator"), "new", "creature", "minnow");
-
-        assertThat(ended).isEqualTo(new Ended(2, "", "natator new: " + other + " is natator-sim 0.0.1, this is natator "
-                + version()
-                + "; expected the same version: install or build both again, or name another program by --simulator-path or NATATOR_SIM\n"));
-    }
 }

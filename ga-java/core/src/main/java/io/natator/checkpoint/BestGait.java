@@ -1,6 +1,5 @@
 package io.natator.checkpoint;
 
-import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
@@ -68,11 +67,5 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
     /** The swimmer: gait and body. */
     public Swimmer swimmer() {
         return new Swimmer(gait, body);
-    }
-
-    /** Whether {@code result} is a run from the scene's own start, so that whoever runs the gait again gets the same. */
-    @JsonIgnore
-    public boolean isFromOwnStart() {
-        return runs == 1 || vacuum != null;
     }
 }

@@ -81,17 +81,6 @@ public final class SceneDigest {
                 && Objects.equals(origin.settings().problem().overrides(), settings.problem().overrides());
     }
 
-    /**
-     * Whether a run's scene was changed after the run was begun; false where the run recorded no digest.
-     *
-     * @param directory of the run
-     * @param simulator the native program
-     */
-    public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
-        RunReader.Origin origin = RunReader.origin(directory);
-        return isKnown(origin) && !origin.sceneSha256().equals(of(origin.settings(), simulator));
-    }
-
     private static boolean isKnown(RunReader.Origin origin) {
         return origin != null && origin.sceneSha256() != null && origin.settings() != null;
     }

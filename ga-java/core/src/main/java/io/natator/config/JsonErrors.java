@@ -38,13 +38,18 @@ final class JsonErrors {
         if (message.startsWith("No content")) {
             return "found nothing; expected a JSON text";
         }
-        if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
-                && !message.startsWith("Trailing token")) {
+        if (message.startsWith("Unexpected end-of-input")) {
+            return "ends too early; expected the rest of the JSON text";
+        }
+        if (message.startsWith("Trailing token")) {
+            return "found another value after the first; expected one";
+        }
+        if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null) {
             return "expected " + described(mismatch.getTargetType())
                     + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue())
                             : taken(message));
         }
-        return SyntaxErrors.plain(message);
+        return message.replaceFirst(": enable `.*", "");
     }
 
     /** Whether a record required a key by its name and did not get it. */

@@ -6,7 +6,6 @@ import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import io.natator.RandomCases;
 import io.natator.base.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.DenseEncoding;
@@ -14,6 +13,9 @@ import io.natator.encoding.Gait;
 import io.natator.encoding.GeneRange;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.SplittableRandom;
+import org.junit.jupiter.api.RepeatedTest;
+import org.junit.jupiter.api.RepetitionInfo;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -59,12 +61,13 @@ class BodyGenomeTest {
                 "muscle strength at 70 %", "muscle strength at 100 %");
     }
 
-    @RandomCases(300)
-    void everyGenomeGivesABodyOfTheSameVolumeAndStrength(RandomCases.Case one) {
-        ProfileBody scene = Bodies.bundled(NAMES.get(one.whole(0, 2)));
+    @RepeatedTest(300)
+    void everyGenomeGivesABodyOfTheSameVolumeAndStrength(RepetitionInfo seed) {
+        SplittableRandom random = new SplittableRandom(seed.getCurrentRepetition());
+        ProfileBody scene = Bodies.bundled(NAMES.get(random.nextInt(3)));
         BodyGenome genome = new BodyGenome(scene);
 
-        ProfileBody body = genome.decode(Bodies.random(genome.genes(), one.random()));
+        ProfileBody body = genome.decode(Bodies.random(genome.genes(), random));
 
         assertThat((double) body.particles() / scene.particles()).isCloseTo(1, within(0.02));
         assertThat(body.strength()).isCloseTo(scene.strength(), within(1e-6));

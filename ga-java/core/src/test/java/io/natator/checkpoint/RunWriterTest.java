@@ -225,15 +225,6 @@ class RunWriterTest {
     }
 
     @Test
-    void aFinishedRunStaysAsItIs() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Map<String, String> before = lastingFiles(run);
-
-        assertThat(evolve(RunWriter.open(run)).calls()).isZero();
-        assertThat(lastingFiles(run)).isEqualTo(before);
-    }
-
-    @Test
     void nothingIsOverwritten() throws IOException {
         Files.createDirectories(run);
         Files.writeString(run.resolve("thesis.tex"), "years of work");
@@ -272,24 +263,6 @@ class RunWriterTest {
             assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
                     .hasMessageContaining("is in use");
         }
-    }
-
-    @Test
-    void damageIsToldOf() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Files.writeString(run.resolve("checkpoint.json"), "{\"generation\":1");
-
-        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("checkpoint").hasMessageContaining("line 1");
-    }
-
-    @Test
-    void lostEvaluationsAreToldOf() throws IOException {
-        evolve(RunWriter.create(run, settings(OperatorSet.CORRECTED)));
-        Files.writeString(run.resolve("evaluations.jsonl"), "");
-
-        assertThatThrownBy(() -> RunWriter.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("evaluations.jsonl has 0 whole lines");
     }
 
     /** A run after some generation, as a kill leaves it. */

@@ -4,7 +4,11 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.body.Bodies;
 import java.util.List;
+import java.util.SplittableRandom;
+import org.junit.jupiter.api.RepeatedTest;
+import org.junit.jupiter.api.RepetitionInfo;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -78,5 +82,19 @@ class EncodingTest {
     void gaitNeedsAsManyPhasesAsAmplitudes() {
         assertThatThrownBy(() -> new Gait(1.0, List.of(0.5, 0.5), List.of(0.0)))
                 .hasMessage("gait has 2 amplitudes and 1 phase; expected as many of both");
+    }
+
+    @RepeatedTest(300)
+    void everyGenomeGivesAGaitWithinTheThesisRanges(RepetitionInfo seed) {
+        SplittableRandom random = new SplittableRandom(seed.getCurrentRepetition());
+        int actuators = random.nextInt(2, 13);
+        Encoding encoding = random.nextBoolean() ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
+
+        Gait gait = encoding.decode(Bodies.random(encoding.genes(), random));
+
+        assertThat(gait.frequency()).isBetween(0.5, 2.0);
+        assertThat(gait.amplitude()).hasSize(actuators).allSatisfy(a -> assertThat(a).isBetween(0.0, 1.0));
+        assertThat(gait.phase()).hasSize(actuators).allSatisfy(phi -> assertThat(phi).isBetween(0.0, 1.0));
+        assertThat(gait.phase().get(0)).isZero();
     }
 }

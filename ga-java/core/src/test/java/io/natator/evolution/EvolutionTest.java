@@ -63,19 +63,6 @@ class EvolutionTest {
         assertThat(other.population()).isNotEqualTo(one.population());
     }
 
-    @ParameterizedTest
-    @EnumSource(OperatorSet.class)
-    void continuesFromAnyGenerationAsIfNeverInterrupted(OperatorSet operators) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        EvolutionSettings settings = settings(operators, 20, 6, 8);
-        EvolutionState whole = run(settings, new ToySimulator(), 2, recorder);
-
-        assertThat(recorder.states).hasSize(7);
-        for (EvolutionState state : recorder.states) {
-            assertThat(ToyEvolution.run(settings, 2, state, recorder.evaluations)).isEqualTo(whole);
-        }
-    }
-
     @Test
     void thesisSizeTakesTheExpectedNumberOfEvaluations() {
         ToySimulator simulator = new ToySimulator();

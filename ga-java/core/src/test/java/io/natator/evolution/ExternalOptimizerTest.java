@@ -103,7 +103,7 @@ class ExternalOptimizerTest {
             "{\"candidates\":[[1,0,0,0],[1,0,1.5,0]]}             | candidate 2: gene 3 (amplitude 2) is 1.5; expected a number from 0.0 to 1.0",
             "{\"candidates\":[[1,0,0,0],[1,0,null,0]]}            | candidate 2: gene 3 is null; expected a number",
             "{\"candidates\":[[1,0,0,0],7]}                       | candidate 2 is 7; expected a list of 4 genes",
-            "{\"candidates\":[[1,0,0,NaN]]}                       | found 'NaN'; expected a number",
+            "{\"candidates\":[[1,0,0,NaN]]}                       | Non-standard token 'NaN'",
             "{\"candidates\":[[1,0,0,1e999]]}                     | found the number 1e999; expected one within 1.8e308",
             "{\"candidates\":[[1,0,0,0]],\"generation\":3}        | generation is 3; expected 2, which was asked for",
             "{\"candidates\":[[1,0,0,0]],\"ids\":[3]}             | ids: unknown key; expected candidates, generation"})

@@ -104,7 +104,6 @@ class FreshStartsTest {
         assertThat(runs.judge()).isEqualTo(judge);
         assertThat(best.runs()).isEqualTo(runs.selectedRuns()).isGreaterThanOrEqualTo(starts);
         // What is watched begins where whoever watches it begins.
-        assertThat(best.isFromOwnStart()).isTrue();
         assertThat(asked).anyMatch(one -> one.start() == null && one.overrides() == null
                 && one.gait().equals(best.gait()) && one.id() == best.result().id());
         double own = starts == 1 ? best.selected() : best.distance();

@@ -10,11 +10,8 @@ import static io.natator.verdict.Winners.sample;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
-import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.FreshRuns;
-import io.natator.protocol.Results;
-import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -49,26 +46,6 @@ class MeasureTest {
     }
 
     /** The length of its body is known, though it is the unit. */
-    @Test
-    void aBodyOfLengthOneIsMeasuredByItself() {
-        Controls controls = controls(sample(1.9)).withBodyLength(1.0);
-        BestGait best = best("pool/creature-1", Results.ok(2.5), 1.0, Results.ok(0.0), null);
-
-        assertThat(Measure.of(best, controls))
-                .filteredOn(one -> List.of("way, one run", "resting muscles").contains(one.name()))
-                .hasSize(2).allSatisfy(one -> assertThat(one.value() + one.expected()).contains("body lengths")
-                        .doesNotContain("units"));
-    }
-
-    @Test
-    void aRunThatGoesOnIsNotJudgedByUnits() {
-        BestGait best = best("pool/creature-1", Results.ok(0.001), null, null, null);
-
-        assertThat(Measure.of(best, null))
-                .extracting(Measure::name, Measure::value, Measure::expected, Measure::outcome).contains(
-                        tuple("way, one run", "0.00 units", "more than 0.05 body lengths", NOT_MEASURED));
-    }
-
     /** What gets faster with the time step is no more converged than what gets slower. */
     @ParameterizedTest
     @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})

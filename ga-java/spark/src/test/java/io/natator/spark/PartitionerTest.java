@@ -9,13 +9,10 @@ import io.natator.protocol.SimulationRequest;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
-import java.util.PriorityQueue;
 import java.util.SplittableRandom;
 import java.util.stream.Collectors;
 import java.util.stream.LongStream;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.CsvSource;
 
 class PartitionerTest {
 
@@ -73,11 +70,6 @@ class PartitionerTest {
         assertThat(sizes).hasSizeLessThan(40);
     }
 
-    @Test
-    void whatTakesLongIsOneEach() {
-        assertThat(sizes(known(10).of(requests(150), 2))).containsOnly(1);
-    }
-
     /** 5 ms each: 150 that would be 150 parts are a few, of which none is shorter than ten times what a part costs. */
     @Test
     void cheapEvaluationsAreFewParts() {
@@ -100,29 +92,5 @@ class PartitionerTest {
                 part -> assertThat(part.stream().map(SimulationRequest::overrides).collect(Collectors.toSet()))
                         .hasSize(1));
         assertThat(divided.stream().filter(part -> VACUUM.equals(part.get(0).overrides())).count()).isEqualTo(1);
-    }
-
-    /** As measured of the thesis' evaluations, from 0.13 to 0.77 s; a part costs the slot 10 ms and the driver nothing. */
-    @ParameterizedTest
-    @CsvSource({"2, 1.05", "4, 1.08", "8, 1.15"})
-    void theLastPartHardlyKeepsTheOthersWaiting(int slots, double most) {
-        double worst = 0;
-        for (long seed = 0; seed < 50; seed++) {
-            SplittableRandom random = new SplittableRandom(seed);
-            double[] times = random.doubles(150, 0.13, 0.77).toArray();
-            PriorityQueue<Double> free = new PriorityQueue<>();
-            double total = 0;
-            for (int i = 0; i < slots; i++) {
-                free.add(0.0);
-            }
-            for (List<SimulationRequest> part : known(0.45).of(requests(150), slots)) {
-                double time = part.stream().mapToDouble(one -> times[(int) one.id()]).sum();
-                total += time;
-                free.add(free.remove() + time + 0.01);
-            }
-            double end = free.stream().mapToDouble(Double::doubleValue).max().orElseThrow();
-            worst = Math.max(worst, end / (total / slots));
-        }
-        assertThat(worst).isLessThan(most);
     }
 }

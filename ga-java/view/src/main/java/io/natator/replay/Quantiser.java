@@ -22,9 +22,4 @@ record Quantiser(double low, double step) {
     int of(double value) {
         return (int) Math.round((value - low) / step);
     }
-
-    /** The number that a whole one stands for. */
-    double value(int whole) {
-        return low + whole * step;
-    }
 }

@@ -43,23 +43,6 @@ final class TimeCode {
         return out.toByteArray();
     }
 
-    /** The table that was coded: the same as the page does. */
-    static int[][] decode(byte[] code, int times, int numbers, int bytes, Expectation expectation) {
-        int[][] rows = new int[times][numbers];
-        for (int time = 0; time < times; time++) {
-            int at = time * numbers * bytes;
-            for (int i = 0; i < numbers; i++) {
-                int folded = 0;
-                for (int plane = 0; plane < bytes; plane++) {
-                    folded |= Byte.toUnsignedInt(code[at + plane * numbers + i]) << 8 * plane;
-                }
-                int change = folded >>> 1 ^ -(folded & 1);
-                rows[time][i] = expected(rows, time, i, expectation) + change & mask(bytes);
-            }
-        }
-        return rows;
-    }
-
     private static int expected(int[][] rows, int time, int i, Expectation expectation) {
         if (time == 0) {
             return 0;

@@ -33,8 +33,9 @@ abstract class BrowserTest {
     @RegisterExtension
     static final Chromium CHROMIUM = new Chromium();
 
-    static final int WIDTH = 1280;
-    static final int HEIGHT = 800;
+    /** Small, since the processor draws all pixels. */
+    static final int WIDTH = 800;
+    static final int HEIGHT = 480;
     private static final Path SCREENSHOTS = Path.of("target", "screenshots");
     /** Much is drawn by one processor that also simulates, and does other work besides: only failures wait so long. */
     private static final double PATIENCE_MILLISECONDS = 600_000;

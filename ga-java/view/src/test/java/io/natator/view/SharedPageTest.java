@@ -163,22 +163,6 @@ class SharedPageTest extends BrowserTest {
     }
 
     @Test
-    void aPresentationIsThePictureAlone() {
-        page.navigate(file.toUri().toString());
-        await("window.natator && natator.time() > 0.1");
-
-        get("present").click();
-
-        assertThat(get("play")).isHidden();
-        assertThat(get("facts")).isHidden();
-        assertThat(get("picture-a").boundingBox().height).isGreaterThan(HEIGHT - 20);
-        assertThat(get("present-end")).isFocused();
-        page.keyboard().press("Escape");
-        assertThat(get("play")).isVisible();
-        assertThat(get("present-end")).isHidden();
-    }
-
-    @Test
     void whatIsSeenIsTold() {
         page.navigate(file.toUri().toString());
         await("window.natator && natator.time() > 0.1");

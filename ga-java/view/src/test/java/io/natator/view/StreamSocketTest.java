@@ -295,7 +295,7 @@ class StreamSocketTest {
             "{|command: ",
             "[]|command: expected an object with a text \"do\"",
             "{'do':7}|command: expected an object with a text \"do\"",
-            "{'do':'run','do':'pause'}|command: key 'do' stands twice",
+            "{'do':'run','do':'pause'}|command: Duplicate field 'do'",
             "{'do':'run'}|run: no simulation runs; expected start",
             "{'do':'start'}|scene: expected a named scene",
             "{'do':'start','scene':'/etc/passwd.json'}|scene: expected a named scene",

@@ -53,11 +53,6 @@ abstract class ViewBrowserTest extends BrowserTest {
                 || server.address().getAuthority().equals(address.getAuthority());
     }
 
-    /** A window of a third of the pixels, for what takes long and is no matter of size: the processor draws them all. */
-    void useSmallWindow() {
-        page.setViewportSize(800, 480);
-    }
-
     /** Opens the page and waits until it swims. */
     void open(ViewServer on) {
         open(on, "");

@@ -21,7 +21,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void pauseHoldsStill() {
-        useSmallWindow();
         open(vacuum);
         pause();
         // Frames may be under way, and the camera and the detail follow a little later.
@@ -38,7 +37,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aReloadReconnects() throws InterruptedException {
-        useSmallWindow();
         open(vacuum);
         ProcessHandle before = ViewFixture.simulator();
 
@@ -51,7 +49,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aKilledSimulatorIsReportedAndGoesOn() {
-        useSmallWindow();
         open(vacuum);
 
         ViewFixture.simulator().destroyForcibly();
@@ -62,23 +59,8 @@ class ViewPageTest extends ViewBrowserTest {
         assertThat(get("status")).hasAttribute("data-state", "open");
     }
 
-    /** That it begins at the start is seen of this one, however late it is looked at. */
-    @Test
-    void ofAKilledSimulatorThatWasPausedTheNextOneIsToo() {
-        useSmallWindow();
-        open(vacuum);
-        pause();
-
-        ViewFixture.simulator().destroyForcibly();
-
-        await("natator.frame() === 0");
-        get("step").click();
-        await("natator.frame() === 1");
-    }
-
     @Test
     void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
-        useSmallWindow();
         open(vacuum);
         for (int i = 0; i < 4; i++) {
             ViewFixture.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
@@ -147,7 +129,6 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void picturesAndFilmsAreSaved() throws IOException {
-        useSmallWindow();
         open(vacuum);
 
         Download picture = page.waitForDownload(() -> get("picture-save").click());

@@ -47,7 +47,6 @@ class ViewPictureTest extends ViewBrowserTest {
     @ParameterizedTest
     @CsvSource({"webgl, WebGL", "plain, processor"})
     void bothWaysOfDrawingShowIt(String drawing, String name) {
-        useSmallWindow();
         open(water, FEW_PIXELS);
         pauseAt(3);
         get("drawing").selectOption(drawing);
@@ -70,7 +69,6 @@ class ViewPictureTest extends ViewBrowserTest {
             "|?drawing=plain#{\"look\":{\"drawing\":\"webgl\"}}|, processor"})
     void aCardIsUsedUnlessTheAddressForcesAWayToDraw(String address, String name) {
         page.addInitScript(CARD);
-        useSmallWindow();
         open(vacuum, address);
 
         assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
@@ -136,7 +134,6 @@ class ViewPictureTest extends ViewBrowserTest {
 
     @Test
     void aPausedPictureGetsAllItsDetail() {
-        useSmallWindow();
         open(water);
         get("drawing").selectOption("webgl");
         page.evaluate(SLOW_AND_WATCHED);

@@ -43,7 +43,6 @@ class ViewRunsTest extends ViewBrowserTest {
 
     @Test
     void theGenerationsOfARunAreWatched() throws IOException {
-        useSmallWindow();
         open(vacuum);
         assertThat(get("run-chosen")).containsText("What swims is not of this run");
 
@@ -69,6 +68,7 @@ class ViewRunsTest extends ViewBrowserTest {
     /** The best of each kind, and what several objectives are weighed by: a click or a key swims any of them. */
     @Test
     void kindsAndFrontsAreSwum() throws IOException {
+        page.setViewportSize(1280, 800);
         open(many);
         JsonNode map = answer(0).get("map");
         assertThat(get("elites-figure").locator("[role=option]")).hasCount(map.get("elites").size());
@@ -111,7 +111,6 @@ class ViewRunsTest extends ViewBrowserTest {
     /** Those of distances in a run that went nowhere. */
     @Test
     void longLabelsOfSeveralObjectivesAreWhole() throws IOException {
-        useSmallWindow();
         page.route("**/api/runs/1", route -> {
             try {
                 ObjectNode changed = Json.parse(route.fetch().text(), ObjectNode.class);
@@ -136,6 +135,7 @@ class ViewRunsTest extends ViewBrowserTest {
     /** All swim with the same gait; a generation is told from another by its body. */
     @Test
     void bodiesAreDrawnAndSwum() throws IOException {
+        page.setViewportSize(1280, 800);
         open(bodies);
         JsonNode answer = answer(0);
         JsonNode bests = answer.get("bests");
@@ -189,7 +189,6 @@ class ViewRunsTest extends ViewBrowserTest {
 
     @Test
     void twoSwimSideBySide() {
-        useSmallWindow();
         open(vacuum);
 
         get("compare").click();
@@ -254,7 +253,6 @@ class ViewRunsTest extends ViewBrowserTest {
     /** One swims in water, which takes longer; the other one waits. */
     @Test
     void twoSwimInStep() {
-        useSmallWindow();
         open(vacuum);
         get("compare").click();
         await("natator.views[1].frame() > 5");

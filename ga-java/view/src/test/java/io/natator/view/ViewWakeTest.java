@@ -44,7 +44,6 @@ class ViewWakeTest extends ViewBrowserTest {
     @ParameterizedTest
     @ValueSource(strings = {"webgl", "plain"})
     void planeFlowIsSeenByItsVorticity(String drawing) {
-        useSmallWindow();
         open(plane, "?drawing=" + drawing + FEW_PIXELS);
         await("natator.time() > 0.7");
         pause();
@@ -84,7 +83,6 @@ class ViewWakeTest extends ViewBrowserTest {
         AtomicInteger asked = new AtomicInteger();
         page.onWebSocket(socket -> socket.onFrameSent(
                 frame -> asked.addAndGet(frame.text().startsWith("{\"do\":\"water\"") ? 1 : 0)));
-        useSmallWindow();
         open(plane, "?drawing=plain");
         await("natator.time() > 0.3");
         assertThat(asked).hasPositiveValue();
@@ -105,7 +103,6 @@ class ViewWakeTest extends ViewBrowserTest {
     @ParameterizedTest
     @ValueSource(strings = {"webgl", "plain"})
     void vorticesAreSeenInATankOfParticles(String drawing) {
-        useSmallWindow();
         open(water, "?drawing=" + drawing + FEW_PIXELS);
         choose("water-none");
         await("natator.time() > 0.3");
