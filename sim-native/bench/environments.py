@@ -15,6 +15,7 @@ from natator import script
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 parser.add_argument("--scene", default="pool/tadpole")
 parser.add_argument("--sizes", type=int, nargs="+", default=[1, 1, 2, 1, 2, 2], metavar="N", help="environments and threads, in pairs")
+parser.add_argument("--backend", default="cpu", help="cpu, cuda or auto")
 parser.add_argument("--rounds", type=int, default=9)
 parser.add_argument("--steps", type=int, default=10, help="of each environment in a round")
 
@@ -33,7 +34,7 @@ def memory(env):
 
 def measure(options):
     pairs = list(zip(options.sizes[::2], options.sizes[1::2]))
-    envs = [natator.gym.SwimmerVectorEnv(count, threads=threads, scene=options.scene, duration=1e9) for count, threads in pairs]
+    envs = [natator.gym.SwimmerVectorEnv(count, threads=threads, scene=options.scene, backend=options.backend, duration=1e9) for count, threads in pairs]
     seen = [[] for _ in pairs]
     for env in envs:
         env.reset(seed=1)

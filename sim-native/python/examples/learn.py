@@ -68,7 +68,12 @@ class Episodes(SwimmerVectorEnv):
         return observations, rewards, terminated, truncated, infos
 
 
-def learn(env):
+def environments():
+    return Episodes(options.num_envs, "SameStep", backend=options.backend, scene=options.scene, target=options.target, duration=options.duration)
+
+
+def learn():
+    env = environments()
     env.reset(options={"overrides": [options.vary[k % len(options.vary)] for k in range(env.num_envs)]})  # from now on
     config.jax.key = options.seed
     wrapped = wrap_env(env, wrapper="gymnasium")
@@ -80,6 +85,7 @@ def learn(env):
                 cfg={"rollouts": options.rollouts, "mini_batches": 4, "discount_factor": 0.98, "grad_norm_clip": 0.5,
                      "rewards_shaper": lambda rewards, *_: 10 * rewards, "experiment": {"write_interval": 0, "checkpoint_interval": 0}})
     SequentialTrainer(env=wrapped, agents=agent, cfg={"timesteps": options.steps, "headless": True, "close_environment_at_exit": False}).train()
+    env.close()
     os.makedirs(options.folder, exist_ok=True)
     with open(f"{options.folder}/curve.csv", "w", newline="") as file:
         csv.writer(file).writerows(env.rows)
@@ -100,9 +106,9 @@ def swim(env, layers, overrides=None):
     return returns
 
 
-env = Episodes(options.num_envs, "SameStep", backend=options.backend, scene=options.scene, target=options.target, duration=options.duration)
 if not os.path.exists(f"{options.folder}/policy.npz"):
-    learn(env)
+    learn()
+env = environments()
 layers = list(np.load(f"{options.folder}/policy.npz").values())
 for overrides in options.check:
     swim(env, layers, overrides)
