@@ -21,9 +21,9 @@ from natator.gym import SwimmerVectorEnv
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 parser.add_argument("folder", help="gets policy.npz and curve.csv; a policy that is there is swum, not learned again")
 parser.add_argument("--scene", default="endless/small")
-parser.add_argument("--vary", type=json.loads, nargs="*", default=[None], help="overrides that environments learn with by turns")
-parser.add_argument("--check", type=json.loads, nargs="*", default=[None], help="overrides to swim with in the end")
-parser.add_argument("--target", type=float, nargs=3, help="where to; without it, ahead")
+parser.add_argument("--vary", type=json.loads, nargs="*", default=[{}], help="overrides that environments learn with by turns")
+parser.add_argument("--check", type=json.loads, nargs="*", default=[{}], help="overrides to swim with in the end")
+parser.add_argument("--target", type=float, nargs="*", default=[], metavar="X", help="where to; without it, ahead")
 for name, default, text in (("num-envs", 256, "at a time"), ("steps", 1500, "of each"), ("rollouts", 20, "steps between updates"), ("seed", 1, "of all")):
     parser.add_argument(f"--{name}", type=int, default=default, help=text)
 parser.add_argument("--duration", type=float, default=4.0, help="of an episode, s")
@@ -69,7 +69,7 @@ class Episodes(SwimmerVectorEnv):
 
 
 def environments():
-    return Episodes(options.num_envs, "SameStep", backend=options.backend, scene=options.scene, target=options.target, duration=options.duration)
+    return Episodes(options.num_envs, "SameStep", backend=options.backend, scene=options.scene, target=options.target or None, duration=options.duration)
 
 
 def learn():
