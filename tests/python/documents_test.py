@@ -32,7 +32,7 @@ class DocumentsTest(unittest.TestCase):
         for command in commands:
             if "ask_tell.py" in command:
                 continue  # needs the program natator: outside_again.py
-            done = subprocess.run([sys.executable, *command.split()], cwd=PACKAGE.parents[1], capture_output=True, text=True,
+            done = subprocess.run([sys.executable, *shlex.split(command)], cwd=PACKAGE.parents[1], capture_output=True, text=True,
                                   env=dict(os.environ))
             self.assertEqual(done.returncode, 0, command + done.stderr)
             self.assertGreater(len(done.stdout.splitlines()), 2, command)

@@ -89,6 +89,7 @@ def learn():
     os.makedirs(options.folder, exist_ok=True)
     with open(f"{options.folder}/curve.csv", "w", newline="") as file:
         csv.writer(file).writerows(env.rows)
+    print(f"{options.steps * env.num_envs} steps in {time.time() - env.begin:.0f} s")
     layers = models["policy"].state_dict.params["params"]
     np.savez(f"{options.folder}/policy.npz", *[layers[f"Dense_{k}"][part] for k in (2, 1, 0) for part in ("kernel", "bias")])  # inmost first
 
@@ -101,7 +102,7 @@ def swim(env, layers, overrides=None):
         hidden = np.tanh(np.tanh(observations @ layers[0] + layers[1]) @ layers[2] + layers[3])
         observations, rewards, terminated, truncated, _ = env.step(hidden @ layers[4] + layers[5])
         returns, over = returns + np.where(over, 0, rewards), np.maximum(over, terminated | truncated)
-    print(f"{options.scene}, overrides {overrides}: {returns.mean():.3f} body lengths, standard deviation {returns.std(ddof=1):.3f}, "
+    print(f"{options.scene}, overrides {overrides}: {returns.mean():.4g} body lengths, standard deviation {returns.std(ddof=1):.2g}, "
           f"{env.num_envs} new starts of {options.duration:g} s")
     return returns
 
