@@ -76,9 +76,10 @@ TEST_P(GpuLatticeCompany, SwimsAndIsPushedAsOnTheCpu) {
     std::cout << "measured: " << GetParam().name << ": of places " << apart / moved << ", of forces "
               << difference / force << ", of the water " << beside / speed << '\n';
     EXPECT_GT(moved, 0.01);
-    EXPECT_LT(apart, 1e-3 * moved);
-    EXPECT_LT(difference, 1e-2 * force);
-    EXPECT_LT(beside, 1e-2 * speed);
+    // Rounding of the water's floats, whose order of sums differs: 1.5e-7, 9e-7 and 5e-7 on an H200, and room.
+    EXPECT_LT(apart, 1e-6 * moved);
+    EXPECT_LT(difference, 1e-5 * force);
+    EXPECT_LT(beside, 5e-6 * speed);
 }
 
 TEST_P(GpuLatticeCompany, HasTheSameBitsInAnyPlaceOfABatch) {

@@ -222,7 +222,10 @@ public:
                 Vector3<Real>(impulses[k].x, impulses[k].y, impulses[k].z) / time_;
         return forces;
     }
-    std::string device() const override { return cuda::current_device_name() + " grid "; }
+    std::string device() const override {
+        pool_->choose();
+        return cuda::current_device_name() + " grid ";
+    }
     bool shared() const override { return !own_; }
 
     cuda::GridPool<Real>* pool() const { return pool_.get(); }

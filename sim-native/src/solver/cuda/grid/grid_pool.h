@@ -23,6 +23,9 @@ public:
     /// Of which there is one more: runners have their own.
     const DeviceModel<Real>& model() const { return model_; }
 
+    /// Makes its device the current one of this thread.
+    void choose() const { choose_device(device_); }
+
     /// A runner until this ends.
     class Loan {
     public:
@@ -43,7 +46,7 @@ public:
     /// One of so many States, or a few more, all but the first `states` idle; on the current device of this thread from
     /// then on. Throws std::bad_alloc.
     Loan lend(int states) {
-        choose_device(device_);
+        choose();
         std::unique_ptr<GridRunner<Real>> runner = free_one(states);
         if (!runner) runner = make(states);
         std::vector<bool> idle(runner->states(), true);
