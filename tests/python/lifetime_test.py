@@ -226,11 +226,11 @@ class CloseTest(unittest.TestCase):
     def test_what_is_busy_is_closed_soon(self):
         self.close_soon(stepping())
         env = reset(natator.gym.SwimmerEnv(TANK, frames=1000))
-        env.begin_step([0.1, 0.1])
+        env._stream.begin_step(1000, drive=[0.1, 0.1])
         self.close_soon(env)
         vector = reset(natator.gym.SwimmerVectorEnv(3, scene=TANK, frames=1000))
-        for env in vector.envs:
-            env.begin_step([0.1, 0.1])
+        for swim in vector._batch.swims:
+            swim.begin_step(1000, drive=[0.1, 0.1])
         self.close_soon(vector)
         running = natator.Stream(TANK, fields="position", arguments=["--rate=0"])
         running.ask({"do": "credit", "frames": 1000})

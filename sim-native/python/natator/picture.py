@@ -24,6 +24,7 @@ ROOM, ROOM_IN_VACUUM = 0.6, 0.2  # in body lengths: how much is shown before and
 NEARLY_ALL = 0.7  # a tank of which this share would be shown is shown whole
 VORTICES = 0.01  # share of the water whose Q is highest
 STRONGEST = 0.985  # share of the cells of plane flow that turn less than what the colours end with
+LEGEND = "The head is the red end. Vortices, from above: red turn left, blue right."
 RESTS = "vortices: the water does not turn anywhere; expected a swim that has gone on for a while"
 NOTHING_DRAWS = "a picture: nothing here can draw it; expected Mesa or a graphics driver, with EGL (Debian: apt-get install libegl1 libgl1)"
 SIDES, ABOVE, BELOW = 0.03, 0.04, 0.07  # margins, in widths of the picture
@@ -88,7 +89,7 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
         pixels = plotter.screenshot(return_img=True)
     finally:
         plotter.close()
-    _label(pixels, scale, frame.time).save(file, optimize=True)
+    _label(pixels, scale, frame.time, LEGEND if vortices else "").save(file, optimize=True)
     return (width, height), frame.time
 
 
@@ -202,8 +203,8 @@ def _edges(tank, periodic):
                 yield ends
 
 
-def _label(pixels, scale, time):
-    """The picture with a scale and the time at its lower edge."""
+def _label(pixels, scale, time, legend=""):
+    """The picture with a scale, the time and a legend at its lower edge."""
     from PIL import Image, ImageDraw, ImageFont
 
     image = Image.fromarray(pixels)
@@ -213,7 +214,7 @@ def _label(pixels, scale, time):
     length = _round(0.14 * width / scale)
     pen.line((left, base - size / 3, left + length * scale, base - size / 3), INK, max(2, round(size / 7)))
     for text, x, anchor in ((f"{length:g} unit" + "s" * (length != 1), left + length * scale + 0.6 * size, "ls"),
-                            (f"t = {time:.2f} s", width - left, "rs")):
+                            (legend, width / 2, "ms"), (f"t = {time:.2f} s", width - left, "rs")):
         pen.rectangle(pen.textbbox((x, base), text, font=font, anchor=anchor), "white")
         pen.text((x, base), text, INK, font, anchor)
     return image

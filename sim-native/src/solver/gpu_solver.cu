@@ -307,18 +307,21 @@ private:
     Real time_ = 0, h_ = 0;  ///< of the last update and of its substeps, s; 0 before the first
 };
 
-/// By Model.
+/// By Model, as long as a solver has one.
 struct SharedGpu::Pools {
     template <class Real>
-    using ByModel = std::map<std::string, std::shared_ptr<cuda::GridPool<Real>>>;
+    using ByModel = std::map<std::string, std::weak_ptr<cuda::GridPool<Real>>>;
 
     /// That of a Model, whoever asks for it.
     template <class Real>
     std::shared_ptr<cuda::GridPool<Real>> of(const Model& model, int device) {
+        const std::string key = std::to_string(device) + ' ' + model_key(model);
         const std::lock_guard lock(mutex);
-        std::shared_ptr<cuda::GridPool<Real>>& pool =
-            std::get<ByModel<Real>>(pools)[std::to_string(device) + ' ' + model_key(model)];
-        if (!pool) pool = std::make_shared<cuda::GridPool<Real>>(model, cuda::GridOptions{}, device);
+        ByModel<Real>& known = std::get<ByModel<Real>>(pools);
+        if (std::shared_ptr<cuda::GridPool<Real>> pool = known[key].lock()) return pool;
+        auto pool = std::make_shared<cuda::GridPool<Real>>(model, cuda::GridOptions{}, device);
+        known[key] = pool;
+        std::erase_if(known, [](const auto& one) { return one.second.expired(); });
         return pool;
     }
 
@@ -390,27 +393,35 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
-    const int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
-    std::map<cuda::GridPool<Real>*, std::vector<std::size_t>> by_pool;
+    constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
+    using Pool = cuda::GridPool<Real>;
+    std::map<Pool*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {
         check_state(all[k].solver->implementation_->model(), *all[k].state);
         by_pool[static_cast<GridSolver&>(*all[k].solver->implementation_).pool()].push_back(k);
     }
-    std::vector<std::optional<Instability>> found(all.size());
+    std::vector<std::pair<Pool*, std::vector<std::size_t>>> parts;
     for (const auto& [pool, numbers] : by_pool) {
         const int most = particles_at_a_time / max_streams / pool->host_model().particles() + 1;
-        const cuda::Parts parts(static_cast<int>(numbers.size()), most, max_streams);
-        side_by_side(
-            parts.count,
-            [&](std::size_t part) {
-                const int first = parts.first(static_cast<int>(part)), size = parts.size_of(static_cast<int>(part));
-                std::vector<Frame> own;
-                for (int k = first; k < first + size; ++k) own.push_back(all[numbers[k]]);
-                const auto ends = GridSolver::frames(*pool, own);
-                for (int k = 0; k < size; ++k) found[numbers[first + k]] = ends[k];
-            },
-            max_streams);
+        const cuda::Parts own(static_cast<int>(numbers.size()), most, max_streams);
+        for (int part = 0; part < own.count; ++part) {
+            const auto first = numbers.begin() + own.first(part);
+            parts.push_back({pool, {first, first + own.size_of(part)}});
+        }
     }
+    std::vector<std::optional<Instability>> found(all.size());
+    // Models that few have fill no GPU: then as many at a time as there are processors.
+    const std::size_t at_once = by_pool.size() > max_streams ? SIZE_MAX : max_streams;
+    side_by_side(
+        parts.size(),
+        [&](std::size_t part) {
+            const auto& [pool, numbers] = parts[part];
+            std::vector<Frame> own;
+            for (const std::size_t k : numbers) own.push_back(all[k]);
+            const auto ends = GridSolver::frames(*pool, own);
+            for (std::size_t i = 0; i < numbers.size(); ++i) found[numbers[i]] = ends[i];
+        },
+        at_once);
     return found;
 }
 
