@@ -204,7 +204,7 @@ def _edges(tank, periodic):
 
 
 def _label(pixels, scale, time, legend=""):
-    """The picture with a scale, the time and a legend at its lower edge."""
+    """The picture with a scale and the time at its lower edge, and a legend at the upper."""
     from PIL import Image, ImageDraw, ImageFont
 
     image = Image.fromarray(pixels)
@@ -213,10 +213,10 @@ def _label(pixels, scale, time, legend=""):
     font, left, base = ImageFont.load_default(size), 0.03 * width, height - 0.9 * size
     length = _round(0.14 * width / scale)
     pen.line((left, base - size / 3, left + length * scale, base - size / 3), INK, max(2, round(size / 7)))
-    for text, x, anchor in ((f"{length:g} unit" + "s" * (length != 1), left + length * scale + 0.6 * size, "ls"),
-                            (legend, width / 2, "ms"), (f"t = {time:.2f} s", width - left, "rs")):
-        pen.rectangle(pen.textbbox((x, base), text, font=font, anchor=anchor), "white")
-        pen.text((x, base), text, INK, font, anchor)
+    for text, place, anchor in ((f"{length:g} unit" + "s" * (length != 1), (left + length * scale + 0.6 * size, base), "ls"),
+                                (f"t = {time:.2f} s", (width - left, base), "rs"), *[(legend, (left, 0.9 * size), "la")] * bool(legend)):
+        pen.rectangle(pen.textbbox(place, text, font=font, anchor=anchor), "white")
+        pen.text(place, text, INK, font, anchor)
     return image
 
 
