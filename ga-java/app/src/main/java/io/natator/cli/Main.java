@@ -79,6 +79,7 @@ public final class Main implements Callable<Integer> {
         command.registerConverter(double.class, Main::number).registerConverter(Double.class, Main::number);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);
+        OneLineErrors.installJava(command);
         return command;
     }
 

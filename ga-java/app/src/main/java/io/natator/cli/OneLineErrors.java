@@ -11,6 +11,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.IExecutionStrategy;
 import picocli.CommandLine.MissingParameterException;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.ParseResult;
@@ -27,7 +28,9 @@ final class OneLineErrors {
     static int badUsage(ParameterException error, String[] arguments) {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
-        String what = unmatched != null ? unknown(unmatched, command) : error.getMessage();
+        String what = unmatched != null ? unknown(unmatched, command)
+                : error.getMessage().replaceFirst("positional parameter at index \\S+ \\((.*?)\\)", "$1")
+                        .replaceFirst("\\.$", "");
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName()
                 + " --help");
         return ExitCode.USAGE;
@@ -51,6 +54,27 @@ final class OneLineErrors {
                 : "'" + argument
                         + (command.getSubcommands().isEmpty() ? "' is one argument too many" : "' is no command"))
                 + (near.isEmpty() ? "" : "; did you mean " + EnumNames.choice(near) + "?");
+    }
+
+    /** Makes a command, and those below it, tell in one line what Java itself lacks: memory for what was asked, or a part of the program. */
+    static void installJava(CommandLine command) {
+        IExecutionStrategy usual = command.getExecutionStrategy();
+        command.setExecutionStrategy(parsed -> {
+            try {
+                return usual.execute(parsed);
+            } catch (OutOfMemoryError e) {
+                return lacking(parsed, "not enough memory: Java may take " + (Runtime.getRuntime().maxMemory() >> 20)
+                        + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
+            } catch (LinkageError e) {
+                return lacking(parsed, "a part of the program cannot be loaded: " + e.getMessage()
+                        + "; expected more open files than ulimit -n allows, or the jar as it was at the start");
+            }
+        });
+    }
+
+    private static int lacking(ParseResult parsed, String what) {
+        print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), what);
+        return ExitCode.SOFTWARE;
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {

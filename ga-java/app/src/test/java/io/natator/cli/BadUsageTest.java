@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import java.io.IOException;
+import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -10,8 +11,12 @@ import java.util.Map;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.Arguments;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.ValueSource;
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
 
 /** What can't be run is refused in one line with exit status 2, and nothing is written. */
 class BadUsageTest extends FakeSimulatorTest {
@@ -25,8 +30,8 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-            "compare|requires at least 2 values, but none were specified.; see natator compare --help",
-            "compare NEVER|requires at least 2 values, but only 1 were specified: [ natator compare --help",
+            "compare|natator compare: RUN requires at least 2 values, but none were specified; see natator compare --help",
+            "compare NEVER|natator compare: RUN requires at least 2 values, but only 1 were specified: [",
             "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
             "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
             "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
@@ -184,6 +189,31 @@ class BadUsageTest extends FakeSimulatorTest {
             "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
         refused(execute(arguments.split(" "))).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
+    }
+
+    @Command(name = "end")
+    record End(Error error) implements Runnable {
+        @Override
+        public void run() {
+            throw error;
+        }
+    }
+
+    private static Stream<Arguments> lacks() {
+        return Stream.of(Arguments.of(new OutOfMemoryError(),
+                "not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say"),
+                Arguments.of(new NoClassDefFoundError("io/natator/Part"),
+                        "a part of the program cannot be loaded: io/natator/Part; "
+                                + "expected more open files than ulimit -n allows, or the jar as it was at the start"));
+    }
+
+    @ParameterizedTest
+    @MethodSource("lacks")
+    void whatJavaLacksIsOneLine(Error error, String message) {
+        CommandLine command = Main.commandLine().addSubcommand(new End(error)).setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("end")).isEqualTo(1);
+        assertThat(err.toString()).matches("natator end: " + message + "\n");
     }
 
     @Test
