@@ -203,9 +203,9 @@ public:
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
     /// A frame of one of several Solvers.
     struct Frame {
-        Solver* solver;
-        State<Real>* state;
-        Drive drive;
+        Solver* solver;      ///< that computes it
+        State<Real>* state;  ///< that it advances
+        Drive drive;         ///< of its muscles
     };
     /// Frames of several, side by side in as many threads as there are processors, at most `max_threads`, or where they
     /// share a GPU by the same kernels. What became unstable, by frame; each has the bits that it has alone.
