@@ -209,7 +209,7 @@ public:
     };
     /// Frames of several, side by side in as many threads as there are processors, at most `max_threads`, or where they
     /// share a GPU by the same kernels. What became unstable, by frame; each has the bits that it has alone.
-    static std::vector<std::optional<Instability>> frames(std::vector<Frame> frames, int max_threads);
+    static std::vector<std::optional<Instability>> frames(std::vector<Frame> all, int max_threads);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each
     /// spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what

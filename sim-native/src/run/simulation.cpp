@@ -257,6 +257,7 @@ std::vector<bool> step_together(const std::vector<Simulation<Real>*>& simulation
     side_by_side(
         stable.size(), [&](std::size_t k) { stable[k]->end_step(found[k]); }, static_cast<std::size_t>(max_threads));
     std::vector<bool> goes_on;
+    goes_on.reserve(simulations.size());
     for (const Simulation<Real>* one : simulations) goes_on.push_back(!one->instability_);
     return goes_on;
 }

@@ -64,7 +64,7 @@ public:
     };
     /// Frames of solvers that share a GPU (GpuSolverOptions::shared), those of equal Models by the same kernels. What
     /// became unstable is told by frame, with the bits that each has alone. Throws as `frame`.
-    static std::vector<std::optional<Instability>> frames(const std::vector<Frame>& frames);
+    static std::vector<std::optional<Instability>> frames(const std::vector<Frame>& all);
 
     const Model& model() const;  ///< that it was made with
     bool shared() const;         ///< whether with GpuSolverOptions::shared

@@ -307,6 +307,7 @@ std::vector<std::optional<Instability>> Solver<Real>::frames(std::vector<Frame> 
         (all[k].solver->gpu_ && all[k].solver->gpu_->shared() ? together : alone).push_back(k);
     if (!together.empty()) {
         std::vector<Drive> drives;
+        drives.reserve(together.size());
         for (const std::size_t k : together) drives.push_back(all[k].solver->checked_drive(all[k].drive));
         std::vector<typename GpuSolver<Real>::Frame> frames;
         for (std::size_t i = 0; i < together.size(); ++i)
