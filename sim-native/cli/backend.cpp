@@ -9,17 +9,35 @@
 
 namespace natator::cli {
 
-void add_backend_options(CLI::App* command, BackendChoice& choice) {
-    command->add_option("--backend", choice.name, "cpu, cuda (a GPU), or auto (a GPU where there is one).")
+namespace {
+
+void add_backend_option(CLI::App* command, BackendChoice& choice, const std::string& more = {}) {
+    command->add_option("--backend", choice.name, "cpu, cuda (a GPU), or auto (a GPU where there is one)." + more)
         ->check(one_of({"cpu", "cuda", "auto"}))
         ->capture_default_str();
-    add_gpu_options(command, choice);
 }
 
-void add_gpu_options(CLI::App* command, BackendChoice& choice) {
+void add_device_option(CLI::App* command, BackendChoice& choice) {
     command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
         ->check(whole_number_in(0, 1023))
         ->capture_default_str();
+}
+
+}  // namespace
+
+void add_backend_options(CLI::App* command, BackendChoice& choice) {
+    add_backend_option(command, choice);
+    add_gpu_options(command, choice);
+}
+
+void add_stream_backend_options(CLI::App* command, BackendChoice& choice) {
+    add_backend_option(command, choice,
+                       " Swims on a GPU that are told to act by one message go on by the same kernels.");
+    add_device_option(command, choice);
+}
+
+void add_gpu_options(CLI::App* command, BackendChoice& choice) {
+    add_device_option(command, choice);
     command->add_flag("--whole-gpu", choice.whole_gpu,
                       "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: "
                       "what scheme conserving always "

@@ -17,6 +17,8 @@ struct BackendChoice {
 
 /// Adds --backend, --device, --whole-gpu and --without-lists.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
+/// Adds the first two, for streams.
+void add_stream_backend_options(CLI::App* command, BackendChoice& choice);
 /// Adds the last three, for what only GPUs do.
 void add_gpu_options(CLI::App* command, BackendChoice& choice);
 

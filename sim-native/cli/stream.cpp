@@ -143,16 +143,7 @@ void add_stream(CLI::App& app, int& status) {
         ->check(seconds());
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
-    command
-        ->add_option(
-            "--backend", options->backend.name,
-            "cpu, cuda (a GPU), or auto (a GPU where there is one). Swims on a GPU that are told to act by one "
-            "message go on by the same kernels.")
-        ->check(one_of({"cpu", "cuda", "auto"}))
-        ->capture_default_str();
-    command->add_option("--device", options->backend.device, "Number of the GPU, see natator-sim info.")
-        ->check(whole_number_in(0, 1023))
-        ->capture_default_str();
+    add_stream_backend_options(command, options->backend);
     add_execution_options(command, options->execution);
     refuse_repeated_values(*command);
     command->callback([options, &status] { status = stream_scene(*options); });
