@@ -130,6 +130,7 @@ readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
 readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
 
 readonly validator_version=2.0.0-dev.3.10
+readonly uv_version=0.13.9  # installs in half of pip's time
 
 # Whether every package is there in the version that the list names.
 readers_work() {
@@ -145,8 +146,11 @@ PYTHON
 }
 
 install_readers() {
+    local cache=$readers_folder/cache  # in the same file system: nothing is copied
     python3 -m venv "$readers_folder" &&
-        "$readers_folder/bin/pip" --quiet --disable-pip-version-check install --requirement "$readers_list" || return
+        "$readers_folder/bin/pip" --quiet --disable-pip-version-check install "uv==$uv_version" &&
+        "$readers_folder/bin/uv" pip install --quiet --python "$readers_folder/bin/python" --cache-dir "$cache" --compile-bytecode \
+            --requirement "$readers_list" && rm -rf "$cache" || return
     ! command -v npm >/dev/null ||
         npm install --silent --no-fund --prefix "$readers_folder" "gltf-validator@$validator_version"
 }
