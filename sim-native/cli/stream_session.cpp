@@ -184,14 +184,14 @@ void StreamSession<Real>::check(const stream::Step& step) const {
 
 /// All of it can be done.
 template <class Real>
-auto StreamSession<Real>::steered_by(const stream::Steer& steer, const std::string& row) const
-    -> std::vector<Steered> {
+auto StreamSession<Real>::steered_by(const stream::Steer& steer, const std::string& row) const -> std::vector<Steered> {
     const Model& model = simulation_.model();
     const auto all_actuators = static_cast<std::size_t>(model.first_actuator_of(model.swimmers()));
     bool all = false;
     if (!steer.swimmer && model.swimmers() > 1)
         for (const auto* list : {&steer.drive, &steer.scale, &steer.offset})
-            all |= *list && (*list)->size() == all_actuators && all_actuators != static_cast<std::size_t>(model.actuators);
+            all |=
+                *list && (*list)->size() == all_actuators && all_actuators != static_cast<std::size_t>(model.actuators);
     std::vector<Steered> steered;
     const auto add = [&](int swimmer, const std::vector<double>* drive, const std::vector<double>* scale,
                          const std::vector<double>* offset) {
@@ -249,8 +249,7 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
     if (sense.flow) next.flow = *sense.flow;
     if (sense.within) next.within = *sense.within;
     if (sense.target) next.target = *sense.target;
-    for_swimmer(sense.swimmer, sense.swimmer > 0,
-                [&] { check_sensing(next, simulation_.model(), sense.swimmer); });
+    for_swimmer(sense.swimmer, sense.swimmer > 0, [&] { check_sensing(next, simulation_.model(), sense.swimmer); });
     sensing_[static_cast<std::size_t>(sense.swimmer)] = std::move(next);
     if (sense.each) sense_each_ = *sense.each;
     answer_["senses"] = senses();

@@ -73,7 +73,8 @@ void expect_to_go_on(const Swim& swim) {
     const int swimmers = first.model().swimmers();
     for (int k = 0; k < swimmers; ++k) first.set_gait(beat(actuators(k)), k);
     for (int frame = 0; frame < 5; ++frame) {
-        for (int k = 0; frame == 4 && k < swimmers; ++k) first.drive(std::vector<double>(actuators(k), 0.3 - 0.2 * k), k);
+        for (int k = 0; frame == 4 && k < swimmers; ++k)
+            first.drive(std::vector<double>(actuators(k), 0.3 - 0.2 * k), k);
         ASSERT_TRUE(first.step());
     }
     const std::string saved = first.save();
@@ -125,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
              merged(test::coarse_lake, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
         Swim{"companions", "company/school", hardly_settled},
         Swim{"companions_in_flex", "bench/small-tank", test::small_pair},
-        Swim{"companions_in_lattice", "plane/pair", test::pair_json({})},
+        Swim{"companions_in_lattice", "plane/pair", test::pair_json(json::object())},
         Swim{"goal_in_a_current", "goals/hold", merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
         Swim{"goal", "goals/reach", hardly_settled}, Swim{"periodic", "open-water/periodic", hardly_settled}),
     [](const auto& swim) { return swim.param.name; });

@@ -44,6 +44,7 @@ std::uint64_t after(Simulation<float>& simulation, int frames) {
 class Swimmers : public testing::TestWithParam<std::string> {
 protected:
     static constexpr int frames = 4;
+    const double gently = GetParam() == "lattice" ? 0.1 : 1;  ///< what a loach can do in a frame
 };
 
 TEST_P(Swimmers, AGaitThatACompanionGetsIsAsGoodAsItsScenes) {
@@ -76,12 +77,13 @@ TEST_P(Swimmers, EachIsDrivenByItself) {
         if (!first.empty()) simulation.drive(first);
         if (!second.empty()) simulation.drive(second, 1);
         const std::uint64_t hash = after(simulation, frames);
-        if (!first.empty()) EXPECT_EQ(simulation.driven(), first);
-        if (!second.empty()) EXPECT_EQ(simulation.driven(1), second);
+        EXPECT_TRUE(first.empty() || simulation.driven() == first);
+        EXPECT_TRUE(second.empty() || simulation.driven(1) == second);
         return hash;
     };
     const Simulation<float> like(pair_in(GetParam()));
-    const std::vector<double> own(like.model().actuators_of(0), 0.7), other(like.model().actuators_of(1), -0.6);
+    const std::vector<double> own(like.model().actuators_of(0), 0.7 * gently),
+        other(like.model().actuators_of(1), -0.6 * gently);
     const std::uint64_t both = run(own, other, 1);
     EXPECT_EQ(run(own, other, 2), both);
     EXPECT_NE(run(own, {}, 1), both);
@@ -92,7 +94,7 @@ TEST_P(Swimmers, WorkAndDistanceAreOfEach) {
     for (const int swimmer : {0, 1}) {
         Simulation<float> simulation(pair_in(GetParam()));
         for (const int k : {0, 1}) simulation.set_gait(resting_gait(simulation.model().actuators_of(k)), k);
-        simulation.drive(std::vector<double>(simulation.model().actuators_of(swimmer), 0.8), swimmer);
+        simulation.drive(std::vector<double>(simulation.model().actuators_of(swimmer), 0.8 * gently), swimmer);
         after(simulation, frames);
         EXPECT_EQ(simulation.muscle_work(1 - swimmer), 0);
         EXPECT_EQ(simulation.muscle_work(swimmer) != 0, GetParam() != "flex");
@@ -128,10 +130,12 @@ TEST(SwimmersTest, ACompanionSensesAsACreatureDoes) {
     swapped.actuators = 3;
     swapped.companions[0].first_actuator = 3;
     swapped.companions[0].gait = resting_gait(2);
-    for (Muscle& muscle : swapped.muscles) muscle.actuator = muscle.actuator < 2 ? muscle.actuator + 3 : muscle.actuator - 2;
+    for (Muscle& muscle : swapped.muscles)
+        muscle.actuator = muscle.actuator < 2 ? muscle.actuator + 3 : muscle.actuator - 2;
     const Sensing sensing{.flow = {{1, SkinPlace::Side::left}, {4, SkinPlace::Side::above}},
                           .target = Eigen::Vector3d(1, 0.5, 0.4)};
-    const Senses seen = sense(pair, simulation.state(), sensing, 1), expected = sense(swapped, simulation.state(), sensing);
+    const Senses seen = sense(pair, simulation.state(), sensing, 1),
+                 expected = sense(swapped, simulation.state(), sensing);
     EXPECT_EQ(seen.centre, expected.centre);
     EXPECT_EQ(seen.axes, expected.axes);
     EXPECT_EQ(seen.velocity, expected.velocity);
@@ -157,7 +161,7 @@ TEST(SwimmersTest, WhatDoesNotFitIsRefusedAndChangesNothing) {
               "swimmer = 2: must be in [0, 1], the creature and its companions");
     EXPECT_EQ(test::refusal_of([&] { simulation.set_gait(beat(3), -1); }),
               "swimmer = -1: must be in [0, 1], the creature and its companions");
-    EXPECT_EQ(test::refusal_of([] { Simulation<float>({"thesis/creature-1-vacuum"}).driven(1); }),
+    EXPECT_EQ(test::refusal_of([] { Simulation<float>(SimulationSetup{"thesis/creature-1-vacuum"}).driven(1); }),
               "swimmer = 1: must be 0, as the scene has no companions");
     EXPECT_EQ(test::refusal_of([&] { simulation.drive({0, 0}, 1); }),
               "drive has length 2: must have length 3, one value per actuator of the creature");

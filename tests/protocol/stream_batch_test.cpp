@@ -203,12 +203,14 @@ TEST(StreamBatchTest, CompanionsAreDrivenAndSenseInABatch) {
         BatchClient client(3, on_threads), alone(1, more);
         for (BatchClient* each : {&client, &alone})
             each->ask(0, {{"do", "sense"}, {"swimmer", 1}, {"flow", {{{"slice", 1}, {"side", "left"}}}}});
-        const std::string own = action(2, 2, {{0.1, 0.2, 0.3, -0.4, 0.5}}), steered = action(3, 1, {{1, 1, 0.5, 0.5, 0.5, 0, 0, 0.1, 0, 0}});
+        const std::string own = action(2, 2, {{0.1, 0.2, 0.3, -0.4, 0.5}}),
+                          steered = action(3, 1, {{1, 1, 0.5, 0.5, 0.5, 0, 0, 0.1, 0, 0}});
         json refusals;
         const auto outcomes = client.act({own, action(2, 1, {{0, 0, 0, 0, 7}}), action(2, 1, {{0, 0, 0}})}, &refusals);
         EXPECT_EQ(refusals["1"], "swimmer 1: drive[2] = 7: must be a number in [-2, 2]");
-        EXPECT_EQ(refusals["2"],
-                  "drive has length 3: must have length 2, one value per actuator of the creature, or 5, of all swimmers");
+        EXPECT_EQ(
+            refusals["2"],
+            "drive has length 3: must have length 2, one value per actuator of the creature, or 5, of all swimmers");
         const auto expected = alone.act({own});
         const std::vector<double>& senses = outcomes[0].senses;
         EXPECT_EQ(senses.size(), expected[0].senses.size());

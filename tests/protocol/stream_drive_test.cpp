@@ -178,8 +178,8 @@ TEST(StreamDriveTest, CompanionsAreSteeredAndSense) {
             std::set<int> actuators;
             for (const json& muscle : companion["muscles"]) actuators.insert(muscle["actuator"].get<int>());
             EXPECT_EQ(actuators, (std::set<int>{0, 1, 2}));
-            const json senses =
-                client->ask({{"do", "sense"}, {"swimmer", 1}, {"flow", skin_places}, {"target", {1, 0.5, 0.4}}})["senses"];
+            const json senses = client->ask(
+                {{"do", "sense"}, {"swimmer", 1}, {"flow", skin_places}, {"target", {1, 0.5, 0.4}}})["senses"];
             EXPECT_FALSE(senses.contains("flow"));
             EXPECT_EQ(senses["companions"][0]["flow"].size(), 3u);
             EXPECT_GT(senses["companions"][0]["target"]["distance"], 0);
@@ -207,6 +207,7 @@ TEST(StreamDriveTest, CompanionsAreSteeredAndSense) {
         together.send_bytes(message("STAT", saved));
         EXPECT_EQ(together.ask({{"do", "restore"}})["ok"], true);
         EXPECT_EQ(together.scene()["companions"][0]["gait"]["frequency"], 3);
+        together.passed();
         EXPECT_EQ(driven_step(together, {0.1, 0.1}, 3), driven_step(apart, {0.1, 0.1}, 3));
         EXPECT_EQ(state_of(together), state_of(apart));
     }

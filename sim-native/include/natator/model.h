@@ -136,9 +136,9 @@ struct Model {
     int first_actuator_of(int swimmer) const {  ///< of all actuators; of one more than there are: their number
         if (swimmer == 0) return 0;
         if (swimmer < swimmers()) return companions[swimmer - 1].first_actuator;
-        return companions.empty() ? actuators
-                                  : companions.back().first_actuator +
-                                        static_cast<int>(companions.back().gait.amplitude.size());
+        return companions.empty()
+                   ? actuators
+                   : companions.back().first_actuator + static_cast<int>(companions.back().gait.amplitude.size());
     }
     int actuators_of(int swimmer) const {  ///< their number
         return first_actuator_of(swimmer + 1) - first_actuator_of(swimmer);

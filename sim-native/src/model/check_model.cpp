@@ -86,14 +86,15 @@ void check_model(const Model& model) {
         if (!gait.offset.empty())
             require_length(item("companions", k) + ".gait.offset", gait.offset.size(), gait.amplitude.size());
         if (static_cast<std::size_t>(model.companions[k].first_actuator) != actuators)
-            throw InputError("model: " + item("companions", k) + ".first_actuator = " +
-                             std::to_string(model.companions[k].first_actuator) + ": must be " +
+            throw InputError("model: " + item("companions", k) +
+                             ".first_actuator = " + std::to_string(model.companions[k].first_actuator) + ": must be " +
                              std::to_string(actuators) + ", the number of actuators before");
         actuators += gait.amplitude.size();
         const int low = model.first_spring_of(static_cast<int>(k)), first = model.companions[k].first_spring;
         if (first < low || static_cast<std::size_t>(first) > model.springs.size())
             throw InputError("model: " + item("companions", k) + ".first_spring = " + std::to_string(first) +
-                             ": must be in [" + std::to_string(low) + ", " + std::to_string(model.springs.size()) + ']');
+                             ": must be in [" + std::to_string(low) + ", " + std::to_string(model.springs.size()) +
+                             ']');
     }
     for (std::size_t m = 0; m < model.muscles.size(); ++m) {
         require_one_of(model.muscles[m].spring, model.springs.size(), [m] { return item("muscles", m) + ".spring"; });

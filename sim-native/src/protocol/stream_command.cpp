@@ -71,8 +71,7 @@ stream::Step read_step(const json& value) {
     for (const char* key : {"drive", "scale", "offset"})
         if (value.contains(key)) given.push_back(key);
     const std::optional<int> swimmer = read_swimmer(value);
-    if (swimmer && given.empty())
-        fields::refuse(place.key("swimmer"), "must come with drive, scale or offset, for it");
+    if (swimmer && given.empty()) fields::refuse(place.key("swimmer"), "must come with drive, scale or offset, for it");
     const bool each = std::any_of(given.begin(), given.end(), [&](const char* key) { return has_rows(value, key); });
     if (!each && !given.empty()) step.steer.push_back(read_steer(value));
     if (!each) return step;

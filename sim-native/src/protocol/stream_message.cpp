@@ -94,8 +94,7 @@ ordered_json muscles_json(const Creature& creature, const Model& model, int swim
                            {"actuator", actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
-        if (actuators[static_cast<std::size_t>(actuator)].bend == Bend::vertical)
-            muscles.back()["bend"] = "vertical";
+        if (actuators[static_cast<std::size_t>(actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
     }
     return muscles;
 }

@@ -74,6 +74,11 @@ public:
     /// Work that the muscles of each swimmer did in all frames so far by their changes of rest length, mass
     /// length^2/s^2 (Solver::muscle_works); 0 in scheme flex.
     const std::vector<double>& muscle_works() const;
+    double muscle_work() const {  ///< that of all
+        double sum = 0;
+        for (const double work : muscle_works()) sum += work;
+        return sum;
+    }
     void clear_muscle_work();
     /// As Solver's.
     std::string save() const;

@@ -29,7 +29,7 @@ struct GridShared : Shared<Real> {
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work[limits::companions + 1];  ///< by swimmer, of the update's substeps so far
-    physics::LawMeasures laws[max_law_blocks];  ///< of the particles that a block of threads has looked at
+    physics::LawMeasures laws[max_law_blocks];   ///< of the particles that a block of threads has looked at
 };
 
 /// Pose of a cluster of scheme conserving, in double.
