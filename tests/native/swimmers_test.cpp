@@ -36,7 +36,7 @@ Gait beat(int actuators) {
     return gait;
 }
 
-std::uint64_t after(Simulation<float>& simulation, int frames) {
+std::uint64_t hash_of_swim(Simulation<float>& simulation, int frames) {
     for (int frame = 0; frame < frames; ++frame) EXPECT_TRUE(simulation.step());
     return state_hash(simulation.state());
 }
@@ -59,12 +59,12 @@ TEST_P(Swimmers, AGaitThatACompanionGetsIsAsGoodAsItsScenes) {
     }
     companions[0]["gait"] = {{"frequency", next.frequency}, {"amplitude", next.amplitude}, {"phase", next.phase}};
     Simulation<float> made(pair_in(GetParam(), {{"companions", companions}}));
-    const std::uint64_t expected = after(made, frames);
-    EXPECT_EQ(after(told, frames), expected);
-    EXPECT_NE(after(plain, frames), expected);
+    const std::uint64_t expected = hash_of_swim(made, frames);
+    EXPECT_EQ(hash_of_swim(told, frames), expected);
+    EXPECT_NE(hash_of_swim(plain, frames), expected);
 
     told.reset();  // keeps it
-    EXPECT_EQ(after(told, frames), expected);
+    EXPECT_EQ(hash_of_swim(told, frames), expected);
     EXPECT_FALSE(told.merge_overrides(R"({"solver": {"damping": 0.1}})"));  // as do settings
     EXPECT_EQ(told.gait(1), next);
 }
@@ -76,7 +76,7 @@ TEST_P(Swimmers, EachIsDrivenByItself) {
         Simulation<float> simulation(pair_in(GetParam()), execution);
         if (!first.empty()) simulation.drive(first);
         if (!second.empty()) simulation.drive(second, 1);
-        const std::uint64_t hash = after(simulation, frames);
+        const std::uint64_t hash = hash_of_swim(simulation, frames);
         EXPECT_TRUE(first.empty() || simulation.driven() == first);
         EXPECT_TRUE(second.empty() || simulation.driven(1) == second);
         return hash;
@@ -95,7 +95,7 @@ TEST_P(Swimmers, WorkAndDistanceAreOfEach) {
         Simulation<float> simulation(pair_in(GetParam()));
         for (const int k : {0, 1}) simulation.set_gait(resting_gait(simulation.model().actuators_of(k)), k);
         simulation.drive(std::vector<double>(simulation.model().actuators_of(swimmer), 0.8 * gently), swimmer);
-        after(simulation, frames);
+        hash_of_swim(simulation, frames);
         EXPECT_EQ(simulation.muscle_work(1 - swimmer), 0);
         EXPECT_EQ(simulation.muscle_work(swimmer) != 0, GetParam() != "flex");
         const Body& body = simulation.model().body_of(swimmer);
@@ -114,7 +114,7 @@ TEST(SwimmersTest, ScaledByHalfIsAGaitOfHalfTheAmplitudes) {
     scaled.steer({{0.5, 0.5, 0.5}, {0, 0, 0}}, 1);
     for (double& amplitude : gait.amplitude) amplitude /= 2;
     halved.set_gait(gait, 1);
-    EXPECT_EQ(after(scaled, 4), after(halved, 4));
+    EXPECT_EQ(hash_of_swim(scaled, 4), hash_of_swim(halved, 4));
     EXPECT_EQ(scaled.steering(1).scale[0], 0.5);
     EXPECT_EQ(scaled.steering().scale[0], 1);
 }
@@ -123,7 +123,7 @@ TEST(SwimmersTest, ScaledByHalfIsAGaitOfHalfTheAmplitudes) {
 TEST(SwimmersTest, ACompanionSensesAsACreatureDoes) {
     Simulation<float> simulation(pair_in("conserving"));
     simulation.drive({0.5, -0.5, 0.4}, 1);
-    after(simulation, 3);
+    hash_of_swim(simulation, 3);
     const Model& pair = simulation.model();
     Model swapped = pair;
     std::swap(swapped.body, swapped.companions[0].body);
@@ -170,7 +170,7 @@ TEST(SwimmersTest, WhatDoesNotFitIsRefusedAndChangesNothing) {
     EXPECT_NE(test::refusal_of([&] { simulation.steer({{4, 4, 4}, {0.5, 0, 0}}, 1); }).find("must be at most 2"),
               std::string::npos);
     EXPECT_NE(test::refusal_of([&] { simulation.set_gait(beat(2), 1); }).find("must have length 3"), std::string::npos);
-    EXPECT_EQ(after(simulation, 2), after(untouched, 2));
+    EXPECT_EQ(hash_of_swim(simulation, 2), hash_of_swim(untouched, 2));
     const Model model = build_model(load_scene("bench/small-tank", SceneOptions{test::small_pair.dump()}));
     State<double> state = initial_state<double>(model);
     EXPECT_NE(test::refusal_of([&] { actuate(model, std::vector<double>(4), 0, state); }).find("must have length 2"),

@@ -154,8 +154,8 @@ TEST(StreamDriveTest, CommandsAreForTheFirstSwimmerUnlessTheySayMore) {
     const json senses = driven_step(client, {0.5, -0.5}, 3);
     EXPECT_EQ(senses["drive"], json({0.5, -0.5}));
     EXPECT_EQ(senses["bend"].size(), 2u);
-    ASSERT_EQ(senses["companions"].size(), 1u);
-    EXPECT_NE(senses["companions"][0]["drive"][0], 0);
+    ASSERT_EQ(senses.at("companions").size(), 1u);
+    EXPECT_NE(senses.at("companions")[0]["drive"][0], 0);
     EXPECT_EQ(client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"],
               "drive has length 3: must have length 2, one value per actuator of the creature, or 7, of all swimmers");
 }
@@ -172,11 +172,11 @@ TEST(StreamDriveTest, CompanionsAreSteeredAndSense) {
         for (StreamClient* client : {&apart, &together}) {
             const json scene = client->expect("SCEN");
             const json companion = scene["companions"][0];
-            EXPECT_EQ(companion["actuators"], 3);
-            EXPECT_EQ(companion["gait"]["amplitude"], json({0.5, 0.4, 0.3}));
-            EXPECT_EQ(companion["joints"], json({1, 3, 5, 7}));
+            EXPECT_EQ(companion.at("actuators"), 3);
+            EXPECT_EQ(companion.at("gait")["amplitude"], json({0.5, 0.4, 0.3}));
+            EXPECT_EQ(companion.at("joints"), json({1, 3, 5, 7}));
             std::set<int> actuators;
-            for (const json& muscle : companion["muscles"]) actuators.insert(muscle["actuator"].get<int>());
+            for (const json& muscle : companion.at("muscles")) actuators.insert(muscle["actuator"].get<int>());
             EXPECT_EQ(actuators, (std::set<int>{0, 1, 2}));
             const json senses = client->ask(
                 {{"do", "sense"}, {"swimmer", 1}, {"flow", skin_places}, {"target", {1, 0.5, 0.4}}})["senses"];
