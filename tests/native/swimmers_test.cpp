@@ -67,6 +67,17 @@ TEST_P(Swimmers, AGaitThatACompanionGetsIsAsGoodAsItsScenes) {
     EXPECT_EQ(hash_of_swim(told, frames), expected);
     EXPECT_FALSE(told.merge_overrides(R"({"solver": {"damping": 0.1}})"));  // as do settings
     EXPECT_EQ(told.gait(1), next);
+    const Steering strongest{std::vector<double>(next.amplitude.size(), 3), std::vector<double>(next.amplitude.size())};
+    told.steer(strongest, 1);
+    companions[0]["gait"]["amplitude"][0] = 1;
+    const std::string patch = json{{"companions", companions}}.dump();
+    EXPECT_NE(test::refusal_of([&] { told.merge_overrides(patch); }).find("must be at most 2, is 3"),
+              std::string::npos);
+    EXPECT_EQ(told.gait(1), next);
+    told.steer(no_steering(static_cast<int>(next.amplitude.size())), 1);
+    told.reset();
+    EXPECT_FALSE(told.merge_overrides(patch));
+    EXPECT_EQ(told.gait(1).amplitude[0], 1);
 }
 
 TEST_P(Swimmers, EachIsDrivenByItself) {

@@ -100,7 +100,7 @@ public:
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
     /// What the next frame is steered to.
-    const Steering& steering(int swimmer = 0) const { return steering_.at(static_cast<std::size_t>(swimmer)); }
+    const Steering& steering(int swimmer = 0) const { return check_swimmer(swimmer), steering_[swimmer]; }
     /// What drives each actuator now: the gait's drive, steered.
     std::vector<double> driven(int swimmer = 0) const;
     /// Work that a swimmer's muscles did since the start (Solver::muscle_works), mass length^2/s^2.

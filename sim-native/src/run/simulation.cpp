@@ -130,24 +130,26 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
     std::unique_ptr<Run> run = make_run(next);
     check_gait(*next.gait, run->model.actuators);
     const bool goes_on = !instability_ && same_layout(model(), run->model);
+    std::vector<Gait> company = company_;
+    keep_changed_gaits(model(), run->model, company);
     if (goes_on) {
+        for (std::size_t k = 0; k < company.size(); ++k)
+            for (const auto* steering : {&steering_, &applied_})
+                check_steering((*steering)[k + 1], company[k], static_cast<int>(company[k].amplitude.size()));
         if (run->scene.time_step != scene().time_step) {
             base_frame_ = frames_;
             base_time_ = state_.time;
         }
         for (int k = 0; k < model().swimmers(); ++k) earlier_work_[k] += run_->solver.muscle_works()[k];
         if (run->follower) run->follower->set_origin(state_.origin);
-        keep_changed_gaits(model(), run->model, company_);
         run_ = std::move(run);
         run_->laws.go_on(measure_laws(model(), state_));
         run_->laws.drive_freely();
         updated_ = false;
     } else {
-        std::vector<Gait> company = std::move(company_);
-        keep_changed_gaits(model(), run->model, company);
         start(std::move(run));
-        company_ = std::move(company);
     }
+    company_ = std::move(company);
     setup_ = std::move(next);
     return !goes_on;
 }
