@@ -12,7 +12,7 @@ usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy
             node and npm, with what its scripts are checked with from the npm registry (50 MB)
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
-            pysplashsurf, numpy, gymnasium, skrl with JAX, pycma, pyribs, tensorboard, MLflow, Optuna, nbclient, and what makes and checks its wheel and the site, from PyPI into .readers (2 GB); the validator of glTF, where npm
+            pysplashsurf, numpy, gymnasium, pettingzoo, skrl with JAX, pycma, pyribs, tensorboard, MLflow, Optuna, nbclient, and what makes and checks its wheel and the site, from PyPI into .readers (2 GB); the validator of glTF, where npm
             is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; doxygen; and
             dpkg-dev and gpg, which packages are made with
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)

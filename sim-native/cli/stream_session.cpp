@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/check_values.h"
 #include "base/strict_json.h"
 #include "base/text.h"
 #include "commands.h"
@@ -15,12 +16,30 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+/// What is wrong with a swimmer that a command names is told with its number.
+template <class Work>
+auto for_swimmer(int swimmer, bool named, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        if (!named) throw;
+        throw InputError("swimmer " + std::to_string(swimmer) + ": " + error.what());
+    }
+}
+
+/// Part of values of all swimmers, one after the other, that is one's.
+std::vector<double> part_of(const std::vector<double>& values, const Model& model, int swimmer) {
+    return {values.begin() + model.first_actuator_of(swimmer), values.begin() + model.first_actuator_of(swimmer + 1)};
+}
+
 }  // namespace
 
 template <class Real>
 StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
                                    const StreamSettings& settings)
-    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
+    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {
+    forget_senses();
+}
 
 template <class Real>
 void StreamSession<Real>::go_on() {
@@ -134,7 +153,7 @@ void StreamSession<Real>::begin_step(const stream::Step& step) {
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
     if (due_) drop_frame();
     running_ = false;
-    if (step.steer.size() == 1) simulation_.steer(steering_of(step.steer.front()));
+    if (step.steer.size() == 1) apply(steered_by(step.steer.front()));
     under_way_ = {.step = &step};
 }
 
@@ -143,7 +162,7 @@ template <class Real>
 bool StreamSession<Real>::steer_next_frame() {
     const auto& [step, frames, stable] = under_way_;
     if (!step || !stable || frames == static_cast<std::size_t>(step->frames) || at_end()) return false;
-    if (step->steer.size() > 1) simulation_.steer(steering_of(step->steer[frames]));
+    if (step->steer.size() > 1) apply(steered_by(step->steer[frames]));
     return true;
 }
 
@@ -158,42 +177,80 @@ void StreamSession<Real>::end_step() {
 /// Nothing is simulated with commands of which one can't be used.
 template <class Real>
 void StreamSession<Real>::check(const stream::Step& step) const {
-    const int actuators = simulation_.model().actuators;
-    for (std::size_t i = 0; i < step.steer.size(); ++i) {
-        const stream::Steer& steer = step.steer[i];
-        const std::string row = step.steer.size() > 1 ? "[" + std::to_string(i) + "]" : "";
-        if (steer.drive) check_drive(*steer.drive, actuators, ("drive" + row).c_str());
-        check_steering(steering_of(steer), simulation_.gait(), actuators);
+    for (std::size_t i = 0; i < step.steer.size(); ++i)
+        steered_by(step.steer[i], step.steer.size() > 1 ? "[" + std::to_string(i) + "]" : "");
+    if (step.sense) check_sensing(sensing_.front(), simulation_.model());
+}
+
+/// All of it can be done.
+template <class Real>
+auto StreamSession<Real>::steered_by(const stream::Steer& steer, const std::string& row) const -> std::vector<Steered> {
+    const Model& model = simulation_.model();
+    const auto all_actuators = static_cast<std::size_t>(model.first_actuator_of(model.swimmers()));
+    bool all = false;
+    if (!steer.swimmer && model.swimmers() > 1)
+        for (const auto* list : {&steer.drive, &steer.scale, &steer.offset})
+            all |=
+                *list && (*list)->size() == all_actuators && all_actuators != static_cast<std::size_t>(model.actuators);
+    std::vector<Steered> steered;
+    const auto add = [&](int swimmer, const std::vector<double>* drive, const std::vector<double>* scale,
+                         const std::vector<double>* offset) {
+        const Gait& gait = simulation_.gait(swimmer);
+        const int actuators = model.actuators_of(swimmer);
+        Steering steering = no_steering(actuators);
+        if (drive) check_drive(*drive, actuators, ("drive" + row).c_str()), steering = steering_of_drive(*drive);
+        if (scale) steering.scale = *scale;
+        if (offset) steering.offset = *offset;
+        check_steering(steering, gait, actuators);
+        steered.push_back({swimmer, std::move(steering)});
+    };
+    const auto given = [](const std::optional<std::vector<double>>& list) { return list ? &*list : nullptr; };
+    if (!all) {
+        const int swimmer = steer.swimmer.value_or(0);
+        if (!steer.swimmer && model.swimmers() > 1)
+            for (const auto& [name, list] :
+                 {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
+                if (*list && (*list)->size() != static_cast<std::size_t>(model.actuators))
+                    throw InputError(std::string(name) + row + " has length " + std::to_string((*list)->size()) +
+                                     ": must have length " + std::to_string(model.actuators) +
+                                     ", one value per actuator of the creature, or " + std::to_string(all_actuators) +
+                                     ", of all swimmers");
+        simulation_.gait(swimmer);  // it is there
+        for_swimmer(swimmer, steer.swimmer.has_value(),
+                    [&] { add(swimmer, given(steer.drive), given(steer.scale), given(steer.offset)); });
+        return steered;
     }
-    if (step.sense) check_sensing(sensing_, simulation_.model());
+    for (const auto& [name, list] : {std::pair{"scale", &steer.scale}, {"offset", &steer.offset}})
+        if (*list) check_length(name, (*list)->size(), static_cast<int>(all_actuators));
+    for (int k = 0; k < model.swimmers(); ++k) {
+        std::optional<std::vector<double>> drive, scale, offset;
+        if (steer.drive) drive = part_of(*steer.drive, model, k);
+        if (steer.scale) scale = part_of(*steer.scale, model, k);
+        if (steer.offset) offset = part_of(*steer.offset, model, k);
+        for_swimmer(k, true, [&] { add(k, given(drive), given(scale), given(offset)); });
+    }
+    return steered;
 }
 
 template <class Real>
-Steering StreamSession<Real>::steering_of(const stream::Steer& steer) const {
-    const int actuators = simulation_.model().actuators;
-    if (steer.drive) {
-        check_drive(*steer.drive, actuators);
-        return steering_of_drive(*steer.drive);
-    }
-    Steering steering = no_steering(actuators);
-    if (steer.scale) steering.scale = *steer.scale;
-    if (steer.offset) steering.offset = *steer.offset;
-    return steering;
+void StreamSession<Real>::apply(const std::vector<Steered>& all) {
+    for (const Steered& one : all) simulation_.steer(one.steering, one.swimmer);
 }
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Steer& steer) {
-    simulation_.steer(steering_of(steer));
+    apply(steered_by(steer));
 }
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Sense& sense) {
-    Sensing next = sensing_;
+    simulation_.gait(sense.swimmer);  // it is there
+    Sensing next = sensing_[static_cast<std::size_t>(sense.swimmer)];
     if (sense.flow) next.flow = *sense.flow;
     if (sense.within) next.within = *sense.within;
     if (sense.target) next.target = *sense.target;
-    check_sensing(next, simulation_.model());
-    sensing_ = std::move(next);
+    for_swimmer(sense.swimmer, sense.swimmer > 0, [&] { check_sensing(next, simulation_.model(), sense.swimmer); });
+    sensing_[static_cast<std::size_t>(sense.swimmer)] = std::move(next);
     if (sense.each) sense_each_ = *sense.each;
     answer_["senses"] = senses();
 }
@@ -215,8 +272,9 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::Restore& restore) {
     if (!held_ || held_->empty()) throw InputError("restore: there is no state; must come behind a STAT, or a save");
     if (held_->size() > stream::max_message) throw InputError("state: is larger than 1 GiB");
-    if (restore.sense) check_sensing(sensing_, simulation_.model());
+    if (restore.sense) check_sensing(sensing_.front(), simulation_.model());
     if (simulation_.restore(*held_)) scene_changed(false);
+    if (!senses_fit()) forget_senses();
     pace_.restart();
     due_ = true;
     offer_frame();
@@ -239,7 +297,8 @@ void StreamSession<Real>::apply(const stream::Reset& reset) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewGait& gait) {
-    simulation_.set_gait(gait.gait);
+    simulation_.gait(gait.swimmer);  // it is there
+    for_swimmer(gait.swimmer, gait.swimmer > 0, [&] { simulation_.set_gait(gait.gait, gait.swimmer); });
     scene_changed(false);
 }
 
@@ -259,10 +318,24 @@ void StreamSession<Real>::apply(const stream::NewScene& scene) {
     scene_changed(true);
 }
 
+/// Whether the places are those of the bodies that are there.
+template <class Real>
+bool StreamSession<Real>::senses_fit() const {
+    if (sensing_.size() != static_cast<std::size_t>(simulation_.model().swimmers())) return false;
+    try {
+        for (int k = 0; k < simulation_.model().swimmers(); ++k)
+            if (!simulation_.model().body_of(k).particles.empty())
+                check_sensing(sensing_[static_cast<std::size_t>(k)], simulation_.model(), k);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
 /// The places are those of another body.
 template <class Real>
 void StreamSession<Real>::forget_senses() {
-    sensing_ = {};
+    sensing_.assign(static_cast<std::size_t>(simulation_.model().swimmers()), {});
     sense_each_ = false;
 }
 

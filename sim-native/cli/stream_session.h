@@ -75,7 +75,13 @@ private:
     void apply(const stream::NewScene& scene);
 
     void say(const std::string& message) { messages_ += message; }
-    Steering steering_of(const stream::Steer& steer) const;
+    /// What a command asks of a swimmer.
+    struct Steered {
+        int swimmer = 0;
+        Steering steering;
+    };
+    std::vector<Steered> steered_by(const stream::Steer& steer, const std::string& row = {}) const;
+    void apply(const std::vector<Steered>& all);
     void check(const stream::Step& step) const;
     void begin_step(const stream::Step& step);
     bool steer_next_frame();
@@ -85,6 +91,7 @@ private:
     template <class Work>
     void or_refuse(const Work& work);
     nlohmann::ordered_json senses() const { return stream_senses(simulation_, sensing_); }
+    bool senses_fit() const;
     void forget_senses();
     void scene_changed(bool restarted);
     bool simulate();
@@ -100,7 +107,7 @@ private:
     Simulation<Real> simulation_;
     Pace pace_;
     bool running_;
-    Sensing sensing_;
+    std::vector<Sensing> sensing_;             ///< by swimmer
     bool sense_each_ = false;                  ///< a SENS before every frame
     nlohmann::ordered_json answer_;            ///< of the command that is carried out
     std::shared_ptr<const std::string> held_;  ///< the last STAT, of either direction; null before it

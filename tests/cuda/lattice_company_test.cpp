@@ -45,6 +45,29 @@ protected:
     }
 };
 
+class GpuLatticePair : public test::OnGpu<> {};
+
+/// Each of two swimmers driven by itself.
+TEST_F(GpuLatticePair, CompanionsAreDrivenByThemselves) {
+    const SimulationSetup setup{"plane/pair", test::pair_json(json::object()).dump()};
+    Execution on_gpu;
+    on_gpu.gpu = 0;
+    Simulation<double> here(setup), there(setup, on_gpu);
+    for (Simulation<double>* one : {&here, &there}) {
+        one->drive(std::vector<double>(one->model().actuators_of(0), 0.07));
+        one->drive(std::vector<double>(one->model().actuators_of(1), -0.06), 1);
+        for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(one->step());
+    }
+    const State<double> before = initial_state<double>(here.model());
+    // Rounding of the water's floats, as below, and room.
+    EXPECT_LT(test::max_distance(here.state(), there.state()), 1e-5 * test::max_distance(here.state(), before));
+    for (const int k : {0, 1}) {
+        EXPECT_NE(here.muscle_work(k), 0);
+        EXPECT_NEAR(there.muscle_work(k), here.muscle_work(k), 1e-4 * std::abs(here.muscle_work(k)));
+    }
+    EXPECT_NE(here.muscle_work(0), here.muscle_work(1));
+}
+
 TEST_P(GpuLatticeCompany, SwimsAndIsPushedAsOnTheCpu) {
     const Model model = build_model(scene());
     Execution on_cpu = on_gpu();

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "../native/small_pair.h"
 #include "gpu_test.h"
 #include "natator/measure.h"
 #include "natator/simulation.h"
@@ -73,6 +74,63 @@ TEST_P(GpuTogether, SteeringIsThatOfTheCpu) {
     }
     EXPECT_LT(max_distance(there->state(), here.state()), 1e-3);
     EXPECT_NEAR(there->muscle_work(), here.muscle_work(), 1e-3 * std::abs(here.muscle_work()));
+}
+
+/// Two swimmers of one water, each driven by itself: to the bits of each alone, and as on the CPU to rounding.
+TEST_P(GpuTogether, CompanionsAreDrivenByThemselves) {
+    const auto company = [](int number) {
+        nlohmann::json overrides = small_pair;
+        overrides["scheme"] = GetParam();
+        return SimulationSetup{.scene = "bench/small-tank", .overrides = overrides.dump(), .start = number % 3};
+    };
+    const auto steer_all = [](int number, int frame, Simulation<float>& swim) {
+        for (int k = 0; k < swim.model().swimmers(); ++k)
+            swim.drive(std::vector<double>(swim.model().actuators_of(k), std::sin(0.9 * frame + number + 2 * k)), k);
+    };
+    std::vector<std::uint64_t> alone;
+    Simulation<float> here(company(0));
+    for (int number = 0; number < 5; ++number) {
+        SharedGpu gpu;
+        Simulation<float> one(company(number), Execution{.gpu = 0, .shared = &gpu});
+        for (int frame = 0; frame < frames; ++frame) {
+            steer_all(number, frame, one);
+            EXPECT_TRUE(one.step());
+            if (number > 0) continue;
+            steer_all(0, frame, here);
+            EXPECT_TRUE(here.step());
+        }
+        alone.push_back(state_hash(one.state()));
+        if (number > 0) continue;
+        EXPECT_LT(max_distance(one.state(), here.state()), 1e-3);
+        for (const int k : {0, 1}) {
+            EXPECT_EQ(here.muscle_work(k) != 0, GetParam() != "flex");
+            EXPECT_NEAR(one.muscle_work(k), here.muscle_work(k), 1e-3 * std::abs(here.muscle_work(k)));
+        }
+        EXPECT_TRUE(GetParam() == "flex" || here.muscle_work(0) != here.muscle_work(1));
+    }
+    SharedGpu gpu;
+    std::vector<Swim> swims;
+    for (int number = 0; number < 5; ++number)
+        swims.push_back(std::make_unique<Simulation<float>>(company(number), Execution{.gpu = 0, .shared = &gpu}));
+    std::string saved;
+    for (int frame = 0; frame < frames; ++frame) {
+        std::vector<Simulation<float>*> together;
+        for (int number = 0; number < 5; ++number) {
+            steer_all(number, frame, *swims[number]);
+            together.push_back(swims[number].get());
+        }
+        if (frame == 3) saved = swims[2]->save();
+        for (const bool stable : step_together(together, 4)) EXPECT_TRUE(stable);
+    }
+    for (int number = 0; number < 5; ++number) EXPECT_EQ(state_hash(swims[number]->state()), alone[number]) << number;
+    Simulation<float> other(company(0), Execution{.gpu = 0, .shared = &gpu});
+    EXPECT_TRUE(other.restore(saved));
+    for (int frame = 3; frame < frames; ++frame) {
+        steer_all(2, frame, other);
+        EXPECT_TRUE(other.step());
+    }
+    EXPECT_EQ(state_hash(other.state()), alone[2]);
+    EXPECT_EQ(other.muscle_work(1), swims[2]->muscle_work(1));
 }
 
 /// One that breaks a law stops; the others go on, and it can be started anew.

@@ -94,6 +94,9 @@ if $with_extras; then
     use_extra gym 'import gymnasium, natator.gym
 with gymnasium.make("natator/Swimmer-v0", scene="bench/small-tank", render_mode="rgb_array") as env:
     env.reset(seed=1); print(env.step(env.action_space.sample())[1], env.render().shape)'
+    use_extra zoo 'from natator.zoo import SwimmersEnv
+water = SwimmersEnv("company/pair", duration=0.1, render_mode="rgb_array"); water.reset(seed=1)
+print(water.step({agent: water.action_space(agent).sample() for agent in water.agents})[1], water.render().shape); water.close()'
     for optimizer in cma-es map-elites; do
         use_extra "$([[ $optimizer == cma-es ]] && echo cma || echo ribs)" "import natator
 print(natator.evolve('bench/small-tank', optimizer='$optimizer', generations=1, population=4, duration=0.2))"

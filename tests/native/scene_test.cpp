@@ -47,6 +47,7 @@ TEST(SceneTest, AllNamedScenesAreThere) {
                                                "bench/pool",
                                                "bench/small-tank",
                                                "company/hoop",
+                                               "company/pair",
                                                "company/pillars",
                                                "company/school",
                                                "endless/creature-2",

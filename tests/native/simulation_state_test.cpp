@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "coarse_lake.h"
+#include "lattice_company.h"
 #include "natator/error.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/simulation.h"
 #include "refusal_of.h"
 #include "scene/scene_json.h"
+#include "small_pair.h"
 
 namespace natator::saving {
 namespace {
@@ -45,7 +47,12 @@ std::vector<double> told(Simulation<Real>& simulation) {
     std::vector<double> all{simulation.time(), simulation.distance(), simulation.muscle_work(),
                             static_cast<double>(simulation.frames())};
     for (const Real density : simulation.densities()) all.push_back(density);
-    for (const double value : simulation.driven()) all.push_back(value);
+    for (int k = 0; k < simulation.model().swimmers(); ++k) {
+        all.push_back(simulation.distance(k));
+        all.push_back(simulation.muscle_work(k));
+        all.push_back(simulation.gait(k).frequency);
+        for (const double value : simulation.driven(k)) all.push_back(value);
+    }
     for (const double value : simulation.state().origin) all.push_back(value);
     if (simulation.model().is_fluid(simulation.model().particles() - 1) || simulation.model().water_box)
         for (const auto& velocity : simulation.water().velocity) all.push_back(velocity.norm());
@@ -62,10 +69,12 @@ template <class Real>
 void expect_to_go_on(const Swim& swim) {
     const SimulationSetup setup{swim.scene, swim.overrides.dump()};
     Simulation<Real> first(setup), second(setup);
-    const int actuators = first.model().actuators;
-    first.set_gait(beat(actuators));
+    const auto actuators = [&](int swimmer) { return first.model().actuators_of(swimmer); };
+    const int swimmers = first.model().swimmers();
+    for (int k = 0; k < swimmers; ++k) first.set_gait(beat(actuators(k)), k);
     for (int frame = 0; frame < 5; ++frame) {
-        if (frame == 4) first.drive(std::vector<double>(actuators, 0.3));
+        for (int k = 0; frame == 4 && k < swimmers; ++k)
+            first.drive(std::vector<double>(actuators(k), 0.3 - 0.2 * k), k);
         ASSERT_TRUE(first.step());
     }
     const std::string saved = first.save();
@@ -89,7 +98,7 @@ void expect_to_go_on(const Swim& swim) {
     EXPECT_EQ(first.save(), later);
     first.reset();
     Simulation<Real> anew(setup);
-    anew.set_gait(beat(actuators));
+    for (int k = 0; k < swimmers; ++k) anew.set_gait(beat(actuators(k)), k);
     ASSERT_EQ(first.step(), anew.step());
     expect_same(first, anew);
 }
@@ -116,6 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
         Swim{"lattice_in_a_moving_tank", "lake/creature-2",
              merged(test::coarse_lake, {{"movingTank", {{"along", "x"}, {"step", 0.075}, {"current", {-6, 0, 0}}}}})},
         Swim{"companions", "company/school", hardly_settled},
+        Swim{"companions_in_flex", "bench/small-tank", test::small_pair},
+        Swim{"companions_in_lattice", "plane/pair", test::pair_json(json::object())},
         Swim{"goal_in_a_current", "goals/hold", merged(hardly_settled, {{"movingTank", {{"step", 0.002}}}})},
         Swim{"goal", "goals/reach", hardly_settled}, Swim{"periodic", "open-water/periodic", hardly_settled}),
     [](const auto& swim) { return swim.param.name; });

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "../native/small_pair.h"
 #include "stream_runs.h"
 
 namespace natator::test {
@@ -191,6 +192,41 @@ TEST(StreamBatchTest, OutcomesAreTheSensesOfAnswers) {
     EXPECT_EQ(outcomes[1].status, 1u);
     EXPECT_EQ(outcomes[1].senses, expected);
     EXPECT_EQ(told["frame"], 3);
+}
+
+/// Values of all swimmers stand one after the other, as their senses do, behind which are the sizes of these.
+TEST(StreamBatchTest, CompanionsAreDrivenAndSenseInABatch) {
+    for (const std::string scheme : {"flex", "conserving"}) {
+        const std::vector<std::string> more{"--scheme", scheme, "--overrides", small_pair.dump()};
+        std::vector<std::string> on_threads = more;
+        on_threads.insert(on_threads.end(), {"--threads", "2"});
+        BatchClient client(3, on_threads), alone(1, more);
+        for (BatchClient* each : {&client, &alone})
+            each->ask(0, {{"do", "sense"}, {"swimmer", 1}, {"flow", {{{"slice", 1}, {"side", "left"}}}}});
+        const std::string own = action(2, 2, {{0.1, 0.2, 0.3, -0.4, 0.5}}),
+                          steered = action(3, 1, {{1, 1, 0.5, 0.5, 0.5, 0, 0, 0.1, 0, 0}});
+        json refusals;
+        const auto outcomes = client.act({own, action(2, 1, {{0, 0, 0, 0, 7}}), action(2, 1, {{0, 0, 0}})}, &refusals);
+        EXPECT_EQ(refusals["1"], "swimmer 1: drive[2] = 7: must be a number in [-2, 2]");
+        EXPECT_EQ(
+            refusals["2"],
+            "drive has length 3: must have length 2, one value per actuator of the creature, or 5, of all swimmers");
+        const auto expected = alone.act({own});
+        const std::vector<double>& senses = outcomes[0].senses;
+        EXPECT_EQ(senses.size(), expected[0].senses.size());
+        ASSERT_EQ(senses.size(), 27u + 4 + 27 + 6 + 4 + 2);
+        EXPECT_EQ(senses[senses.size() - 2], 27 + 4);
+        EXPECT_EQ(senses.back(), 27 + 6 + 4);
+        const json told = client.ask(0, {{"do", "sense"}})["senses"]["companions"][0];
+        EXPECT_EQ(senses[31], 2);
+        EXPECT_EQ(senses[31 + 2], told["distance"]);
+        EXPECT_EQ(senses[31 + 27], 0.3);
+        EXPECT_EQ(senses[31 + 27 + 3], told["bend"][0]);
+        EXPECT_EQ(senses[31 + 36], told["flow"][0]["particles"]);
+        EXPECT_EQ(client.act({steered, own, action(0)})[0].status, 1u);
+        EXPECT_EQ(alone.act({steered})[0].status, 1u);
+        EXPECT_EQ(saved(client, 0), saved(alone, 0));
+    }
 }
 
 TEST(StreamBatchTest, WhatIsWrongWithOneIsToldByItsNumberAndTheOthersGoOn) {

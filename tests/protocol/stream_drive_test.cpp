@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "../native/small_pair.h"
 #include "stream_runs.h"
 
 namespace natator::test {
@@ -136,8 +137,8 @@ TEST(StreamDriveTest, SensesComeInAnswersAndBeforeFrames) {
     EXPECT_FALSE(client.ask({{"do", "step"}, {"sense", true}})["senses"].contains("flow"));
 }
 
-/// Companions beat by their own gaits; commands and senses are the swimmer's alone.
-TEST(StreamDriveTest, CompanionsAreNotDriven) {
+/// Without a word of them companions beat by their own gaits.
+TEST(StreamDriveTest, CommandsAreForTheFirstSwimmerUnlessTheySayMore) {
     const json overrides = {
         {"fluid", nullptr},
         {"companions",
@@ -153,9 +154,95 @@ TEST(StreamDriveTest, CompanionsAreNotDriven) {
     const json senses = driven_step(client, {0.5, -0.5}, 3);
     EXPECT_EQ(senses["drive"], json({0.5, -0.5}));
     EXPECT_EQ(senses["bend"].size(), 2u);
-    EXPECT_NE(
-        client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"].get<std::string>().find("must have length 2"),
-        std::string::npos);
+    ASSERT_EQ(senses.at("companions").size(), 1u);
+    EXPECT_NE(senses.at("companions")[0]["drive"][0], 0);
+    EXPECT_EQ(client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"],
+              "drive has length 3: must have length 2, one value per actuator of the creature, or 7, of all swimmers");
+}
+
+std::vector<std::string> pair_in(const std::string& scheme, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--scheme", scheme, "--overrides", small_pair.dump()});
+    return driven_in(small_tank, more);
+}
+
+/// Each by itself, or all by one command.
+TEST(StreamDriveTest, CompanionsAreSteeredAndSense) {
+    for (const std::string scheme : {"flex", "conserving"}) {
+        StreamClient apart(pair_in(scheme)), together(pair_in(scheme, {"--threads", "2"}));
+        for (StreamClient* client : {&apart, &together}) {
+            const json scene = client->expect("SCEN");
+            const json companion = scene["companions"][0];
+            EXPECT_EQ(companion.at("actuators"), 3);
+            EXPECT_EQ(companion.at("gait")["amplitude"], json({0.5, 0.4, 0.3}));
+            EXPECT_EQ(companion.at("joints"), json({1, 3, 5, 7}));
+            std::set<int> actuators;
+            for (const json& muscle : companion.at("muscles")) actuators.insert(muscle["actuator"].get<int>());
+            EXPECT_EQ(actuators, (std::set<int>{0, 1, 2}));
+            const json senses = client->ask(
+                {{"do", "sense"}, {"swimmer", 1}, {"flow", skin_places}, {"target", {1, 0.5, 0.4}}})["senses"];
+            EXPECT_FALSE(senses.contains("flow"));
+            EXPECT_EQ(senses["companions"][0]["flow"].size(), 3u);
+            EXPECT_GT(senses["companions"][0]["target"]["distance"], 0);
+        }
+        apart.ask({{"do", "drive"}, {"swimmer", 1}, {"drive", {0.1, -0.2, 0.3}}});
+        apart.ask({{"do", "step"}, {"swimmer", 0}, {"drive", {0.4, 0.5}}});
+        apart.ask({{"do", "step"}, {"swimmer", 1}, {"frames", 2}, {"drive", {{0.6, 0, 0}, {0.7, 0, 0}}}});
+        const json last = apart.ask({{"do", "steer"}, {"swimmer", 1}, {"scale", {0.5, 0.5, 0.5}}});
+        EXPECT_EQ(last["ok"], true) << last;
+        const json senses = apart.ask({{"do", "step"}, {"sense", true}})["senses"];
+        together.ask({{"do", "step"}, {"drive", {0.4, 0.5, 0.1, -0.2, 0.3}}});
+        together.ask({{"do", "step"}, {"drive", {{0.4, 0.5, 0.6, 0, 0}, {0.4, 0.5, 0.7, 0, 0}}}});
+        together.ask({{"do", "steer"}, {"scale", {0, 0, 0.5, 0.5, 0.5}}, {"offset", {0.4, 0.5, 0, 0, 0}}});
+        EXPECT_EQ(together.ask({{"do", "step"}, {"sense", true}})["senses"], senses);
+        EXPECT_EQ(senses["drive"], json({0.4, 0.5}));
+        EXPECT_EQ(senses["companions"][0].contains("work"), scheme == "conserving");
+        EXPECT_EQ(state_of(together), state_of(apart));
+
+        json gait = json::parse(R"({"frequency":3,"amplitude":[0.2,0.2,0.2],"phase":[0,0,0]})");
+        apart.passed();
+        EXPECT_EQ(apart.ask({{"do", "gait"}, {"swimmer", 1}, {"gait", gait}})["ok"], true);
+        EXPECT_EQ(apart.passed().at(0).value()["companions"][0]["gait"]["frequency"], 3);
+        apart.ask({{"do", "save"}});
+        const std::string saved = apart.passed().at(0).body;
+        together.send_bytes(message("STAT", saved));
+        EXPECT_EQ(together.ask({{"do", "restore"}})["ok"], true);
+        EXPECT_EQ(together.scene()["companions"][0]["gait"]["frequency"], 3);
+        together.passed();
+        EXPECT_EQ(driven_step(together, {0.1, 0.1}, 3), driven_step(apart, {0.1, 0.1}, 3));
+        EXPECT_EQ(state_of(together), state_of(apart));
+    }
+}
+
+TEST(StreamDriveTest, WhatIsWrongWithACompanionNamesItAndChangesNothing) {
+    StreamClient client(pair_in("flex")), untouched(pair_in("flex"));
+    for (StreamClient* each : {&client, &untouched}) each->expect("SCEN");
+    const auto error_of = [&](const json& command) { return client.ask(command)["error"].get<std::string>(); };
+    const std::string not_there = "swimmer = 2: must be in [0, 1], the creature and its companions";
+    for (const json& command :
+         {json{{"do", "drive"}, {"drive", {0, 0, 0}}}, json{{"do", "sense"}}, json{{"do", "steer"}},
+          json{{"do", "step"}, {"offset", {0, 0, 0}}},
+          json{{"do", "gait"}, {"gait", {{"frequency", 1}, {"amplitude", {0, 0, 0}}, {"phase", {0, 0, 0}}}}}}) {
+        json of_another = command;
+        of_another["swimmer"] = 2;
+        EXPECT_EQ(error_of(of_another), not_there) << command;
+    }
+    EXPECT_EQ(error_of({{"do", "drive"}, {"swimmer", 1}, {"drive", {0, 0}}}),
+              "swimmer 1: drive has length 2: must have length 3, one value per actuator of the creature");
+    EXPECT_EQ(error_of({{"do", "step"}, {"swimmer", 1}, {"drive", {{0, 0, 0}, {0, 5, 0}}}}),
+              "swimmer 1: drive[1][1] = 5: must be a number in [-2, 2]");
+    EXPECT_EQ(error_of({{"do", "step"}, {"drive", {1, 1, 0, 0, -3}}}),
+              "swimmer 1: drive[2] = -3: must be a number in [-2, 2]");
+    EXPECT_EQ(error_of({{"do", "steer"}, {"scale", {1, 1, 9, 1, 1}}}),
+              "swimmer 1: scale[0] = 9: must be a number in [0, 4]");
+    EXPECT_EQ(error_of({{"do", "sense"}, {"swimmer", 1}, {"flow", {{{"slice", 9}, {"side", "left"}}}}}),
+              "swimmer 1: flow[0].slice = 9: must be a slice of the body, in [0, 8]");
+    EXPECT_EQ(error_of({{"do", "step"}, {"swimmer", 1}}),
+              "command: swimmer: must come with drive, scale or offset, for it");
+    EXPECT_EQ(error_of({{"do", "run"}, {"swimmer", 1}}).find("command: swimmer"), 0u);
+    client.send_line(R"({"do":"drive","swimmer":1,"drive":[0,null,0],"id":3})");
+    EXPECT_NE(client.expect("ANSW")["error"].get<std::string>().find("drive[1] = null"), std::string::npos);
+    for (StreamClient* each : {&client, &untouched}) take_start(*each);
+    EXPECT_EQ(hash_of(take_step(client, 3)), hash_of(take_step(untouched, 3)));
 }
 
 TEST(StreamDriveTest, ResetChoosesTheStart) {

@@ -20,6 +20,8 @@ TAKEN = [
     {"do": "gait", "gait": GAIT}, {"do": "overrides", "overrides": {"duration": 3}},
     {"do": "scene", "scene": "bench/small-tank", "overrides": {}, "gait": GAIT, "start": 3},
     {"do": "save"}, {"do": "restore"}, {"do": "restore", "sense": True}, {"do": "pause", "swim": 0},
+    {"do": "drive", "swimmer": 0, "drive": [0, 0.1]}, {"do": "steer", "swimmer": 0}, {"do": "sense", "swimmer": 0},
+    {"do": "gait", "swimmer": 0, "gait": GAIT}, {"do": "step", "swimmer": 0, "drive": [[0, 0.1]]},
     {"do": "step", "scale": [[1, 0.5], [1, 1]], "offset": [[0, 0.1], [0.1, 0]]}, {"do": "step", "offset": [[0.1, 0]]},
 ]
 REFUSED = [
@@ -34,6 +36,8 @@ REFUSED = [
     {"do": "sense", "target": [1, 2, 2e6]}, {"do": "rate"}, {"do": "rate", "value": 2000}, {"do": "gait"},
     {"do": "gait", "gait": GAIT | {"frequency": 61}}, {"do": "overrides"}, {"do": "scene"}, {"do": "scene", "scene": 3},
     {"do": "save", "sense": True}, {"do": "restore", "sense": "yes"}, {"do": "pause", "swim": -1}, {"do": "pause", "swim": 4096},
+    {"do": "drive", "swimmer": -1, "drive": [0, 0]}, {"do": "drive", "swimmer": 65, "drive": [0, 0]}, {"do": "step", "swimmer": 0},
+    {"do": "steer", "swimmer": 0.5}, {"do": "sense", "swimmer": "0"}, {"do": "pause", "swimmer": 0},
     {"do": "step", "scale": [[1, 1]], "offset": [0, 0]}, {"do": "step", "scale": [[1, 5]]},
 ]
 

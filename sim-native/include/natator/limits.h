@@ -15,6 +15,8 @@ inline constexpr std::size_t live_overrides_bytes = 1 << 20;
 
 /// Particles of a scene: their numbers, and those of their neighbours, stay well within 32 bits.
 inline constexpr long particles = 16'000'000;
+/// Other swimmers in a scene, beside the first.
+inline constexpr std::size_t companions = 64;
 /// Springs of a creature; the largest of the thesis has 96. Some 100 bytes each.
 inline constexpr long springs = 16'000'000;
 /// Entries of all neighbour lists together: they are counted in 32 bits.

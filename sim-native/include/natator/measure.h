@@ -18,10 +18,11 @@ namespace natator {
 template <class Real>
 double mean_x(const Body& body, const State<Real>& state);
 
-/// Whether any body particle is within collision_distance of any plane. The solver leaves a particle that it pushes out
-/// of a plane at that distance to within rounding, so rounding (1e-6 of the plane's offset + 1) counts as touching.
+/// Whether any particle of a swimmer's body (0: Model::body; then the companions') is within collision_distance of any
+/// plane. The solver leaves a particle that it pushes out of a plane at that distance to within rounding, so rounding
+/// (1e-6 of the plane's offset + 1) counts as touching.
 template <class Real>
-bool touches_plane(const Model& model, const State<Real>& state);
+bool touches_plane(const Model& model, const State<Real>& state, int swimmer = 0);
 
 /// FNV-1a (64 bits) over the bytes of all positions, then all velocities, each as x, y, z, lowest
 /// byte of each number first.
@@ -163,8 +164,9 @@ struct Sensing {
     std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length over ground
 };
 
-/// Throws InputError unless the scene has a body, each place is on it, and `within` is 0 or a length up to 1000.
-void check_sensing(const Sensing& sensing, const Model& model);
+/// Throws InputError unless the swimmer (0: the body; then the companions) has one, each place is on it, and `within`
+/// is 0 or a length up to 1000.
+void check_sensing(const Sensing& sensing, const Model& model, int swimmer = 0);
 
 /// The water about a place of the skin.
 struct SkinFlow {
@@ -192,12 +194,12 @@ struct Senses {
     double target_distance = 0;  ///< from the centre, length
 };
 
-/// Reads them off a state. `sensing` must fit the model (check_sensing). Throws InputError if the state has not as many
-/// particles as the model. Real is float or double.
+/// Reads those of a swimmer off a state. `sensing` must fit it (check_sensing). Throws InputError if the state has not
+/// as many particles as the model. Real is float or double.
 template <class Real>
-Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing);
+Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing, int swimmer = 0);
 
-extern template Senses sense(const Model&, const State<float>&, const Sensing&);
-extern template Senses sense(const Model&, const State<double>&, const Sensing&);
+extern template Senses sense(const Model&, const State<float>&, const Sensing&, int);
+extern template Senses sense(const Model&, const State<double>&, const Sensing&, int);
 
 }  // namespace natator

@@ -105,6 +105,7 @@ struct CompanionBody {
     Body body;               ///< its particles
     Gait gait;               ///< by which it swims
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
+    int first_spring = 0;    ///< first of its springs, likewise
 };
 
 /// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none
@@ -129,6 +130,23 @@ struct Model {
     int actuators = 0;                      ///< number of the body's actuators; a gait has as many
     Body body;                              ///< the swimmer that is evaluated; without particles if there is none
     std::vector<CompanionBody> companions;  ///< the others
+
+    int swimmers() const { return 1 + static_cast<int>(companions.size()); }  ///< 0: the body; then the companions
+    const Body& body_of(int swimmer) const { return swimmer == 0 ? body : companions[swimmer - 1].body; }  ///< its body
+    int first_actuator_of(int swimmer) const {  ///< of all actuators; of one more than there are: their number
+        if (swimmer == 0) return 0;
+        if (swimmer < swimmers()) return companions[swimmer - 1].first_actuator;
+        return companions.empty()
+                   ? actuators
+                   : companions.back().first_actuator + static_cast<int>(companions.back().gait.amplitude.size());
+    }
+    int actuators_of(int swimmer) const {  ///< their number
+        return first_actuator_of(swimmer + 1) - first_actuator_of(swimmer);
+    }
+    int first_spring_of(int swimmer) const {  ///< of all springs; of one more than there are: their number
+        if (swimmer == 0) return 0;
+        return swimmer < swimmers() ? companions[swimmer - 1].first_spring : static_cast<int>(springs.size());
+    }
 
     int particles() const { return static_cast<int>(position.size()); }             ///< their number
     bool is_fluid(int i) const { return (phase[i] & natator::phase::fluid) != 0; }  ///< whether particle i is of water
@@ -174,9 +192,9 @@ State<Real> initial_state(const Model& model);
 void check_gait(const Gait& gait, int actuators);
 
 /// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, times the start
-/// ramp, except in scheme `flex`. The gait must fit the model (check_gait). Throws InputError if it has not one value
-/// for each actuator.
-std::vector<double> drive(const Model& model, const Gait& gait, double time);
+/// ramp, except in scheme `flex`. The gait must fit the swimmer (check_gait), 0 being the body. Throws InputError if it
+/// has not one value for each of its actuators.
+std::vector<double> drive(const Model& model, const Gait& gait, double time, int swimmer = 0);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
 /// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if
@@ -185,12 +203,13 @@ template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 
 /// Sets the rest length of every muscle for `time` (s) from `driven`, one value o + a u in [-2, 2] for each actuator of
-/// the body, wherever it comes from. The muscles of companions follow their own gaits. Throws InputError if there is
-/// not one value for each actuator, or the state has not the model's number of springs.
+/// the body, wherever it comes from, or for each of all swimmers; without theirs companions follow their own gaits.
+/// Throws InputError if there are neither so many, or the state has not the model's number of springs.
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state);
 
-/// What drives each actuator's muscles at a time (s), as `drive` gives it for a gait.
+/// What drives each actuator's muscles at a time (s), as `drive` gives it for a gait: those of the body, or of all
+/// swimmers.
 using Drive = std::function<std::vector<double>(double time)>;
 
 extern template void actuate(const Model&, const Gait&, double, State<float>&);

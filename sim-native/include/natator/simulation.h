@@ -57,16 +57,19 @@ public:
 
     /// Starts another scene. Throws InputError.
     void load(const SimulationSetup& setup);
-    /// Drives the muscles by another gait from the next frame on; before the first frame as if the start had had it.
-    /// Throws InputError when it does not fit, the steering in force included.
-    void set_gait(const Gait& gait);
+    // A swimmer is 0, the scene's creature, or 1 and so on, its companions. InputError, too, for one that is not there.
+
+    /// Drives a swimmer's muscles by another gait from the next frame on; before the first frame as if the start had
+    /// had it. A companion's is in force until the scene has another for it. Throws InputError when it does not fit,
+    /// the steering in force included.
+    void set_gait(const Gait& gait, int swimmer = 0);
     /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
     /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a
     /// straight line, so that the water is not struck. Throws InputError when it does not fit.
-    void steer(const Steering& steering);
+    void steer(const Steering& steering, int swimmer = 0);
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
     /// steering_of_drive. They have no start ramp. Throws InputError as `steer`.
-    void drive(const std::vector<double>& values);
+    void drive(const std::vector<double>& values, int swimmer = 0);
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
     /// instability, starts anew. True if it did. Throws InputError, also where the scene was made by the program.
@@ -88,7 +91,8 @@ public:
 
     /// What runs now; its gait is always there.
     const SimulationSetup& setup() const { return setup_; }
-    const Gait& gait() const { return *setup_.gait; }    ///< that drives the muscles
+    const Gait& gait() const { return *setup_.gait; }    ///< that drives the muscles of the creature
+    const Gait& gait(int swimmer) const;                 ///< that drives a swimmer's
     const Scene& scene() const;                          ///< with all overrides
     const Model& model() const;                          ///< of that scene
     const State<Real>& state() const { return state_; }  ///< of this moment
@@ -96,13 +100,13 @@ public:
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
     /// What the next frame is steered to.
-    const Steering& steering() const { return steering_; }
+    const Steering& steering(int swimmer = 0) const { return check_swimmer(swimmer), steering_[swimmer]; }
     /// What drives each actuator now: the gait's drive, steered.
-    std::vector<double> driven() const;
-    /// Work that the muscles did since the start (Solver::muscle_work), mass length^2/s^2.
-    double muscle_work() const;
+    std::vector<double> driven(int swimmer = 0) const;
+    /// Work that a swimmer's muscles did since the start (Solver::muscle_works), mass length^2/s^2.
+    double muscle_work(int swimmer = 0) const;
     /// Change of the body's mean x over ground since the start, length.
-    double distance() const;
+    double distance(int swimmer = 0) const;
     /// Density of each particle in units of rest density, 0 for solids: of the present state at the start and in scheme
     /// flex; after a step in conserving at the positions of the start of its last substep.
     std::vector<Real> densities();
@@ -119,6 +123,7 @@ private:
     Moment read(std::string_view saved) const;
     std::unique_ptr<Run> make_run(const SimulationSetup& setup) const;
     void follow(MovingFrame& follower);
+    void check_swimmer(int swimmer) const;
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
     bool end_step(std::optional<Instability> found);
@@ -135,10 +140,12 @@ private:
     int frames_ = 0;
     int base_frame_ = 0;    ///< since when the time step is what it is
     double base_time_ = 0;  ///< s, of base_frame_
-    double start_x_ = 0;
-    double earlier_work_ = 0;  ///< work of the muscles from the start to run_'s solver, mass length^2/s^2
-    Steering steering_;        ///< what the next frame is steered to
-    Steering applied_;         ///< what the last frame ended with
+    // By swimmer:
+    std::vector<double> start_x_;
+    std::vector<double> earlier_work_;  ///< of the muscles from the start to run_'s solver, mass length^2/s^2
+    std::vector<Steering> steering_;    ///< what the next frame is steered to
+    std::vector<Steering> applied_;     ///< what the last frame ended with
+    std::vector<Gait> company_;         ///< gaits of the companions
     std::optional<Instability> instability_;
 };
 

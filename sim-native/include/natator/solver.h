@@ -199,7 +199,8 @@ public:
     /// must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// One frame of the model with muscles that `drive` drives: it is asked for the frame's start in scheme `flex`,
-    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator.
+    /// else for the end of each substep. Throws InputError unless its values are in [-2, 2], one for each actuator, or
+    /// for each of all swimmers, whose companions follow their own gaits else.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
     /// A frame of one of several Solvers.
     struct Frame {
@@ -215,6 +216,8 @@ public:
     /// spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what
     /// the time step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
+    /// The same by swimmer: the body's, then the companions'.
+    const std::vector<double>& muscle_works() const;
     /// Sets muscle_work() to 0.
     void clear_muscle_work();
 

@@ -1,6 +1,6 @@
 """The Natator simulator: swims, evaluations, trajectories as arrays, swimmers that a program drives.
 
-`natator.gym` has the Gymnasium environments; importing it registers them. `natator.export` writes swims for other programs,
+`natator.gym` has the Gymnasium environments; importing it registers them. `natator.zoo` has PettingZoo's. `natator.export` writes swims for other programs,
 `natator.picture` draws them; both are commands too: `python -m natator --help`.
 """
 

@@ -170,8 +170,10 @@ class BatchStream(Stream):
         if self.batch._torn or self.index in self.batch._asked:
             raise ProgramError("a step was begun, or a call interrupted, before its answer was read")
 
-    def begin_step(self, frames=None, drive=None, scale=None, offset=None):
-        """Keeps a step for the moment when it, or one of another swim, is ended."""
+    def begin_step(self, frames=None, drive=None, scale=None, offset=None, swimmer=None):
+        """Keeps a step for the moment when it, or one of another swim, is ended. Without `swimmer`: values are of the first or of all."""
+        if swimmer is not None:
+            raise InputError("swimmer: must be left out in a batch, whose steps are for the first swimmer or for all")
         if self.index in self.batch._asked:
             raise ProgramError("a step was begun before: end it first")
         kind, values = GO_ON, NO_VALUES
@@ -180,7 +182,8 @@ class BatchStream(Stream):
         if drive is not None:
             kind, values = DRIVE, np.atleast_2d(rows("drive", drive))
         elif scale is not None or offset is not None:
-            given = [np.atleast_2d(np.full(self.actuators, rest) if one is None else rows(name, one))
+            width = np.shape(offset if scale is None else scale)[-1:]
+            given = [np.atleast_2d(np.full(width, rest) if one is None else rows(name, one))
                      for name, one, rest in (("scale", scale, 1.0), ("offset", offset, 0.0))]
             length = max(len(one) for one in given)
             if any(len(one) not in (1, length) for one in given):
@@ -203,7 +206,7 @@ class BatchStream(Stream):
             raise self._program.no_simulator()
         self.require_stable()
         try:
-            return Senses.from_numbers(values, self.actuators)
+            return Senses.from_numbers(values, self.all_actuators)
         except ValueError:
             raise self._program.no_simulator() from None
 

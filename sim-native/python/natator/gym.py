@@ -74,6 +74,11 @@ class SwimmerEnv(gymnasium.Env):
         self.metadata = {**self.metadata, "render_fps": 1 / (self.frames * stream.scene["timeStep"])}
         self._views = Views(stream.scene, stream.frame.position) if self.render_mode else None
 
+    @property
+    def all_actuators(self):
+        """How many each swimmer of the scene has: this one, then its companions."""
+        return self._stream.all_actuators
+
     def reset(self, *, seed=None, options=None):
         """As of gymnasium.Env. options: "start", the number of a start; "overrides", a dict merged into the scene from now on (null
         removes a key); "state", of `save`, to begin in its midst. Raises InputError."""
@@ -213,6 +218,10 @@ class SwimmerEnv(gymnasium.Env):
         rest = np.zeros(self.actuators)
         return np.concatenate([rest + 1, rest]) if self.by_gait else rest
 
+    def _slack(self):
+        """The action that leaves the muscles at rest."""
+        return np.concatenate([np.full(self.actuators, -1.0), np.zeros(self.actuators)]) if self.by_gait else np.zeros(self.actuators)
+
     def _observation(self):
         return self.observed(self._senses, self.length)
 
@@ -321,7 +330,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         values = first.rows_to(self._action, actions)
         self._action[going] = actions[going]
         before, unstable = self._now, self._simulate(values, going)
-        old, now = (Senses.from_numbers(senses, first.actuators) for senses in (before, self._now))
+        old, now = (Senses.from_numbers(senses, first.all_actuators) for senses in (before, self._now))
         work, self._work = np.nan_to_num(now.work) - self._work, np.nan_to_num(now.work)
         rewards, there = first.outcome(old, now, work, self._length)
         terminated, truncated = unstable | there | now.touches_plane, now.time - self._began >= first.duration - 1e-9
@@ -373,7 +382,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
     def render(self):
         """One picture for each environment; None without a render_mode."""
         for env, now in zip(self.envs, self._now if self._now is not None else ()):
-            env._senses = Senses.from_numbers(now, env.actuators)
+            env._senses = Senses.from_numbers(now, env.all_actuators)
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close_extras(self, **_):

@@ -6,7 +6,7 @@ import json
 import os
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -49,10 +49,15 @@ class Senses:
     flow_particles: np.ndarray  #: K: how many particles of water each is a mean over
     target: np.ndarray        #: direction of the target along own axes, of length 1; nan without one
     target_distance: float    #: length; nan without one
+    companions: tuple = ()    #: the Senses of each companion
 
     @classmethod
     def from_json(cls, senses, actuators):
-        """Raises ValueError, TypeError, KeyError or AttributeError for what is none."""
+        """actuators: how many each swimmer has. Raises ValueError, TypeError, KeyError or AttributeError for what is none."""
+        actuators, *others = actuators
+        companions = senses.get("companions", [])
+        if len(companions) != len(others):
+            raise ValueError
         flow, target = senses.get("flow", []), senses.get("target", {"direction": None, "distance": None})
         if not (is_whole(senses["frame"]) and isinstance(senses["touchesPlane"], bool)):
             raise ValueError
@@ -63,11 +68,20 @@ class Senses:
             *(_vector(senses[key], actuators) for key in ("drive", "bend")),
             np.array([_vector(place["velocity"], 3) for place in flow]).reshape(-1, 3),
             np.array([place["particles"] if is_whole(place["particles"]) else None for place in flow], int),
-            _vector(target["direction"] or [None] * 3, 3), _number(target["distance"]))
+            _vector(target["direction"] or [None] * 3, 3), _number(target["distance"]),
+            tuple(cls.from_json(one, [count]) for one, count in zip(companions, others)))
 
     @classmethod
     def from_numbers(cls, values, actuators):
-        """From those of an OBSV, or rows of them. Raises ValueError where they are too few."""
+        """From those of an OBSV, or rows of them. actuators: how many each swimmer has. Raises ValueError where they are too few."""
+        if len(actuators) > 1:
+            sizes = values.reshape(-1, values.shape[-1])[0, -len(actuators):].astype(int)
+            if sizes.min() < 0 or sizes.sum() + len(sizes) != values.shape[-1]:
+                raise ValueError
+            parts = np.split(values[..., :-len(sizes)], np.cumsum(sizes)[:-1], axis=-1)
+            first, *companions = (cls.from_numbers(part, [count]) for part, count in zip(parts, actuators))
+            return replace(first, companions=tuple(companions))
+        actuators, = actuators
         places, rest = divmod(values.shape[-1] - 27 - 2 * actuators, 4)
         if places < 0 or rest:
             raise ValueError
@@ -82,6 +96,9 @@ class Senses:
 
     def numbers(self):
         """Those of an OBSV, in its order."""
+        if self.companions:
+            parts = [one.numbers() for one in (replace(self, companions=()), *self.companions)]
+            return np.concatenate([*parts, [len(part) for part in parts]])
         return np.concatenate([[self.frame, self.time, self.distance, self.touches_plane, self.work], self.centre, self.forward, self.up,
                                self.right, self.velocity, self.turn_rate, self.target, [self.target_distance], self.drive, self.bend,
                                self.flow.ravel(), self.flow_particles])
@@ -122,6 +139,8 @@ class Stream:
     no frames. backend: "cpu", "cuda" or "auto". arguments: a list of more arguments of `natator-sim stream`. A context manager; what nobody closes or refers to
     is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
+    A scene's companions are swimmers, too: `swimmer`, here and there, is 0 for the first, which it is by default, then 1 and so on.
+
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
     Frame, None without fields; `last_water`, the Water that was asked for last.
     """
@@ -149,8 +168,18 @@ class Stream:
         """Their number."""
         return self.scene["actuators"]
 
+    @property
+    def swimmers(self):
+        """What the SCEN message has of each: body, slices, bodyLength, joints, actuators, muscles, gait. The first is the message."""
+        return [self.scene, *(self.scene.get("companions") or [])]
+
+    @property
+    def all_actuators(self):
+        """How many each swimmer has."""
+        return [swimmer["actuators"] for swimmer in self.swimmers]
+
     def sense(self, flow=None, within=None, target=None, **more):
-        """Says what is to be sensed from now on, and gives the senses now. flow: places of the skin as (slice, side), side
+        """Says what is to be sensed from now on, and gives the senses now. more: `swimmer`, whose they are. flow: places of the skin as (slice, side), side
         one of "left", "right", "above", "below"; within: of a place water counts, length; target: where the swimmer shall
         go, length. What is left out stays as it was."""
         self.require_idle()
@@ -162,22 +191,23 @@ class Stream:
         places = None if flow is None else [{"slice": whole(f"flow[{i}].slice", place, 0), "side": side}
                                             for i, (place, side) in enumerate(pairs("flow", flow))]
         command = {"do": "sense", "target": None if target is None else numbers("target", target), "within": within,
-                   "flow": places, **more}
+                   "flow": places, **more, **_of_swimmer(more.get("swimmer"))}
         self.send({key: value for key, value in command.items() if value is not None})
 
     def end_sense(self):
         """Waits for it; returns the senses."""
         return self._senses(self.receive())
 
-    def step(self, frames=None, drive=None, scale=None, offset=None):
+    def step(self, frames=None, drive=None, scale=None, offset=None, swimmer=None):
         """Simulates frames; the senses at the end. drive: a value in [-2, 2] for each actuator, or a row of them for each
         frame, in place of the gait; scale, offset: what the gait gives, times scale plus offset, likewise. They stay until changed.
+        Values are those of the first swimmer, or of `swimmer`, or of all, one after the other.
         Raises InputError, and then nothing was simulated; raises Unstable."""
         self.require_idle()
-        self.begin_step(frames, drive, scale, offset)
+        self.begin_step(frames, drive, scale, offset, swimmer)
         return self.end_step()
 
-    def begin_step(self, frames=None, drive=None, scale=None, offset=None):
+    def begin_step(self, frames=None, drive=None, scale=None, offset=None, swimmer=None):
         """Sends a `step` without waiting for its answer. Several may be begun before the first is ended."""
         command = {"do": "step", "sense": True}
         if frames is not None:
@@ -187,6 +217,7 @@ class Stream:
         for name, values in (("scale", scale), ("offset", offset)):
             if values is not None:
                 command[name] = rows(name, values).tolist()
+        command |= _of_swimmer(swimmer)
         if self._framed:
             self.send({"do": "credit"})
         self.send(command)
@@ -227,14 +258,15 @@ class Stream:
         self.ask({"do": "water"})
         return self.last_water
 
-    def steer(self, scale=None, offset=None):
-        """Scales and offsets the gait from the next frame on; without arguments the gait alone drives again."""
-        self.ask({"do": "steer", **{name: numbers(name, values) for name, values in (("scale", scale), ("offset", offset))
+    def steer(self, scale=None, offset=None, swimmer=None):
+        """Scales and offsets the gait from the next frame on, of the swimmers that `step` tells; without arguments the gait alone drives
+        again."""
+        self.ask({"do": "steer", **_of_swimmer(swimmer), **{name: numbers(name, values) for name, values in (("scale", scale), ("offset", offset))
                                     if values is not None}})
 
-    def set_gait(self, gait):
+    def set_gait(self, gait, swimmer=None):
         """From the next frame on."""
-        self.ask({"do": "gait", "gait": gait})
+        self.ask({"do": "gait", "gait": gait, **_of_swimmer(swimmer)})
 
     def reset(self, start=None):
         """Back to the settled start, or to another of the scene's starts; what is sensed stays."""
@@ -321,7 +353,7 @@ class Stream:
     def _senses(self, answer):
         self.require_stable()
         try:
-            return Senses.from_json(answer["senses"], self.actuators)
+            return Senses.from_json(answer["senses"], self.all_actuators)
         except (AttributeError, KeyError, OverflowError, TypeError, ValueError):
             raise self._program.no_simulator() from None
 
@@ -389,6 +421,11 @@ class Stream:
         return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"))
 
 
+def _of_swimmer(swimmer):
+    """The key of a command that is for one of several."""
+    return {} if swimmer is None else {"swimmer": whole("swimmer", swimmer, 0)}
+
+
 def start_program(scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None, backend=None):
     """A program that streams, and whether it gives frames. Arguments are those of Stream."""
     fields = [fields] * bool(fields) if isinstance(fields, str) else programs.listed("fields", fields)
@@ -430,6 +467,10 @@ def _is_scene(scene):
     def index(value):
         return is_whole(value) and value < scene["particles"]
 
+    def companion(value):
+        return (isinstance(value, dict) and is_whole(value["actuators"]) and is_number(value["bodyLength"]) and value["bodyLength"] > 0
+                and listed(value["body"], index) and listed(value["slices"], lambda slice_: listed(slice_, index)))
+
     try:
         tank = scene["definition"].get("movingTank") or {}
         return (isinstance(scene["scene"], str) and isinstance(tank.get("along", ""), str)
@@ -439,6 +480,7 @@ def _is_scene(scene):
                 and listed(scene["fields"], WIDTHS.__contains__) and listed(scene["body"], index)
                 and listed(scene["slices"], lambda slice_: listed(slice_, index)) and listed(scene["muscles"], muscle)
                 and len({one["actuator"] for one in scene["muscles"]}) == scene["actuators"]
+                and listed(scene.get("companions") or [], companion)
                 and listed(scene["planes"], lambda plane: listed(plane, is_number) and len(plane) == 4)
                 and listed(scene["fluid"], is_whole) and len(scene["fluid"]) == 2
                 and sum(scene["fluid"]) <= scene["particles"])

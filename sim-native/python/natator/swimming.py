@@ -19,7 +19,7 @@ ELSEWHERE = {"evolved-eel": "endless/evolved-eel", "fry": "lake/fry"}  # creatur
 GAITS = {"creature-2": "fish-like", "eel": "fish-like"}  # those of others have their names
 PICTURES = 30  # of a second
 WIDTH, MARGIN, LEGEND = 720, 12, 22  # pixels
-WATER, BODY, GHOST, PATH, INK = "#eaf4fb", "#1f6f8b", "#a9c9d8", "#e04a2b", "#26323d"
+WATER, BODY, COMPANION, GHOST, PATH, INK = "#eaf4fb", "#1f6f8b", "#6d9f71", "#a9c9d8", "#e04a2b", "#26323d"
 BAR = 0.2  # body lengths
 GHOSTS = 4  # earlier places of the body that are drawn, too
 
@@ -121,15 +121,20 @@ def _outline(body, slices, axis):
 
 class Views:
     """Pictures of a swimmer for SwimmerEnv: from above and, below that, from the side. They go along with it over a grid of half
-    body lengths that stays. scene: a SCEN message; start: N × 3, the places of its particles at the start. Needs Pillow."""
+    body lengths that stays. scene: a SCEN message; start: N × 3, the places of its particles at the start; all: whether the companions,
+    too, are to be seen at the start. Needs Pillow."""
 
     SIZE = (640, 400)  #: width and height, pixels
-    ALONG = 3          #: body lengths that are seen from left to right
+    ALONG = 3          #: body lengths that are seen from left to right, at least
 
-    def __init__(self, scene, start):
+    def __init__(self, scene, start, all=False):
         self._scene, self._start = scene, np.asarray(start, float)
         self._pillow, self._pen = (package(f"PIL.{name}", "pillow", "a picture") for name in ("Image", "ImageDraw"))
-        self._scale = self.SIZE[0] / (self.ALONG * scene["bodyLength"])
+        along, form = self.ALONG * scene["bodyLength"], 2 * self.SIZE[0] / self.SIZE[1]
+        for companion in (scene.get("companions") or []) if all else []:
+            ways = np.abs(self._start[companion["body"]] - self._start[scene["body"]].mean(0)).max(0)
+            along = max(along, *(2.1 * ways * [1, form, form]))
+        self._scale = self.SIZE[0] / along
 
     def pixels(self, position, senses, goes_to_target):
         """height × width × 3, bytes. position: N × 3; senses: Senses of the same time; goes_to_target: whether that is drawn, a ring."""
@@ -163,6 +168,8 @@ class Views:
                     ends = np.array([middle - reach, middle + reach])
                     ends[:, k] = -offset / normal[along]
                     draw.line(pixel(ends), INK, 2)
+        for companion in self._scene.get("companions") or []:
+            draw.polygon(pixel(_outline(body, companion["slices"], axis)[1]), COMPANION)
         draw.polygon(pixel(_outline(body, self._scene["slices"], axis)[1]), BODY)
         if target is not None:
             (x, y), = pixel((middle + target[[0, axis]])[None])

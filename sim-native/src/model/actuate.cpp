@@ -1,6 +1,5 @@
 #include "natator/model.h"
 
-#include "base/check_values.h"
 #include "check_gait.h"
 #include "check_model.h"
 #include "physics/muscle.h"
@@ -24,8 +23,8 @@ double ramp_at(const Model& model, double time) {
 
 }  // namespace
 
-std::vector<double> drive(const Model& model, const Gait& gait, double time) {
-    check_lengths(gait, model.actuators);
+std::vector<double> drive(const Model& model, const Gait& gait, double time, int swimmer) {
+    check_lengths(gait, model.actuators_of(swimmer));
     std::vector<double> driven;
     add_drive(gait, ramp_at(model, time), time, driven);
     return driven;
@@ -38,10 +37,11 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
-    check_length("drive", driven.size(), model.actuators);
+    check_driven(model, driven);
     if (!model.muscles.empty()) check_springs(model, state);
-    for (const CompanionBody& companion : model.companions)
-        add_drive(companion.gait, ramp_at(model, time), time, driven);
+    if (driven.size() == static_cast<std::size_t>(model.actuators))
+        for (const CompanionBody& companion : model.companions)
+            add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
         const double length = physics::muscle_length(rest, muscle.lateral, driven[muscle.actuator]);

@@ -76,13 +76,25 @@ void check_model(const Model& model) {
     }
     if (model.actuators < 0)
         throw InputError("model: actuators = " + std::to_string(model.actuators) + ": must be at least 0");
+    if (model.companions.size() > limits::companions)
+        throw InputError("model: companions has length " + std::to_string(model.companions.size()) +
+                         ": must have length " + std::to_string(limits::companions) + " at most");
     std::size_t actuators = static_cast<std::size_t>(model.actuators);
     for (std::size_t k = 0; k < model.companions.size(); ++k) {
         const Gait& gait = model.companions[k].gait;
         require_length(item("companions", k) + ".gait.phase", gait.phase.size(), gait.amplitude.size());
         if (!gait.offset.empty())
             require_length(item("companions", k) + ".gait.offset", gait.offset.size(), gait.amplitude.size());
+        if (static_cast<std::size_t>(model.companions[k].first_actuator) != actuators)
+            throw InputError("model: " + item("companions", k) +
+                             ".first_actuator = " + std::to_string(model.companions[k].first_actuator) + ": must be " +
+                             std::to_string(actuators) + ", the number of actuators before");
         actuators += gait.amplitude.size();
+        const int low = model.first_spring_of(static_cast<int>(k)), first = model.companions[k].first_spring;
+        if (first < low || static_cast<std::size_t>(first) > model.springs.size())
+            throw InputError("model: " + item("companions", k) + ".first_spring = " + std::to_string(first) +
+                             ": must be in [" + std::to_string(low) + ", " + std::to_string(model.springs.size()) +
+                             ']');
     }
     for (std::size_t m = 0; m < model.muscles.size(); ++m) {
         require_one_of(model.muscles[m].spring, model.springs.size(), [m] { return item("muscles", m) + ".spring"; });
@@ -93,6 +105,11 @@ void check_model(const Model& model) {
     check_body(model.body, particles, "body");
     for (std::size_t k = 0; k < model.companions.size(); ++k)
         check_body(model.companions[k].body, particles, item("companions", k) + ".body");
+}
+
+void check_driven(const Model& model, const std::vector<double>& driven) {
+    if (driven.size() == static_cast<std::size_t>(model.first_actuator_of(model.swimmers()))) return;
+    check_length("drive", driven.size(), model.actuators);
 }
 
 void check_step(double time_step, int substeps) {

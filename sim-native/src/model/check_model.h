@@ -11,6 +11,9 @@ namespace natator {
 /// and the ratio of radius and fluid_rest_distance are within their limits.
 void check_model(const Model& model);
 
+/// Throws InputError unless there is a value for each of the body's actuators, or of all swimmers'.
+void check_driven(const Model& model, const std::vector<double>& driven);
+
 /// Throws InputError unless time goes on, and in at least one substep.
 void check_step(double time_step, int substeps);
 

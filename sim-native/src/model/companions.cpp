@@ -39,11 +39,7 @@ std::vector<NamedBody> bodies_of(const Model& model) {
 
 void add_companion(const Model& own, const Gait& gait, Model& model) {
     const int first = model.particles(), springs = static_cast<int>(model.springs.size());
-    CompanionBody companion{own.body, gait, model.actuators};
-    if (!model.companions.empty()) {
-        const CompanionBody& before = model.companions.back();
-        companion.first_actuator = before.first_actuator + static_cast<int>(before.gait.amplitude.size());
-    }
+    CompanionBody companion{own.body, gait, model.first_actuator_of(model.swimmers()), springs};
     const auto group = static_cast<std::uint32_t>(model.companions.size()) + 2;  // the body's is 1
     for (int i = 0; i < own.particles(); ++i) {
         model.position.push_back(own.position[i]);

@@ -23,6 +23,7 @@ struct Run {};
 struct Pause {};
 /// Actuator values, or changes of what the gait gives; a list that is left out leaves that part of it as it is.
 struct Steer {
+    std::optional<int> swimmer;                ///< none: the first, or all, one after the other, by how many values
     std::optional<std::vector<double>> drive;  ///< then the others are not there
     std::optional<std::vector<double>> scale, offset;
 };
@@ -32,6 +33,7 @@ struct Step {
     bool sense = false;        ///< the answer has the senses at the end
 };
 struct Sense {
+    int swimmer = 0;
     std::optional<std::vector<SkinPlace>> flow;
     std::optional<double> within;
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
@@ -50,6 +52,7 @@ struct Reset {
 };
 struct NewGait {
     Gait gait;
+    int swimmer = 0;
 };
 struct Overrides {
     nlohmann::json patch;
@@ -84,7 +87,7 @@ struct Outcome {
     enum Status : std::uint32_t { still, stepped, unstable, refused };
     Status status = still;
     std::string refusal;
-    std::vector<double> senses;  ///< of the present moment; empty without a creature
+    std::vector<double> senses;  ///< of the present moment; empty without a swimmer
 };
 
 /// The largest batch.
@@ -146,13 +149,13 @@ std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene
 /// A saved moment as a STAT, as bytes.
 std::string stream_state(std::string_view saved);
 
-/// What a swimmer senses, in SENS and in answers.
+/// What the swimmers sense, in SENS and in answers. `sensing`: by swimmer.
 template <class Real>
-nlohmann::ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& sensing);
+nlohmann::ordered_json stream_senses(const Simulation<Real>& simulation, const std::vector<Sensing>& sensing);
 
-/// The senses as an OBSV has them; none where there is no creature.
+/// The senses as an OBSV has them; none where there is no swimmer.
 template <class Real>
-std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const Sensing& sensing);
+std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const std::vector<Sensing>& sensing);
 
 /// Reads an ACTS, header and all. Throws InputError where it is not one of so many swims; what is wrong with one of
 /// them is in its Action.
@@ -168,10 +171,10 @@ nlohmann::ordered_json stream_stop(const Instability& instability);
 
 extern template nlohmann::ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
 extern template nlohmann::ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
-extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, const Sensing&);
-extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const Sensing&);
-extern template std::vector<double> stream_sense_numbers(const Simulation<float>&, const Sensing&);
-extern template std::vector<double> stream_sense_numbers(const Simulation<double>&, const Sensing&);
+extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, const std::vector<Sensing>&);
+extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const std::vector<Sensing>&);
+extern template std::vector<double> stream_sense_numbers(const Simulation<float>&, const std::vector<Sensing>&);
+extern template std::vector<double> stream_sense_numbers(const Simulation<double>&, const std::vector<Sensing>&);
 extern template std::string stream_water(const Simulation<float>&, std::uint32_t);
 extern template std::string stream_water(const Simulation<double>&, std::uint32_t);
 extern template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);

@@ -94,15 +94,18 @@ stream::Actions parse_stream_actions(std::string_view message, std::size_t swims
     return actions;
 }
 
+namespace {
+
 template <class Real>
-std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const Sensing& sensing) {
+std::vector<double> numbers_of(const Simulation<Real>& simulation, const Sensing& sensing, int swimmer) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Model& model = simulation.model();
-    if (model.body.particles.empty()) return {};
-    const Senses senses = sense(model, simulation.state(), sensing);
-    std::vector<double> numbers{static_cast<double>(simulation.frames()), simulation.time(), simulation.distance(),
-                                static_cast<double>(touches_plane(model, simulation.state())),
-                                has_muscle_work(model) ? simulation.muscle_work() : none};
+    if (model.body_of(swimmer).particles.empty()) return {};
+    const Senses senses = sense(model, simulation.state(), sensing, swimmer);
+    std::vector<double> numbers{static_cast<double>(simulation.frames()), simulation.time(),
+                                simulation.distance(swimmer),
+                                static_cast<double>(touches_plane(model, simulation.state(), swimmer)),
+                                has_muscle_work(model) ? simulation.muscle_work(swimmer) : none};
     const auto add = [&numbers](const auto& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
     add(senses.centre);
     for (const int axis : {0, 1, 2}) add(Eigen::Vector3d(senses.axes.col(axis)));
@@ -110,11 +113,26 @@ std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, con
     add(senses.turn_rate);
     add(senses.target.value_or(Eigen::Vector3d::Constant(none)));
     numbers.push_back(senses.target ? senses.target_distance : none);
-    add(simulation.driven());
+    add(simulation.driven(swimmer));
     add(senses.bend);
     for (const SkinFlow& felt : senses.flow) add(felt.velocity);
     for (const SkinFlow& felt : senses.flow) numbers.push_back(felt.particles);
     return numbers;
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, const std::vector<Sensing>& sensing) {
+    if (sensing.size() == 1) return numbers_of(simulation, sensing.front(), 0);
+    std::vector<double> all, sizes;
+    for (std::size_t k = 0; k < sensing.size(); ++k) {
+        const std::vector<double> own = numbers_of(simulation, sensing[k], static_cast<int>(k));
+        all.insert(all.end(), own.begin(), own.end());
+        sizes.push_back(static_cast<double>(own.size()));
+    }
+    all.insert(all.end(), sizes.begin(), sizes.end());
+    return all;
 }
 
 std::string stream_outcomes(std::uint32_t id, const std::vector<stream::Outcome>& outcomes) {
@@ -139,7 +157,7 @@ std::string stream_swim(std::uint32_t swim) {
     return message.finish();
 }
 
-template std::vector<double> stream_sense_numbers(const Simulation<float>&, const Sensing&);
-template std::vector<double> stream_sense_numbers(const Simulation<double>&, const Sensing&);
+template std::vector<double> stream_sense_numbers(const Simulation<float>&, const std::vector<Sensing>&);
+template std::vector<double> stream_sense_numbers(const Simulation<double>&, const std::vector<Sensing>&);
 
 }  // namespace natator

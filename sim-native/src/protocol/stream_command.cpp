@@ -34,9 +34,16 @@ stream::Rate read_rate(const json& value) {
     return rate;
 }
 
-/// The keys `drive`, `scale` and `offset`.
+std::optional<int> read_swimmer(const json& value) {
+    std::optional<int> swimmer;
+    if (value.contains("swimmer")) fields::read(value.at("swimmer"), place.key("swimmer"), {0, 1e9}, swimmer.emplace());
+    return swimmer;
+}
+
+/// The keys `drive`, `scale`, `offset` and `swimmer`.
 stream::Steer read_steer(const json& value) {
     stream::Steer steer;
+    steer.swimmer = read_swimmer(value);
     for (const auto& [key, list] :
          {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
         if (value.contains(key)) *list = read_actuator_values(value.at(key), place.key(key));
@@ -63,13 +70,17 @@ stream::Step read_step(const json& value) {
     std::vector<const char*> given;
     for (const char* key : {"drive", "scale", "offset"})
         if (value.contains(key)) given.push_back(key);
+    const std::optional<int> swimmer = read_swimmer(value);
+    if (swimmer && given.empty()) fields::refuse(place.key("swimmer"), "must come with drive, scale or offset, for it");
     const bool each = std::any_of(given.begin(), given.end(), [&](const char* key) { return has_rows(value, key); });
     if (!each && !given.empty()) step.steer.push_back(read_steer(value));
     if (!each) return step;
     if (given.size() > 1 && value.contains("drive"))
         fields::refuse(place.key("drive"), "must not be given together with scale or offset");
     if (!value.contains("frames")) step.frames = static_cast<int>(value.at(given[0]).size());
-    step.steer.resize(std::min(step.frames, stream::max_step));
+    stream::Steer for_swimmer;
+    for_swimmer.swimmer = swimmer;
+    step.steer.resize(std::min(step.frames, stream::max_step), for_swimmer);
     for (const char* key : given) {
         if (!has_rows(value, key))
             fields::refuse(place.key(key), value.at(key), "a list for each frame, as the other is");
@@ -101,6 +112,7 @@ SkinPlace read_skin_place(const json& value, const Place& at) {
 
 stream::Sense read_sense(const json& value) {
     stream::Sense sense;
+    sense.swimmer = read_swimmer(value).value_or(0);
     if (value.contains("flow")) {
         const json& places = value.at("flow");
         if (!places.is_array()) fields::refuse(place.key("flow"), places, "an array of places of the skin");
@@ -157,17 +169,18 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "credit") return only({"frames"}), stream::Credit{read_frames(value, stream::max_credit)};
     if (name == "run") return only({}), stream::Run{};
     if (name == "pause") return only({}), stream::Pause{};
-    if (name == "step") return only({"frames", "drive", "scale", "offset", "sense"}), read_step(value);
-    if (name == "drive") return only({"drive"}), fields::required(value, place, "drive"), read_steer(value);
-    if (name == "steer") return only({"scale", "offset"}), read_steer(value);
-    if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
+    if (name == "step") return only({"frames", "drive", "scale", "offset", "swimmer", "sense"}), read_step(value);
+    if (name == "drive") return only({"drive", "swimmer"}), fields::required(value, place, "drive"), read_steer(value);
+    if (name == "steer") return only({"scale", "offset", "swimmer"}), read_steer(value);
+    if (name == "sense") return only({"flow", "within", "target", "each", "swimmer"}), read_sense(value);
     if (name == "water") return only({}), stream::Water{};
     if (name == "save") return only({}), stream::Save{};
     if (name == "restore") return only({"sense"}), stream::Restore{read_sense_flag(value)};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
-        return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
+        return only({"gait", "swimmer"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait"),
+                                                          read_swimmer(value).value_or(0)};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
     fields::refuse(

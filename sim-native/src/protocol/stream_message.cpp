@@ -81,31 +81,40 @@ ordered_json clusters_json(const Model& model) {
     return clusters;
 }
 
-/// Those of the body; companions drive their own, and no frame tells how.
-ordered_json muscles_json(const Scene& scene, const Model& model) {
+/// Those of a swimmer.
+ordered_json muscles_json(const Creature& creature, const Model& model, int swimmer) {
     ordered_json muscles = ordered_json::array();
-    const std::vector<Actuator> actuators = scene.creature ? scene.creature->actuator_list() : std::vector<Actuator>{};
+    const std::vector<Actuator> actuators = creature.actuator_list();
     for (const Muscle& muscle : model.muscles) {
-        if (muscle.actuator >= model.actuators) continue;
+        const int actuator = muscle.actuator - model.first_actuator_of(swimmer);
+        if (actuator < 0 || actuator >= model.actuators_of(swimmer)) continue;
         const Spring& spring = model.springs[muscle.spring];
         muscles.push_back({{"a", spring.a},
                            {"b", spring.b},
-                           {"actuator", muscle.actuator},
+                           {"actuator", actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
-        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical)
-            muscles.back()["bend"] = "vertical";
+        if (actuators[static_cast<std::size_t>(actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
     }
     return muscles;
 }
 
-/// Bodies that are in the tank besides the swimmer: their creature's name, particles, and slices from the head on.
-ordered_json companions_json(const Scene& scene, const Model& model) {
+/// Swimmers that are in the tank besides the first.
+template <class Real>
+ordered_json companions_json(const Simulation<Real>& simulation) {
+    const Model& model = simulation.model();
     ordered_json companions = ordered_json::array();
-    for (std::size_t k = 0; k < model.companions.size(); ++k) {
-        const Body& body = model.companions[k].body;
-        companions.push_back(
-            {{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
+    for (int k = 1; k < model.swimmers(); ++k) {
+        const Body& body = model.body_of(k);
+        const Creature& creature = simulation.scene().companions[static_cast<std::size_t>(k - 1)].creature;
+        companions.push_back({{"name", creature.name},
+                              {"body", body.particles},
+                              {"slices", body.slices},
+                              {"bodyLength", body.length},
+                              {"joints", creature.joints},
+                              {"actuators", model.actuators_of(k)},
+                              {"muscles", muscles_json(creature, model, k)},
+                              {"gait", gait_json(simulation.gait(k))}});
     }
     return companions;
 }
@@ -188,11 +197,11 @@ ordered_json stream_scene(const Simulation<Real>& simulation, const stream::Scen
     body["body"] = model.body.particles;
     body["slices"] = model.body.slices;
     body["bodyLength"] = model.body.length;
-    body["companions"] = companions_json(scene, model);
+    body["companions"] = companions_json(simulation);
     body["clusters"] = clusters_json(model);
     body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
     body["actuators"] = model.actuators;
-    body["muscles"] = muscles_json(scene, model);
+    body["muscles"] = scene.creature ? muscles_json(*scene.creature, model, 0) : ordered_json::array();
     body["skin"] = skin_json(scene, model);
     return body;
 }

@@ -18,25 +18,23 @@ ordered_json flow_json(const std::vector<SkinFlow>& flow) {
     return list;
 }
 
-}  // namespace
-
 template <class Real>
-ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& sensing) {
+ordered_json senses_of(const Simulation<Real>& simulation, const Sensing& sensing, int swimmer) {
     const Model& model = simulation.model();
-    const Senses senses = sense(model, simulation.state(), sensing);
+    const Senses senses = sense(model, simulation.state(), sensing, swimmer);
     ordered_json body;
     body["frame"] = simulation.frames();
     body["time"] = simulation.state().time;
-    body["distance"] = simulation.distance();
-    body["touchesPlane"] = touches_plane(model, simulation.state());
-    if (has_muscle_work(model)) body["work"] = simulation.muscle_work();
+    body["distance"] = simulation.distance(swimmer);
+    body["touchesPlane"] = touches_plane(model, simulation.state(), swimmer);
+    if (has_muscle_work(model)) body["work"] = simulation.muscle_work(swimmer);
     body["centre"] = vector_json(senses.centre);
     body["forward"] = vector_json(senses.axes.col(0));
     body["up"] = vector_json(senses.axes.col(1));
     body["right"] = vector_json(senses.axes.col(2));
     body["velocity"] = vector_json(senses.velocity);
     body["turnRate"] = vector_json(senses.turn_rate);
-    body["drive"] = simulation.driven();
+    body["drive"] = simulation.driven(swimmer);
     body["bend"] = senses.bend;
     if (!sensing.flow.empty()) body["flow"] = flow_json(senses.flow);
     if (senses.target)
@@ -44,7 +42,17 @@ ordered_json stream_senses(const Simulation<Real>& simulation, const Sensing& se
     return body;
 }
 
-template ordered_json stream_senses(const Simulation<float>&, const Sensing&);
-template ordered_json stream_senses(const Simulation<double>&, const Sensing&);
+}  // namespace
+
+template <class Real>
+ordered_json stream_senses(const Simulation<Real>& simulation, const std::vector<Sensing>& sensing) {
+    ordered_json body = senses_of(simulation, sensing.front(), 0);
+    for (std::size_t k = 1; k < sensing.size(); ++k)
+        body["companions"].push_back(senses_of(simulation, sensing[k], static_cast<int>(k)));
+    return body;
+}
+
+template ordered_json stream_senses(const Simulation<float>&, const std::vector<Sensing>&);
+template ordered_json stream_senses(const Simulation<double>&, const std::vector<Sensing>&);
 
 }  // namespace natator

@@ -31,6 +31,21 @@ std::vector<Real> densities_at_rest(Model model, State<Real> state) {
     return solver.densities();
 }
 
+std::vector<Gait> gaits_of_companions(const Model& model) {
+    std::vector<Gait> gaits;
+    gaits.reserve(model.companions.size());
+    for (const CompanionBody& companion : model.companions) gaits.push_back(companion.gait);
+    return gaits;
+}
+
+/// Companions whose gaits are the same in both models keep those that they have got since.
+void keep_changed_gaits(const Model& before, const Model& next, std::vector<Gait>& company) {
+    std::vector<Gait> gaits = gaits_of_companions(next);
+    for (std::size_t k = 0; k < std::min(gaits.size(), company.size()); ++k)
+        if (gaits[k] == before.companions[k].gait) gaits[k] = company[k];
+    company = std::move(gaits);
+}
+
 }  // namespace
 
 template <class Real>
@@ -56,29 +71,51 @@ void Simulation<Real>::load(const SimulationSetup& setup) {
     if (!next.gait) next.gait = resting_gait(run->model.actuators);
     check_gait(*next.gait, run->model.actuators);
     start(std::move(run));
+    company_ = gaits_of_companions(model());
     setup_ = std::move(next);
 }
 
 template <class Real>
-void Simulation<Real>::set_gait(const Gait& gait) {
-    check_gait(gait, model().actuators);
-    check_steering(steering_, gait, model().actuators);
-    check_steering(applied_, gait, model().actuators);
-    setup_.gait = gait;
-    if (frames_ > 0) run_->laws.drive_freely();  // muscles jump from the one to the other
+void Simulation<Real>::check_swimmer(int swimmer) const {
+    const int last = model().swimmers() - 1;
+    if (swimmer < 0 || swimmer > last)
+        throw InputError("swimmer = " + std::to_string(swimmer) + ": must be " +
+                         (last == 0 ? "0, as the scene has no companions"
+                                    : "in [0, " + std::to_string(last) + "], the creature and its companions"));
 }
 
 template <class Real>
-void Simulation<Real>::steer(const Steering& steering) {
-    check_steering(steering, gait(), model().actuators);
-    steering_ = steering;
+const Gait& Simulation<Real>::gait(int swimmer) const {
+    check_swimmer(swimmer);
+    return swimmer == 0 ? gait() : company_[static_cast<std::size_t>(swimmer - 1)];
+}
+
+template <class Real>
+void Simulation<Real>::set_gait(const Gait& gait, int swimmer) {
+    check_swimmer(swimmer);
+    const int actuators = model().actuators_of(swimmer);
+    check_gait(gait, actuators);
+    check_steering(steering_[swimmer], gait, actuators);
+    check_steering(applied_[swimmer], gait, actuators);
+    if (swimmer == 0)
+        setup_.gait = gait;
+    else
+        company_[swimmer - 1] = gait;
+    if (frames_ > 0 || swimmer > 0) run_->laws.drive_freely();  // muscles jump from the one to the other
+}
+
+template <class Real>
+void Simulation<Real>::steer(const Steering& steering, int swimmer) {
+    check_steering(steering, gait(swimmer), model().actuators_of(swimmer));
+    steering_[swimmer] = steering;
     run_->laws.drive_freely();
 }
 
 template <class Real>
-void Simulation<Real>::drive(const std::vector<double>& values) {
-    check_drive(values, model().actuators);
-    steering_ = steering_of_drive(values);
+void Simulation<Real>::drive(const std::vector<double>& values, int swimmer) {
+    check_swimmer(swimmer);
+    check_drive(values, model().actuators_of(swimmer));
+    steering_[swimmer] = steering_of_drive(values);
     run_->laws.drive_freely();
 }
 
@@ -93,12 +130,17 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
     std::unique_ptr<Run> run = make_run(next);
     check_gait(*next.gait, run->model.actuators);
     const bool goes_on = !instability_ && same_layout(model(), run->model);
+    std::vector<Gait> company = company_;
+    keep_changed_gaits(model(), run->model, company);
     if (goes_on) {
+        for (std::size_t k = 0; k < company.size(); ++k)
+            for (const auto* steering : {&steering_, &applied_})
+                check_steering((*steering)[k + 1], company[k], static_cast<int>(company[k].amplitude.size()));
         if (run->scene.time_step != scene().time_step) {
             base_frame_ = frames_;
             base_time_ = state_.time;
         }
-        earlier_work_ += run_->solver.muscle_work();
+        for (int k = 0; k < model().swimmers(); ++k) earlier_work_[k] += run_->solver.muscle_works()[k];
         if (run->follower) run->follower->set_origin(state_.origin);
         run_ = std::move(run);
         run_->laws.go_on(measure_laws(model(), state_));
@@ -107,6 +149,7 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
     } else {
         start(std::move(run));
     }
+    company_ = std::move(company);
     setup_ = std::move(next);
     return !goes_on;
 }
@@ -125,28 +168,34 @@ void Simulation<Real>::reset(int start_number) {
     setup_ = std::move(next);
 }
 
-/// What drives the muscles in the frame that begins now.
+/// What drives the muscles of all swimmers in the frame that begins now.
 template <class Real>
 Drive Simulation<Real>::next_drive() const {
-    if (leaves_gait(steering_) && leaves_gait(applied_))
-        return [this](double time) { return natator::drive(model(), gait(), time); };
     const bool along = model().scheme != Scheme::flex;  // from one steering to the next; else at once
     return [this, along, begin = state_.time, frame = model().time_step](double time) {
-        std::vector<double> driven = natator::drive(model(), gait(), time);
         const double part = along ? std::clamp((time - begin) / frame, 0.0, 1.0) : 1;
-        return natator::steer(applied_, steering_, part, std::move(driven));
+        std::vector<double> all;
+        for (int k = 0; k < model().swimmers(); ++k) {
+            std::vector<double> driven = natator::drive(model(), gait(k), time, k);
+            if (!leaves_gait(steering_[k]) || !leaves_gait(applied_[k]))
+                driven = natator::steer(applied_[k], steering_[k], part, std::move(driven));
+            all.insert(all.end(), driven.begin(), driven.end());
+        }
+        return all;
     };
 }
 
 template <class Real>
-std::vector<double> Simulation<Real>::driven() const {
-    std::vector<double> driven = natator::drive(model(), gait(), state_.time);
-    return leaves_gait(applied_) ? driven : natator::steer(applied_, applied_, 1, std::move(driven));
+std::vector<double> Simulation<Real>::driven(int swimmer) const {
+    std::vector<double> driven = natator::drive(model(), gait(swimmer), state_.time, swimmer);
+    const Steering& applied = applied_[swimmer];
+    return leaves_gait(applied) ? driven : natator::steer(applied, applied, 1, std::move(driven));
 }
 
 template <class Real>
-double Simulation<Real>::muscle_work() const {
-    return earlier_work_ + run_->solver.muscle_work();
+double Simulation<Real>::muscle_work(int swimmer) const {
+    check_swimmer(swimmer);
+    return earlier_work_[swimmer] + run_->solver.muscle_works()[swimmer];
 }
 
 template <class Real>
@@ -159,8 +208,8 @@ template <class Real>
 bool Simulation<Real>::step() {
     if (instability_) return false;
     run_->laws.drive_by(gait());
-    return end_step(leaves_gait(steering_) && leaves_gait(applied_) ? run_->solver.frame(state_, gait())
-                                                                    : run_->solver.frame(state_, next_drive()));
+    const bool by_gait = company_.empty() && leaves_gait(steering_[0]) && leaves_gait(applied_[0]);
+    return end_step(by_gait ? run_->solver.frame(state_, gait()) : run_->solver.frame(state_, next_drive()));
 }
 
 /// What follows the solver's frame.
@@ -201,8 +250,9 @@ const Model& Simulation<Real>::model() const {
 }
 
 template <class Real>
-double Simulation<Real>::distance() const {
-    return mean_x(model().body, state_) + state_.origin.x() - start_x_;
+double Simulation<Real>::distance(int swimmer) const {
+    check_swimmer(swimmer);
+    return mean_x(model().body_of(swimmer), state_) + state_.origin.x() - start_x_[swimmer];
 }
 
 template <class Real>
@@ -237,10 +287,15 @@ void Simulation<Real>::start(std::unique_ptr<Run> run) {
     updated_ = false;
     frames_ = base_frame_ = 0;
     base_time_ = 0;
-    start_x_ = mean_x(model().body, state_);
-    earlier_work_ = 0;
+    start_x_.clear();
+    steering_.clear();
+    for (int k = 0; k < model().swimmers(); ++k) {
+        start_x_.push_back(mean_x(model().body_of(k), state_));
+        steering_.push_back(no_steering(model().actuators_of(k)));
+    }
+    applied_ = steering_;
+    earlier_work_.assign(start_x_.size(), 0);
     run_->solver.clear_muscle_work();  // not subtracted: each start gives the same bits
-    steering_ = applied_ = no_steering(model().actuators);
 }
 
 template <class Real>

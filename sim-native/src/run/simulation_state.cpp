@@ -47,6 +47,13 @@ void read_gait(ByteReader& from, Gait& gait) {
     from.read(frequency), from.read(amplitude), from.read(phase), from.read(power), from.read(offset);
 }
 
+void add_steering(ByteWriter& to, const Steering& steering) {
+    to.add(steering.scale), to.add(steering.offset);
+}
+void read_steering(ByteReader& from, Steering& steering) {
+    from.read(steering.scale), from.read(steering.offset);
+}
+
 template <class Real>
 void add_particles(ByteWriter& to, const State<Real>& state) {
     const auto& [position, velocity, rotation, centre, rest_length, origin, time] = state;
@@ -89,10 +96,12 @@ struct Simulation<Real>::Moment {
     State<Real> state;
     std::optional<std::vector<Real>> densities;
     int frames = 0, base_frame = 0;
-    double base_time = 0, start_x = 0, earlier_work = 0;
-    Steering steering, applied;
+    double base_time = 0;
+    // By swimmer; `read` reads those of the first, the others' stand behind the laws.
+    std::vector<double> start_x{0}, earlier_work{0};
+    std::vector<Steering> steering{{}}, applied{{}};
     std::string solver;
-    std::string_view laws;
+    std::string_view laws;  ///< and what stands behind them
 };
 
 template <class Real>
@@ -129,10 +138,15 @@ std::string Simulation<Real>::save() {
     to.add(updated_);
     if (updated_) to.add(densities());
     for (const int frame : {frames_, base_frame_}) to.add(frame);
-    for (const double value : {base_time_, start_x_, earlier_work_}) to.add(value);
-    for (const Steering* steering : {&steering_, &applied_}) to.add(steering->scale), to.add(steering->offset);
+    for (const double value : {base_time_, start_x_[0], earlier_work_[0]}) to.add(value);
+    add_steering(to, steering_[0]), add_steering(to, applied_[0]);
     to.add(run_->solver.save());
     run_->laws.save(to);
+    for (int k = 1; k < model().swimmers(); ++k) {
+        add_gait(to, gait(k));
+        to.add(start_x_[k]), to.add(earlier_work_[k]);
+        add_steering(to, steering_[k]), add_steering(to, applied_[k]);
+    }
     std::string bytes = to.take();
     bytes.resize((bytes.size() + 7) / 8 * 8, '\0');
     const std::uint64_t size = bytes.size() + tail_size;
@@ -171,9 +185,8 @@ auto Simulation<Real>::read(std::string_view saved) const -> Moment {
     from.read(flag);
     if (flag) from.read(moment.densities.emplace());
     for (int* frame : {&moment.frames, &moment.base_frame}) from.read(*frame);
-    for (double* value : {&moment.base_time, &moment.start_x, &moment.earlier_work}) from.read(*value);
-    for (Steering* steering : {&moment.steering, &moment.applied})
-        from.read(steering->scale), from.read(steering->offset);
+    for (double* value : {&moment.base_time, &moment.start_x[0], &moment.earlier_work[0]}) from.read(*value);
+    read_steering(from, moment.steering[0]), read_steering(from, moment.applied[0]);
     from.read(moment.solver);
     moment.laws = from.left();
     return moment;
@@ -200,19 +213,28 @@ bool Simulation<Real>::restore(std::string_view saved) {
     }
     Run& run = made ? *made : *run_;
     if (digest(run) != moment.digest) refuse_saved(of_another);
-    const int actuators = run.model.actuators, particles = run.model.particles();
-    check_gait(*next.gait, actuators);
-    for (const Steering* steering : {&moment.steering, &moment.applied})
-        check_steering(*steering, *next.gait, actuators);
+    const int particles = run.model.particles();
     check_state(run.model, moment.state);
     if (moment.densities && moment.densities->size() != static_cast<std::size_t>(particles)) refuse_saved(of_another);
     if (moment.base_frame < 0 || moment.frames < moment.base_frame) refuse_saved("its frames are not from 0 on");
     ByteReader laws(moment.laws);
     LawWatch watch = run.laws;
     watch.restore(laws);
+    std::vector<Gait> company(run.model.companions.size());
+    for (Gait& gait : company) {
+        read_gait(laws, gait);
+        laws.read(moment.start_x.emplace_back()), laws.read(moment.earlier_work.emplace_back());
+        read_steering(laws, moment.steering.emplace_back()), read_steering(laws, moment.applied.emplace_back());
+    }
+    for (int k = 0; k < run.model.swimmers(); ++k) {
+        const Gait& gait = k == 0 ? *next.gait : company[k - 1];
+        const int actuators = run.model.actuators_of(k);
+        check_gait(gait, actuators);
+        for (const auto* list : {&moment.steering, &moment.applied}) check_steering((*list)[k], gait, actuators);
+    }
     run.solver.restore(moment.solver);
 
-    const bool changed = !same_scene || *next.gait != gait();
+    const bool changed = !same_scene || *next.gait != gait() || company != company_;
     if (made) run_ = std::move(made);
     run_->laws = std::move(watch);
     if (run_->follower) run_->follower->set_origin(moment.state.origin);
@@ -223,10 +245,11 @@ bool Simulation<Real>::restore(std::string_view saved) {
     frames_ = moment.frames;
     base_frame_ = moment.base_frame;
     base_time_ = moment.base_time;
-    start_x_ = moment.start_x;
-    earlier_work_ = moment.earlier_work;
+    start_x_ = std::move(moment.start_x);
+    earlier_work_ = std::move(moment.earlier_work);
     steering_ = std::move(moment.steering);
     applied_ = std::move(moment.applied);
+    company_ = std::move(company);
     instability_.reset();
     return changed;
 }

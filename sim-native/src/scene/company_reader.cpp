@@ -1,10 +1,11 @@
 #include "gait_json.h"
+#include "natator/limits.h"
 #include "readers.h"
 
 namespace natator::fields {
 namespace {
 
-constexpr std::size_t max_companions = 64, max_obstacles = 1000;
+constexpr std::size_t max_obstacles = 1000;
 
 const json& checked_array(const json& value, const Place& place, std::size_t max_size, const char* what) {
     if (!value.is_array() || value.size() > max_size)
@@ -57,7 +58,7 @@ void check_alone(const std::vector<Obstacle>& obstacles, const json& last, const
 
 std::vector<Companion> read_companions(const json& value, const Place& place, const std::filesystem::path& data) {
     std::vector<Companion> companions;
-    for (const json& one : checked_array(value, place, max_companions, "companions")) {
+    for (const json& one : checked_array(value, place, limits::companions, "companions")) {
         const Place at = place.item(companions.size());
         check_keys(one, at, {"creature", "gait"});
         Companion companion;

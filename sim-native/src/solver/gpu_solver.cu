@@ -96,19 +96,19 @@ public:
         return densities;
     }
 
-    double muscle_work() const { return muscle_work_; }
-    void clear_muscle_work() { muscle_work_ = 0; }
+    const std::vector<double>& muscle_works() const { return muscle_work_; }
+    void clear_muscle_work() { std::fill(muscle_work_.begin(), muscle_work_.end(), 0); }
     std::string save() const {
         ByteWriter saved;
-        saved.add(muscle_work_);
+        for (const double work : muscle_work_) saved.add(work);
         return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
-        double work = 0;
-        from.read(work);
+        std::vector<double> work(muscle_work_.size());
+        for (double& of_swimmer : work) from.read(of_swimmer);
         from.require_end();
-        muscle_work_ = work;
+        muscle_work_ = std::move(work);
     }
 
     std::vector<int> neighbour_counts() const {
@@ -148,7 +148,8 @@ protected:
     const Model& model_;
     std::vector<Real> densities_;
     std::vector<int> neighbours_;
-    double muscle_work_ = 0;  ///< of frames; scheme `flex` has none
+    /// of frames, by swimmer; scheme `flex` has none
+    std::vector<double> muscle_work_ = std::vector<double>(model_.swimmers());
 };
 
 template <class Real>
@@ -278,7 +279,8 @@ private:
             if (ends[k].finite) {
                 solvers[k]->keep(k, time_step, substeps, densities, neighbours);
                 if (!drives.empty() && has_muscle_work(solvers[k]->model_))
-                    solvers[k]->muscle_work_ += ends[k].muscle_work;
+                    for (std::size_t i = 0; i < ends[k].muscle_work.size(); ++i)
+                        solvers[k]->muscle_work_[i] += ends[k].muscle_work[i];
                 continue;
             }
             progress[k].stopped = static_cast<int>(StopReason::unstable);
@@ -439,8 +441,8 @@ std::string GpuSolver<Real>::device() const {
 }
 
 template <class Real>
-double GpuSolver<Real>::muscle_work() const {
-    return implementation_->muscle_work();
+const std::vector<double>& GpuSolver<Real>::muscle_works() const {
+    return implementation_->muscle_works();
 }
 template <class Real>
 void GpuSolver<Real>::clear_muscle_work() {

@@ -71,9 +71,14 @@ public:
     /// What settles a Model alike, as a cache of starts knows it: the GPU's name and the path.
     std::string device() const;
 
-    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2
-    /// (Solver::muscle_work); 0 in scheme flex.
-    double muscle_work() const;
+    /// Work that the muscles of each swimmer did in all frames so far by their changes of rest length, mass
+    /// length^2/s^2 (Solver::muscle_works); 0 in scheme flex.
+    const std::vector<double>& muscle_works() const;
+    double muscle_work() const {  ///< that of all
+        double sum = 0;
+        for (const double work : muscle_works()) sum += work;
+        return sum;
+    }
     void clear_muscle_work();
     /// As Solver's.
     std::string save() const;

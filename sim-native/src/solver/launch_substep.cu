@@ -69,17 +69,20 @@ __device__ void measure_laws_on_grid(const ModelView<Real>& model, const Slots<R
     if (own == 0) slots.shared().laws[blockIdx.x] = parts[0];
 }
 
-/// Adds a substep's work of the muscles to the update's. One warp, always in the same order.
+/// Adds a substep's work of each swimmer's muscles to the update's. One warp, always in the same order.
 template <class Real>
 __device__ void work_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     const Real* const before = slots.rest_length() - model.springs;
-    double sum = 0;
-    for (int k = threadIdx.x; k < model.springs; k += 32)
-        sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
-                                    double(slots.rest_length()[k]) - double(before[k]));
-    sum = sum_of_warp(sum);
-    double& work = slots.shared().muscle_work;
-    if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
+    for (int swimmer = 0; swimmer < model.swimmers; ++swimmer) {
+        double sum = 0;
+        const int end = model.swimmer_springs_begin[swimmer + 1];
+        for (int k = model.swimmer_springs_begin[swimmer] + static_cast<int>(threadIdx.x); k < end; k += 32)
+            sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
+                                        double(slots.rest_length()[k]) - double(before[k]));
+        sum = sum_of_warp(sum);
+        double& work = slots.shared().muscle_work[swimmer];
+        if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
+    }
 }
 
 template <class Real>

@@ -82,11 +82,11 @@ struct ResidualHook {
 };
 
 /// Of what drives the muscles in a frame; between two values that are 2 rounding may lead a little beyond.
-void check_driven(const std::vector<double>& driven, int actuators) {
+void check_values_of_drive(const Model& model, const std::vector<double>& driven) {
     constexpr double rounding = 1e-9;
-    check_length("drive", driven.size(), actuators);
-    for (std::size_t i = 0; i < driven.size(); ++i)
-        if (!(std::abs(driven[i]) <= 2 + rounding)) check_drive(driven, actuators);
+    check_driven(model, driven);
+    for (const double value : driven)
+        if (!(std::abs(value) <= 2 + rounding)) check_drive(driven, static_cast<int>(driven.size()));
 }
 
 /// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is
@@ -152,24 +152,24 @@ public:
         if (coupling_) coupling_->shift(by);
     }
     WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
-    double muscle_work() const { return muscle_work_; }
-    void clear_muscle_work() { muscle_work_ = 0; }
+    const std::vector<double>& muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { std::fill(muscle_work_.begin(), muscle_work_.end(), 0); }
 
     std::string save() const {
         ByteWriter saved;
-        saved.add(muscle_work_);
+        for (const double work : muscle_work_) saved.add(work);
         if (coupling_) coupling_->save(saved);
         return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
-        double work = 0;
-        from.read(work);
+        std::vector<double> work(muscle_work_.size());
+        for (double& of_swimmer : work) from.read(of_swimmer);
         if (coupling_)
             coupling_->restore(from);
         else
             from.require_end();
-        muscle_work_ = work;
+        muscle_work_ = std::move(work);
     }
 
     std::vector<Real> densities() {
@@ -240,7 +240,7 @@ private:
                 if (const auto particle = coupling_->first_not_finite())
                     return Instability{*particle, "collision and streaming", end};
             }
-            if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
+            if (drive) stages.add_spring_work(rest_lengths_before_, muscle_work_);
             if (observer) observer->substep_ended(state.velocity);
             if (execution_.residuals && !observer) execution_.residuals(residuals);
         }
@@ -252,7 +252,7 @@ private:
     AnyStages stages_;
     std::optional<lattice::Coupling<Real>> coupling_;
     std::vector<Real> rest_lengths_before_;  ///< of the springs, at the substep's start
-    double muscle_work_ = 0;
+    std::vector<double> muscle_work_ = std::vector<double>(model_.swimmers());
 };
 
 template <class Real>
@@ -292,9 +292,9 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
 
 template <class Real>
 Drive Solver<Real>::checked_drive(const Drive& drive) const {
-    return [&drive, actuators = gpu_ ? gpu_->model().actuators : implementation_->model().actuators](double time) {
+    return [&drive, &model = gpu_ ? gpu_->model() : implementation_->model()](double time) {
         std::vector<double> driven = drive(time);
-        check_driven(driven, actuators);
+        check_values_of_drive(model, driven);
         return driven;
     };
 }
@@ -337,7 +337,14 @@ WaterField Solver<Real>::lattice_water() const {
 
 template <class Real>
 double Solver<Real>::muscle_work() const {
-    return gpu_ ? gpu_->muscle_work() : implementation_->muscle_work();
+    double sum = 0;
+    for (const double work : muscle_works()) sum += work;
+    return sum;
+}
+
+template <class Real>
+const std::vector<double>& Solver<Real>::muscle_works() const {
+    return gpu_ ? gpu_->muscle_works() : implementation_->muscle_work();
 }
 
 template <class Real>

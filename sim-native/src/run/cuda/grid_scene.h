@@ -122,7 +122,8 @@ public:
         std::vector<FrameEnd> ends = ends_of(found);
         for (std::size_t k = 0; k < ends.size(); ++k) {
             ends[k].instability = instability_of(found[k], number * scene_.time_step, update_);
-            ends[k].work = work_[k] += found[k].muscle_work;
+            for (const double work : found[k].muscle_work) work_[k] += work;
+            ends[k].work = work_[k];
             ends[k].frame.touches_plane = found[k].touches_plane;
         }
         return ends;

@@ -111,9 +111,11 @@ double LawMargins::largest() const {
 struct LawWatch::Parts {
     explicit Parts(const Model& model) : periodic_gravity((model.parameters.gravity - bounded_gravity(model)).norm()) {
         LawMeasures begin = measure_laws(model, initial_state<double>(model));
-        length = model.body.length;
-        for (const CompanionBody& other : model.companions)
+        length = longest = model.body.length;
+        for (const CompanionBody& other : model.companions) {
             muscle_speed = std::max(muscle_speed, speed_of(other.gait, other.body.length));
+            longest = std::max(longest, other.body.length);
+        }
         time_step = model.time_step;
         bool soft = false;
         for (const Cluster& cluster : model.clusters) soft |= cluster.stiffness == 0;
@@ -225,7 +227,7 @@ struct LawWatch::Parts {
     }
 
     double periodic_gravity;
-    double length = 0, time_step = 0, mass = 0, muscle_speed = 0;
+    double length = 0, longest = 0, time_step = 0, mass = 0, muscle_speed = 0;
     double highest = 0;                                     ///< energy of a particle at the start, (length/s)^2
     double fallen = 0;                                      ///< what falling may add to it
     double first = 0;                                       ///< energy that the run begins with, mass (length/s)^2
@@ -250,7 +252,7 @@ void LawWatch::drive_by(const Gait& gait) {
 }
 
 void LawWatch::drive_freely() {
-    parts_->muscle_speed = std::max(parts_->muscle_speed, parts_->length / parts_->time_step);
+    parts_->muscle_speed = std::max(parts_->muscle_speed, parts_->longest / parts_->time_step);
 }
 
 void LawWatch::go_on(const LawMeasures& measures) {

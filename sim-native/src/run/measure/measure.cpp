@@ -16,10 +16,11 @@ double mean_x(const Body& body, const State<Real>& state) {
 }
 
 template <class Real>
-bool touches_plane(const Model& model, const State<Real>& state) {
+bool touches_plane(const Model& model, const State<Real>& state, int swimmer) {
     check_places(model, state);
+    const std::vector<int>& body = model.body_of(swimmer).particles;
     return std::any_of(model.planes.begin(), model.planes.end(), [&](const Plane& plane) {
-        return std::any_of(model.body.particles.begin(), model.body.particles.end(), [&](int particle) {
+        return std::any_of(body.begin(), body.end(), [&](int particle) {
             const double distance = plane.distance(state.position[particle].template cast<double>());
             return physics::touches(distance, model.parameters.collision_distance, plane.offset);
         });
@@ -28,7 +29,7 @@ bool touches_plane(const Model& model, const State<Real>& state) {
 
 template double mean_x(const Body&, const State<float>&);
 template double mean_x(const Body&, const State<double>&);
-template bool touches_plane(const Model&, const State<float>&);
-template bool touches_plane(const Model&, const State<double>&);
+template bool touches_plane(const Model&, const State<float>&, int);
+template bool touches_plane(const Model&, const State<double>&, int);
 
 }  // namespace natator

@@ -26,13 +26,13 @@ struct Cloud {
     Eigen::Vector3d mean{0, 0, 0}, centre_of_mass{0, 0, 0}, mean_velocity{0, 0, 0};
 
     template <class Real>
-    Cloud(const Model& model, const State<Real>& state) {
-        const auto count = static_cast<Eigen::Index>(model.body.particles.size());
+    Cloud(const Model& model, const Body& body, const State<Real>& state) {
+        const auto count = static_cast<Eigen::Index>(body.particles.size());
         place.resize(3, count);
         velocity.resize(3, count);
         mass.resize(count);
         for (Eigen::Index i = 0; i < count; ++i) {
-            const int particle = model.body.particles[static_cast<std::size_t>(i)];
+            const int particle = body.particles[static_cast<std::size_t>(i)];
             place.col(i) = state.position[particle].template cast<double>();
             velocity.col(i) = state.velocity[particle].template cast<double>();
             const double inverse = model.inverse_mass[particle];
@@ -69,17 +69,19 @@ Eigen::Vector3d turn_of(const Cloud& cloud) {
 
 /// Least squares over its muscles of drive = change of length / (strain times lateral place times rest length).
 template <class Real>
-std::vector<double> bend_of(const Model& model, const State<Real>& state) {
-    std::vector<double> bend(static_cast<std::size_t>(model.actuators)), weight(bend.size());
+std::vector<double> bend_of(const Model& model, const State<Real>& state, int swimmer) {
+    const int actuators = model.actuators_of(swimmer), first = model.first_actuator_of(swimmer);
+    std::vector<double> bend(static_cast<std::size_t>(actuators)), weight(bend.size());
     for (const Muscle& muscle : model.muscles) {
-        if (muscle.actuator >= model.actuators) continue;  // a companion's
+        const int actuator = muscle.actuator - first;
+        if (actuator < 0 || actuator >= actuators) continue;  // another's
         const Spring& spring = model.springs[muscle.spring];
         const double length =
             (state.position[spring.a].template cast<double>() - state.position[spring.b].template cast<double>())
                 .norm();
         const double reach = physics::muscle_strain * muscle.lateral;
-        bend[muscle.actuator] += reach * (length / spring.rest_length - 1);
-        weight[muscle.actuator] += reach * reach;
+        bend[actuator] += reach * (length / spring.rest_length - 1);
+        weight[actuator] += reach * reach;
     }
     for (std::size_t i = 0; i < bend.size(); ++i) bend[i] = weight[i] > 0 ? bend[i] / weight[i] : 0;
     return bend;
@@ -108,11 +110,11 @@ struct Probe {
 };
 
 template <class Real>
-Probe probe_at(const Model& model, const State<Real>& state, const SkinPlace& at) {
-    const std::vector<int>& slice = model.body.slices[static_cast<std::size_t>(at.slice)];
+Probe probe_at(const Model& model, const Body& body, const State<Real>& state, const SkinPlace& at) {
+    const std::vector<int>& slice = body.slices[static_cast<std::size_t>(at.slice)];
     double most = towards(at.side, model.position[slice.front()]);
     for (const int i : slice) most = std::max(most, towards(at.side, model.position[i]));
-    const double least = most - outermost * std::max(model.body.length, 1e-3);
+    const double least = most - outermost * std::max(body.length, 1e-3);
     Probe probe;
     double count = 0;
     for (const int i : slice) {
@@ -154,10 +156,10 @@ void feel_water(const Model& model, const State<Real>& state, double within, std
 }
 
 template <class Real>
-std::vector<SkinFlow> flow_at(const Model& model, const State<Real>& state, const Sensing& sensing,
+std::vector<SkinFlow> flow_at(const Model& model, const Body& body, const State<Real>& state, const Sensing& sensing,
                               const Eigen::Matrix3d& axes) {
     std::vector<Probe> probes;
-    for (const SkinPlace& place : sensing.flow) probes.push_back(probe_at(model, state, place));
+    for (const SkinPlace& place : sensing.flow) probes.push_back(probe_at(model, body, state, place));
     const SolverParameters& solver = model.parameters;
     const double within =
         sensing.within > 0 ? sensing.within : solver.solid_rest_distance + 2 * solver.fluid_rest_distance;
@@ -173,16 +175,17 @@ std::vector<SkinFlow> flow_at(const Model& model, const State<Real>& state, cons
 
 }  // namespace
 
-void check_sensing(const Sensing& sensing, const Model& model) {
+void check_sensing(const Sensing& sensing, const Model& model, int swimmer) {
+    const Body& body = model.body_of(swimmer);
     const auto refuse = [](const auto&... parts) {
         std::ostringstream text;
         (text << ... << parts);
         throw InputError(text.str());
     };
-    if (model.body.particles.empty()) refuse("sense: the scene has no creature, whose senses they would be");
+    if (body.particles.empty()) refuse("sense: the scene has no creature, whose senses they would be");
     if (sensing.flow.size() > max_places)
         refuse("flow has length ", sensing.flow.size(), ": must have length ", max_places, " at most");
-    const auto slices = static_cast<int>(model.body.slices.size());
+    const auto slices = static_cast<int>(body.slices.size());
     for (std::size_t i = 0; i < sensing.flow.size(); ++i) {
         const int slice = sensing.flow[i].slice;
         if (slice < 0 || slice >= slices)
@@ -194,17 +197,18 @@ void check_sensing(const Sensing& sensing, const Model& model) {
 }
 
 template <class Real>
-Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing) {
+Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing, int swimmer) {
+    const Body& body = model.body_of(swimmer);
     Senses senses;
-    if (model.body.particles.empty()) return senses;
+    if (body.particles.empty()) return senses;
     check_places_and_velocities(model, state);
-    const Cloud cloud(model, state);
+    const Cloud cloud(model, body, state);
     senses.centre = cloud.mean + state.origin;
-    senses.axes = body_rotation(model, model.body, body_places(model.body, state));
+    senses.axes = body_rotation(model, body, body_places(body, state));
     senses.velocity = senses.axes.transpose() * cloud.mean_velocity;
     senses.turn_rate = senses.axes.transpose() * turn_of(cloud);
-    senses.bend = bend_of(model, state);
-    senses.flow = flow_at(model, state, sensing, senses.axes);
+    senses.bend = bend_of(model, state, swimmer);
+    senses.flow = flow_at(model, body, state, sensing, senses.axes);
     if (sensing.target) {
         const Eigen::Vector3d way = *sensing.target - senses.centre;
         senses.target_distance = way.norm();
@@ -214,7 +218,7 @@ Senses sense(const Model& model, const State<Real>& state, const Sensing& sensin
     return senses;
 }
 
-template Senses sense(const Model&, const State<float>&, const Sensing&);
-template Senses sense(const Model&, const State<double>&, const Sensing&);
+template Senses sense(const Model&, const State<float>&, const Sensing&, int);
+template Senses sense(const Model&, const State<double>&, const Sensing&, int);
 
 }  // namespace natator

@@ -85,8 +85,8 @@ public:
     void commit();
 
     // Defaults for scheme flex, which knows no forces; ConservingStages hides them.
-    /// Work of the last substep's changes of rest length, mass length^2/s^2.
-    double spring_work(const std::vector<Real>&) const { return 0; }
+    /// Adds the work of the last substep's changes of rest length to that of each swimmer, mass length^2/s^2.
+    void add_spring_work(const std::vector<Real>&, std::vector<double>&) const {}
     void measure_divergence(Residuals&) {}
     /// Begins to sum the water's forces on the particles, see Solver::forces.
     void keep_forces() {}

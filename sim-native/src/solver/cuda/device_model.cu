@@ -232,6 +232,10 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     for (const int i : model.body.particles) body.push_back(solid(i));
 
     const Lists spring_lists(spring_incidences), cluster_lists(cluster_incidences);
+    std::vector<int> swimmer_springs;
+    for (int k = 0; k <= model.swimmers(); ++k) swimmer_springs.push_back(model.first_spring_of(k));
+    view_.swimmers = model.swimmers();
+    view_.swimmer_springs_begin = keep(swimmer_springs_begin_, swimmer_springs);
     view_.springs = static_cast<int>(springs.size());
     view_.muscles = static_cast<int>(muscles.size());
     view_.clusters = static_cast<int>(clusters.size());

@@ -49,8 +49,8 @@ private:
     DeviceBuffer<SpringView<Real>> spring_;
     DeviceBuffer<MuscleView> muscle_;
     DeviceBuffer<ClusterView<Real>> cluster_;
-    DeviceBuffer<int> member_, spring_incidences_begin_, cluster_incidences_begin_, body_particle_, free_body_begin_,
-        free_body_particle_;
+    DeviceBuffer<int> swimmer_springs_begin_, member_, spring_incidences_begin_, cluster_incidences_begin_,
+        body_particle_, free_body_begin_, free_body_particle_;
     DeviceBuffer<Incidence> spring_incidence_, cluster_incidence_;
 };
 

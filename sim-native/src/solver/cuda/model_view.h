@@ -165,7 +165,8 @@ struct ModelView {
     const std::uint32_t* phase;       ///< by particle
     const Vec3<Real>* rest_position;  ///< by particle; null if no particle filters its collisions
 
-    int springs, clusters, members, muscles, actuators;
+    int swimmers, springs, clusters, members, muscles, actuators;
+    const int* swimmer_springs_begin;  ///< by swimmer, one more at the end
     const SpringView<Real>* spring;
     const MuscleView* muscle;
     const ClusterView<Real>* cluster;

@@ -66,7 +66,7 @@ std::string GpuSolver<Real>::device() const {
     refuse_without_cuda();
 }
 template <class Real>
-double GpuSolver<Real>::muscle_work() const {
+const std::vector<double>& GpuSolver<Real>::muscle_works() const {
     refuse_without_cuda();
 }
 template <class Real>

@@ -207,7 +207,7 @@ typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
     end.laws = laws_of(k);
     end.mean_x = end_[k].mean_x;
     end.tail_z = end_[k].tail_z;
-    end.muscle_work = end_[k].muscle_work;
+    end.muscle_work.assign(end_[k].muscle_work, end_[k].muscle_work + base_.model.swimmers);
     end.touches_plane = end_[k].touches != 0;
     if (end_[k].bad == none_bad) return end;
     end.finite = false;

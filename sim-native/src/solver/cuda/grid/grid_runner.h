@@ -58,7 +58,7 @@ public:
         int bad_substep = 0, bad_particle = 0;  ///< of one that is not; the State is that before this substep
         double mean_x = 0;                      ///< of the body
         double tail_z = 0;                      ///< of its last slice
-        double muscle_work = 0;                 ///< in the update, see Solver::muscle_work; none in scheme flex
+        std::vector<double> muscle_work;  ///< in the update, by swimmer, see Solver::muscle_works; none in scheme flex
         bool touches_plane = false;
         physics::LawMeasures laws{};  ///< of particles by device number
     };

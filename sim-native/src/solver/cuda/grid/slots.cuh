@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "natator/limits.h"
 #include "pair_gradient.cuh"
 #include "physics/laws.h"
 #include "physics/shape_matching.h"
@@ -27,8 +28,8 @@ struct GridShared : Shared<Real> {
     ListRoom needed;         ///< as far as there is no room for it, else below 0
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
-    double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
-    physics::LawMeasures laws[max_law_blocks];  ///< of the particles that a block of threads has looked at
+    double muscle_work[limits::companions + 1];  ///< by swimmer, of the update's substeps so far
+    physics::LawMeasures laws[max_law_blocks];   ///< of the particles that a block of threads has looked at
 };
 
 /// Pose of a cluster of scheme conserving, in double.

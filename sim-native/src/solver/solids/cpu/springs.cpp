@@ -21,19 +21,21 @@ void ConservingStages<Real>::solve_springs() {
 }
 
 template <class Real>
-double ConservingStages<Real>::spring_work(const std::vector<Real>& before) const {
+void ConservingStages<Real>::add_spring_work(const std::vector<Real>& before, std::vector<double>& work) const {
     const double relaxation = static_cast<double>(constants_.relaxation_factor), h = static_cast<double>(h_);
-    double work = 0;
-    for (std::size_t s = 0; s < before.size(); ++s) {
-        const double change = static_cast<double>(state_->spring_rest_length[s]) - static_cast<double>(before[s]);
-        work += physics::spring_work(relaxation * static_cast<double>(spring_lambda_[s]), h, change);
+    for (int k = 0; k < model_.swimmers(); ++k) {
+        double own = 0;
+        for (int s = model_.first_spring_of(k); s < model_.first_spring_of(k + 1); ++s) {
+            const double change = static_cast<double>(state_->spring_rest_length[s]) - static_cast<double>(before[s]);
+            own += physics::spring_work(relaxation * static_cast<double>(spring_lambda_[s]), h, change);
+        }
+        work[k] += own;
     }
-    return work;
 }
 
 template void ConservingStages<float>::solve_springs();
 template void ConservingStages<double>::solve_springs();
-template double ConservingStages<float>::spring_work(const std::vector<float>&) const;
-template double ConservingStages<double>::spring_work(const std::vector<double>&) const;
+template void ConservingStages<float>::add_spring_work(const std::vector<float>&, std::vector<double>&) const;
+template void ConservingStages<double>::add_spring_work(const std::vector<double>&, std::vector<double>&) const;
 
 }  // namespace natator::cpu
