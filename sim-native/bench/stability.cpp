@@ -47,7 +47,7 @@ StabilityResult run_by(AnySolver&& solver, const StabilityCase& subject, const M
         if (instability) break;
         state.time = frame * model.time_step;
         if (frame >= first_judged)
-            instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
+            instability = laws.look(measure_laws(model, state), solver.all_muscle_work(), state.time);
         if (!instability && follow(follower, model, state)) laws.restart();
     }
     if (!instability)

@@ -105,6 +105,7 @@ struct CompanionBody {
     Body body;               ///< its particles
     Gait gait;               ///< by which it swims
     int first_actuator = 0;  ///< first actuator of its muscles, after the body's and earlier companions'
+    int first_spring = 0;    ///< first of its springs, likewise
 };
 
 /// All that stays constant while a scene runs. One Model serves any number of States, and of threads as long as none

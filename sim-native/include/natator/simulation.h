@@ -99,7 +99,7 @@ public:
     const Steering& steering() const { return steering_; }
     /// What drives each actuator now: the gait's drive, steered.
     std::vector<double> driven() const;
-    /// Work that the muscles did since the start (Solver::muscle_work), mass length^2/s^2.
+    /// Work that the swimmer's muscles did since the start (Solver::muscle_work), mass length^2/s^2.
     double muscle_work() const;
     /// Change of the body's mean x over ground since the start, length.
     double distance() const;

@@ -211,11 +211,13 @@ public:
     /// share a GPU by the same kernels. What became unstable, by frame; each has the bits that it has alone.
     static std::vector<std::optional<Instability>> frames(std::vector<Frame> all, int max_threads);
 
-    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each
-    /// spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what
-    /// the time step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
+    /// Work that the swimmer's muscles did in all frames so far by their changes of rest length, mass length^2/s^2: for
+    /// each spring and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs;
+    /// what the time step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
-    /// Sets muscle_work() to 0.
+    /// The same of all bodies' muscles, the companions' too.
+    double all_muscle_work() const;
+    /// Sets both to 0.
     void clear_muscle_work();
 
     /// What goes from one frame to the next beside the State, as bytes: the work of the muscles, and in scheme lattice

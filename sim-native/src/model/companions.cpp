@@ -39,7 +39,7 @@ std::vector<NamedBody> bodies_of(const Model& model) {
 
 void add_companion(const Model& own, const Gait& gait, Model& model) {
     const int first = model.particles(), springs = static_cast<int>(model.springs.size());
-    CompanionBody companion{own.body, gait, model.actuators};
+    CompanionBody companion{own.body, gait, model.actuators, springs};
     if (!model.companions.empty()) {
         const CompanionBody& before = model.companions.back();
         companion.first_actuator = before.first_actuator + static_cast<int>(before.gait.amplitude.size());

@@ -75,10 +75,10 @@ std::string model_key(const Model& model) {
     add(key, model.time_step, model.actuators);
     for (const auto& [spring, actuator, lateral] : model.muscles) add(key, spring, actuator, lateral);
     add_body(key, model.body);
-    for (const auto& [body, gait, first_actuator] : model.companions) {
+    for (const auto& [body, gait, first_actuator, first_spring] : model.companions) {
         const auto& [frequency, amplitude, phase, power, offset] = gait;
         add_body(key, body);
-        add(key, frequency, amplitude, phase, power, offset, first_actuator);
+        add(key, frequency, amplitude, phase, power, offset, first_actuator, first_spring);
     }
     return key.take();
 }

@@ -36,7 +36,7 @@ void EvaluationRun::add(const FrameEnd& end) {
     if (result_.instability) return;
     work_ = end.work;
     ++result_.frames;
-    result_.instability = laws_.look(end.laws, work_, result_.frames * scene_.time_step);
+    result_.instability = laws_.look(end.laws, work_.all, result_.frames * scene_.time_step);
     if (result_.instability) return;
     if (const auto over = record_.add(end.frame)) result_.stopped = *over;
 }
@@ -67,7 +67,7 @@ Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& en
     result_.swimming = swimming_numbers(model_, gait_, scene_.through_water(result_.distance, result_.simulated),
                                         result_.simulated, record_.tail());
     if (result_.swimming) result_.swimming->cavities = cavities(model_, end, densities);
-    if (has_muscle_work(model_)) result_.work = work_;
+    if (has_muscle_work(model_)) result_.work = work_.own;
     if (!model_.body.particles.empty()) result_.course = course_of(model_, model_.body, end, result_.distance);
     result_.companions = companion_results(scene_, model_, begin, end);
     record_.write_to(result_);

@@ -8,6 +8,7 @@
 #include "natator/evaluate.h"
 #include "physics/laws.h"
 #include "run/laws.h"
+#include "solver/muscle_work.h"
 #include "swim_record.h"
 
 namespace natator {
@@ -16,7 +17,7 @@ namespace natator {
 struct FrameEnd {
     std::optional<Instability> instability{};  ///< what is not finite; then the rest means nothing
     physics::LawMeasures laws{};
-    double work = 0;  ///< of the muscles since the start (Solver::muscle_work), mass length^2/s^2
+    MuscleWork work;  ///< since the start
     SwimRecord::Frame frame{};
 };
 
@@ -56,7 +57,7 @@ private:
     const Gait& gait_;
     LawWatch laws_;
     SwimRecord record_;
-    double work_ = 0;
+    MuscleWork work_;
     Evaluation result_;
 };
 

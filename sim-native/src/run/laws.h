@@ -46,7 +46,7 @@ public:
 
     /// Looks at the start of the frames, once it has settled. The energy counts from here.
     std::optional<Instability> start(const physics::LawMeasures& measures);
-    /// Looks at the end of a frame. `work`: of the muscles since `start` (Solver::muscle_work), mass length^2/s^2;
+    /// Looks at the end of a frame. `work`: of all muscles since `start` (Solver::all_muscle_work), mass length^2/s^2;
     /// `time`: s.
     std::optional<Instability> look(const physics::LawMeasures& measures, double work, double time);
     /// Looks at the mean of max(density - 1, 0) over the fluid, in rest densities.

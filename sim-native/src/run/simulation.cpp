@@ -170,7 +170,7 @@ bool Simulation<Real>::end_step(std::optional<Instability> found) {
     updated_ = true;
     restored_densities_.reset();
     if (!instability_)
-        instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
+        instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.all_muscle_work(), state_.time);
     if (!instability_ && (frames_ + 1) % frames_between_densities == 0)
         instability_ = run_->laws.look_at_compression(
             conservation_errors(model(), state_, run_->solver.densities()).density_error_mean, state_.time);

@@ -96,17 +96,17 @@ public:
         return densities;
     }
 
-    double muscle_work() const { return muscle_work_; }
-    void clear_muscle_work() { muscle_work_ = 0; }
+    const MuscleWork& muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { muscle_work_ = {}; }
     std::string save() const {
         ByteWriter saved;
-        saved.add(muscle_work_);
+        for (const double work : {muscle_work_.own, muscle_work_.all}) saved.add(work);
         return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
-        double work = 0;
-        from.read(work);
+        MuscleWork work;
+        for (double* one : {&work.own, &work.all}) from.read(*one);
         from.require_end();
         muscle_work_ = work;
     }
@@ -148,7 +148,7 @@ protected:
     const Model& model_;
     std::vector<Real> densities_;
     std::vector<int> neighbours_;
-    double muscle_work_ = 0;  ///< of frames; scheme `flex` has none
+    MuscleWork muscle_work_;  ///< of frames; scheme `flex` has none
 };
 
 template <class Real>
@@ -440,7 +440,11 @@ std::string GpuSolver<Real>::device() const {
 
 template <class Real>
 double GpuSolver<Real>::muscle_work() const {
-    return implementation_->muscle_work();
+    return implementation_->muscle_work().own;
+}
+template <class Real>
+double GpuSolver<Real>::all_muscle_work() const {
+    return implementation_->muscle_work().all;
 }
 template <class Real>
 void GpuSolver<Real>::clear_muscle_work() {

@@ -71,9 +71,9 @@ public:
     /// What settles a Model alike, as a cache of starts knows it: the GPU's name and the path.
     std::string device() const;
 
-    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2
-    /// (Solver::muscle_work); 0 in scheme flex.
+    /// As Solver's; 0 in scheme flex.
     double muscle_work() const;
+    double all_muscle_work() const;
     void clear_muscle_work();
     /// As Solver's.
     std::string save() const;

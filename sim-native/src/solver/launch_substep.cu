@@ -73,13 +73,18 @@ __device__ void measure_laws_on_grid(const ModelView<Real>& model, const Slots<R
 template <class Real>
 __device__ void work_on_grid(const ModelView<Real>& model, const Slots<Real>& slots) {
     const Real* const before = slots.rest_length() - model.springs;
-    double sum = 0;
-    for (int k = threadIdx.x; k < model.springs; k += 32)
-        sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
-                                    double(slots.rest_length()[k]) - double(before[k]));
-    sum = sum_of_warp(sum);
-    double& work = slots.shared().muscle_work;
-    if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
+    MuscleWork sum;
+    for (int k = threadIdx.x; k < model.springs; k += 32) {
+        const double work = physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k],
+                                                 double(slots.h), double(slots.rest_length()[k]) - double(before[k]));
+        sum.all += work;
+        if (k < model.own_springs) sum.own += work;
+    }
+    sum = {sum_of_warp(sum.own), sum_of_warp(sum.all)};
+    MuscleWork& work = slots.shared().muscle_work;
+    if (threadIdx.x != 0) return;
+    if (slots.substep == 0) work = {};
+    work += sum;
 }
 
 template <class Real>

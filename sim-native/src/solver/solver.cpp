@@ -152,19 +152,19 @@ public:
         if (coupling_) coupling_->shift(by);
     }
     WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
-    double muscle_work() const { return muscle_work_; }
-    void clear_muscle_work() { muscle_work_ = 0; }
+    const MuscleWork& muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { muscle_work_ = {}; }
 
     std::string save() const {
         ByteWriter saved;
-        saved.add(muscle_work_);
+        for (const double work : {muscle_work_.own, muscle_work_.all}) saved.add(work);
         if (coupling_) coupling_->save(saved);
         return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
-        double work = 0;
-        from.read(work);
+        MuscleWork work;
+        for (double* one : {&work.own, &work.all}) from.read(*one);
         if (coupling_)
             coupling_->restore(from);
         else
@@ -252,7 +252,7 @@ private:
     AnyStages stages_;
     std::optional<lattice::Coupling<Real>> coupling_;
     std::vector<Real> rest_lengths_before_;  ///< of the springs, at the substep's start
-    double muscle_work_ = 0;
+    MuscleWork muscle_work_;
 };
 
 template <class Real>
@@ -337,7 +337,12 @@ WaterField Solver<Real>::lattice_water() const {
 
 template <class Real>
 double Solver<Real>::muscle_work() const {
-    return gpu_ ? gpu_->muscle_work() : implementation_->muscle_work();
+    return gpu_ ? gpu_->muscle_work() : implementation_->muscle_work().own;
+}
+
+template <class Real>
+double Solver<Real>::all_muscle_work() const {
+    return gpu_ ? gpu_->all_muscle_work() : implementation_->muscle_work().all;
 }
 
 template <class Real>

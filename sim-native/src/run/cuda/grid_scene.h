@@ -86,7 +86,7 @@ public:
         for (int k = 0; k < count; ++k)
             runs.emplace_back(scene_, group_.model, members[k].gait, laws_of(std::get<0>(starts[k])));
         needs_body_ = runs.front().needs_body();
-        work_.assign(count, 0);
+        work_.assign(count, {});
         const HostTime begin_of_frames = std::chrono::steady_clock::now();
         run_frames(scene_, *this, runs);
         busy_.push_back({begin_of_frames, std::chrono::steady_clock::now()});
@@ -262,7 +262,7 @@ private:
     Runner runner_;
     typename Runner::Update update_;  ///< of a frame
     bool needs_body_ = false;         ///< see EvaluationRun
-    std::vector<double> work_;        ///< of the muscles, by member
+    std::vector<MuscleWork> work_;    ///< by member
     std::map<int, LawWatch> laws_;    ///< by arrangement, see laws_of
     std::vector<bool> idle_;
     std::vector<std::shared_ptr<const SettledMember<Real>>> begins_;  ///< by State, where they began

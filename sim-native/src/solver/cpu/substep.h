@@ -12,6 +12,7 @@
 #include "physics/contact.h"
 #include "physics/spring.h"
 #include "plane_kernels.h"
+#include "solver/muscle_work.h"
 #include "solver/step.h"
 #include "thread_team.h"
 #include "workspace.h"
@@ -86,7 +87,7 @@ public:
 
     // Defaults for scheme flex, which knows no forces; ConservingStages hides them.
     /// Work of the last substep's changes of rest length, mass length^2/s^2.
-    double spring_work(const std::vector<Real>&) const { return 0; }
+    MuscleWork spring_work(const std::vector<Real>&) const { return {}; }
     void measure_divergence(Residuals&) {}
     /// Begins to sum the water's forces on the particles, see Solver::forces.
     void keep_forces() {}

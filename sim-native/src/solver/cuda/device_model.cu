@@ -233,6 +233,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
 
     const Lists spring_lists(spring_incidences), cluster_lists(cluster_incidences);
     view_.springs = static_cast<int>(springs.size());
+    view_.own_springs = own_springs(model);
     view_.muscles = static_cast<int>(muscles.size());
     view_.clusters = static_cast<int>(clusters.size());
     view_.members = static_cast<int>(members.size());

@@ -166,6 +166,7 @@ struct ModelView {
     const Vec3<Real>* rest_position;  ///< by particle; null if no particle filters its collisions
 
     int springs, clusters, members, muscles, actuators;
+    int own_springs;  ///< of the swimmer, the first ones
     const SpringView<Real>* spring;
     const MuscleView* muscle;
     const ClusterView<Real>* cluster;

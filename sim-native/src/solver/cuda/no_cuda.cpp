@@ -70,6 +70,10 @@ double GpuSolver<Real>::muscle_work() const {
     refuse_without_cuda();
 }
 template <class Real>
+double GpuSolver<Real>::all_muscle_work() const {
+    refuse_without_cuda();
+}
+template <class Real>
 void GpuSolver<Real>::clear_muscle_work() {
     refuse_without_cuda();
 }

@@ -11,6 +11,7 @@
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
 #include "solver/cuda/stream.h"
+#include "solver/muscle_work.h"
 #include "substep.cuh"
 
 namespace natator::cuda {
@@ -58,7 +59,7 @@ public:
         int bad_substep = 0, bad_particle = 0;  ///< of one that is not; the State is that before this substep
         double mean_x = 0;                      ///< of the body
         double tail_z = 0;                      ///< of its last slice
-        double muscle_work = 0;                 ///< in the update, see Solver::muscle_work; none in scheme flex
+        MuscleWork muscle_work;                 ///< in the update; none in scheme flex
         bool touches_plane = false;
         physics::LawMeasures laws{};  ///< of particles by device number
     };

@@ -8,6 +8,7 @@
 #include "physics/shape_matching.h"
 #include "solver/cuda/list_room.h"
 #include "solver/cuda/neighbours.cuh"
+#include "solver/muscle_work.h"
 
 namespace natator::cuda {
 
@@ -27,7 +28,7 @@ struct GridShared : Shared<Real> {
     ListRoom needed;         ///< as far as there is no room for it, else below 0
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
-    double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
+    MuscleWork muscle_work;  ///< of the update's substeps so far
     physics::LawMeasures laws[max_law_blocks];  ///< of the particles that a block of threads has looked at
 };
 

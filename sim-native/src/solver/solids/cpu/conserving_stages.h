@@ -50,7 +50,7 @@ public:
     void solve_planes();
     void update_velocities();
     /// Work of the changes of rest length from `before` to those of the last substep, mass length^2/s^2.
-    double spring_work(const std::vector<Real>& before) const;
+    MuscleWork spring_work(const std::vector<Real>& before) const;
 
     /// At the last substep's start, by particle, in units of rest density; 0 for solids and infinite masses.
     std::vector<Real> densities() const;

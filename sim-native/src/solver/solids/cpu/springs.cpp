@@ -21,19 +21,21 @@ void ConservingStages<Real>::solve_springs() {
 }
 
 template <class Real>
-double ConservingStages<Real>::spring_work(const std::vector<Real>& before) const {
+MuscleWork ConservingStages<Real>::spring_work(const std::vector<Real>& before) const {
     const double relaxation = static_cast<double>(constants_.relaxation_factor), h = static_cast<double>(h_);
-    double work = 0;
+    MuscleWork work;
+    const auto own = static_cast<std::size_t>(own_springs(model_));
     for (std::size_t s = 0; s < before.size(); ++s) {
         const double change = static_cast<double>(state_->spring_rest_length[s]) - static_cast<double>(before[s]);
-        work += physics::spring_work(relaxation * static_cast<double>(spring_lambda_[s]), h, change);
+        work.all += physics::spring_work(relaxation * static_cast<double>(spring_lambda_[s]), h, change);
+        if (s + 1 == own) work.own = work.all;
     }
     return work;
 }
 
 template void ConservingStages<float>::solve_springs();
 template void ConservingStages<double>::solve_springs();
-template double ConservingStages<float>::spring_work(const std::vector<float>&) const;
-template double ConservingStages<double>::spring_work(const std::vector<double>&) const;
+template MuscleWork ConservingStages<float>::spring_work(const std::vector<float>&) const;
+template MuscleWork ConservingStages<double>::spring_work(const std::vector<double>&) const;
 
 }  // namespace natator::cpu
