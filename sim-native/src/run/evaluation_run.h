@@ -17,7 +17,7 @@ namespace natator {
 struct FrameEnd {
     std::optional<Instability> instability{};  ///< what is not finite; then the rest means nothing
     physics::LawMeasures laws{};
-    MuscleWork work;  ///< since the start
+    MuscleWork work{};  ///< since the start
     SwimRecord::Frame frame{};
 };
 
