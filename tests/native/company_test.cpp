@@ -56,6 +56,17 @@ TEST(ModelGroup, ACompanionIsACopyOfItsCreatureBehindTheBody) {
     }
 }
 
+/// The companion's muscles work, too, but for themselves.
+TEST(ModelGroup, AnEvaluationHasTheWorkOfTheSwimmersOwnMuscles) {
+    const Gait gait{1, {0.5, 0.25}, {0, 0.25}, 1};
+    const Scene scene = pair_in_vacuum(1);
+    Scene alone = scene;
+    alone.companions.clear();
+    const double own = evaluate(alone, gait).work.value();
+    EXPECT_GT(own, 0);
+    EXPECT_NEAR(evaluate(scene, gait).work.value(), own, 1e-4 * own);
+}
+
 TEST(ModelGroup, EachIsDrivenByItsOwnGait) {
     const Model pair = build_model(pair_in_vacuum(1));
     const Model alone = build_model(load_scene("thesis/creature-1-vacuum", json{{"scheme", "conserving"}}));

@@ -70,8 +70,8 @@ struct Evaluation {
     std::optional<Instability> instability;   ///< none: it was stable
     ConservationErrors errors;                ///< at the end
     std::optional<SwimmingNumbers> swimming;  ///< see swimming_numbers
-    /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
-    /// `flex`, which has no forces, and without muscles.
+    /// Work that the swimmer's muscles did by their changes of length (Solver::muscle_works), mass length^2/s^2; none
+    /// in scheme `flex`, which has no forces, and without muscles.
     std::optional<double> work;
     double smagorinsky = 0;                   ///< FluidBlock::smagorinsky, by which the water was computed
     std::optional<Course> course;             ///< where the body went; none without a body

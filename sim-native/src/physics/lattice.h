@@ -84,16 +84,29 @@ NATATOR_HD void moments_of(const V (&f)[lattice_populations], V (&m)[lattice_mom
     m[16] = (s1[8] - s1[2]) - (s1[6] - s1[0]);
 }
 
+/// The part of water in equilibrium that goes by c along an axis along which it moves at u.
+NATATOR_HD float moving_part(int c, float u) {
+    const float square = u * u;
+    return c == 0 ? 2.0f / 3 - square : 0.5f * (1.0f / 3 + square + (c > 0 ? u : -u));
+}
 /// Population i of water in equilibrium that moves at u with the density at rest, less that of water at rest.
 NATATOR_HD float moving_population(int i, const float (&u)[3]) {
     float product = 1, rest = 1;
     const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
     for (int a = 0; a < 3; ++a) {
-        const float square = u[a] * u[a];
-        product *= c[a] == 0 ? 2.0f / 3 - square : 0.5f * (1.0f / 3 + square + (c[a] > 0 ? u[a] : -u[a]));
+        product *= moving_part(c[a], u[a]);
         rest *= c[a] == 0 ? 2.0f / 3 : 1.0f / 6;
     }
     return product - rest;
+}
+/// All of them.
+NATATOR_HD void moving_populations(const float (&u)[3], float (&f)[lattice_populations]) {
+    float parts[3][3];
+    for (int a = 0; a < 3; ++a)
+        for (int k = 0; k < 3; ++k) parts[a][k] = moving_part(k - 1, u[a]);
+    constexpr float rest[3] = {1.0f / 6, 2.0f / 3, 1.0f / 6};
+    for (int i = 0; i < lattice_populations; ++i)
+        f[i] = parts[0][i % 3] * parts[1][i / 3 % 3] * parts[2][i / 9] - rest[i % 3] * rest[i / 3 % 3] * rest[i / 9];
 }
 /// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in
 /// by c, and `out`, what streams out by -c, less what both have in water that moves with the body.

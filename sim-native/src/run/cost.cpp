@@ -38,7 +38,7 @@ constexpr double raggedness = 1.12;                 // of lists of 16 particles,
 constexpr double of_bursting = 1.5;                 // the same of those that are denser at the start than at rest
 constexpr double max_samples = 4096, max_looks = 2e7;
 // Of scheme lattice: 2 x 17 moments, a change of the velocity, whose it is. Rows are padded, and each part of the
-// planes has three of populations.
+// planes has three of populations, two rows wider at most.
 constexpr double bytes_of_lattice_cell = 160, bytes_of_populations = 3 * 27 * sizeof(float), work_of_lattice_cell = 25;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
@@ -151,9 +151,9 @@ Candidates candidates_at_start(const Model& model, double search_distance, bool 
 
 double bytes_of_lattice(const Eigen::Vector3d& cells, bool several_threads) {
     constexpr double group = 16, margins = 2 * 16, planes_of_part = 4;
-    const double plane = (std::ceil(cells.x() / group) * group + margins) * cells.y();
+    const double row = std::ceil(cells.x() / group) * group + margins;
     const double parts = several_threads ? std::max(1.0, cells.z() / planes_of_part) : 1;
-    return plane * (bytes_of_lattice_cell * cells.z() + bytes_of_populations * parts);
+    return row * (bytes_of_lattice_cell * cells.y() * cells.z() + bytes_of_populations * (cells.y() + 2) * parts);
 }
 
 /// What a variable of the environment says instead of `usual`.

@@ -80,7 +80,7 @@ private:
         if (needs_body_) end.frame.body = body_places_in_tank(model_.body, state_);
         if (end.instability) return end;
         end.laws = measure_laws(model_, state_);
-        end.work = solver_.muscle_work();
+        end.work = solver_.muscle_works();
         end.frame.touches_plane = scene_.stopping.plane_contact && touches_plane(model_, state_);
         return end;
     }

@@ -1,5 +1,7 @@
 #include "evaluation_run.h"
 
+#include <numeric>
+
 #include "conservation_errors.h"
 #include "natator/measure.h"
 
@@ -34,9 +36,10 @@ void EvaluationRun::start(const FrameEnd& start) {
 void EvaluationRun::add(const FrameEnd& end) {
     result_.instability = end.instability;
     if (result_.instability) return;
-    work_ = end.work;
+    work_ = end.work.empty() ? 0 : end.work.front();
     ++result_.frames;
-    result_.instability = laws_.look(end.laws, work_, result_.frames * scene_.time_step);
+    result_.instability =
+        laws_.look(end.laws, std::accumulate(end.work.begin(), end.work.end(), 0.0), result_.frames * scene_.time_step);
     if (result_.instability) return;
     if (const auto over = record_.add(end.frame)) result_.stopped = *over;
 }

@@ -16,7 +16,8 @@ namespace natator {
 struct FrameEnd {
     std::optional<Instability> instability{};  ///< what is not finite; then the rest means nothing
     physics::LawMeasures laws{};
-    double work = 0;  ///< of the muscles since the start (Solver::muscle_work), mass length^2/s^2
+    std::vector<double>
+        work{};  ///< of the muscles since the start by swimmer (Solver::muscle_works), mass length^2/s^2
     SwimRecord::Frame frame{};
 };
 
@@ -56,7 +57,7 @@ private:
     const Gait& gait_;
     LawWatch laws_;
     SwimRecord record_;
-    double work_ = 0;
+    double work_ = 0;  ///< of the swimmer's own muscles
     Evaluation result_;
 };
 

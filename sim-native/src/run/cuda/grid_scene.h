@@ -86,7 +86,7 @@ public:
         for (int k = 0; k < count; ++k)
             runs.emplace_back(scene_, group_.model, members[k].gait, laws_of(std::get<0>(starts[k])));
         needs_body_ = runs.front().needs_body();
-        work_.assign(count, 0);
+        work_.assign(count, std::vector<double>(group_.model.swimmers()));
         const HostTime begin_of_frames = std::chrono::steady_clock::now();
         run_frames(scene_, *this, runs);
         busy_.push_back({begin_of_frames, std::chrono::steady_clock::now()});
@@ -122,7 +122,7 @@ public:
         std::vector<FrameEnd> ends = ends_of(found);
         for (std::size_t k = 0; k < ends.size(); ++k) {
             ends[k].instability = instability_of(found[k], number * scene_.time_step, update_);
-            for (const double work : found[k].muscle_work) work_[k] += work;
+            for (std::size_t s = 0; s < found[k].muscle_work.size(); ++s) work_[k][s] += found[k].muscle_work[s];
             ends[k].work = work_[k];
             ends[k].frame.touches_plane = found[k].touches_plane;
         }
@@ -261,10 +261,10 @@ private:
     BatchTimes* times_;
     std::vector<Span> busy_;
     Runner runner_;
-    typename Runner::Update update_;  ///< of a frame
-    bool needs_body_ = false;         ///< see EvaluationRun
-    std::vector<double> work_;        ///< of the muscles, by member
-    std::map<int, LawWatch> laws_;    ///< by arrangement, see laws_of
+    typename Runner::Update update_;         ///< of a frame
+    bool needs_body_ = false;                ///< see EvaluationRun
+    std::vector<std::vector<double>> work_;  ///< of the muscles, by member and swimmer
+    std::map<int, LawWatch> laws_;           ///< by arrangement, see laws_of
     std::vector<bool> idle_;
     std::vector<std::shared_ptr<const SettledMember<Real>>> begins_;  ///< by State, where they began
 };

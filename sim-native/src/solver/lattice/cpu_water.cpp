@@ -20,6 +20,31 @@ int padded(int cells) {
     return (cells + margin - 1) / margin * margin;
 }
 
+/// Rows along y that are advanced at once: as many as leave what is between collision and streaming in a core's second
+/// cache. The two beside them collide again.
+int rows_at_once(int ny, int stride) {
+    constexpr long most = 400'000;  // bytes
+    const long row = 3L * physics::lattice_populations * stride * static_cast<long>(sizeof(float));
+    return static_cast<int>(std::clamp<long>(most / row - 2, std::min(ny, 4), ny));
+}
+
+/// A number of each cell. Arrays begin at other places of a page, by `skew` lines of a cache: the same cell of all of
+/// them would else be in the same few lines of a cache, which has not so many.
+class PerCell {
+public:
+    void assign(std::size_t cells, int skew) {
+        begin_ = static_cast<long>(skew) * margin;  // 16 numbers, 64 bytes
+        all_.assign(cells + static_cast<std::size_t>(begin_), 0);
+    }
+    float* data() { return all_.data() + begin_; }
+    float& operator[](long cell) { return all_[begin_ + cell]; }
+    const float& operator[](long cell) const { return all_[begin_ + cell]; }
+
+private:
+    cpu::AlignedVector<float> all_;
+    long begin_ = 0;
+};
+
 class CpuWater : public Water {
 public:
     CpuWater(const Box& box, int threads);
@@ -50,6 +75,13 @@ private:
                 for (int y = 0; y < cells_[1]; ++y) row(e, place(0, y, z));
     }
     long place(int x, int y, int z) const { return (static_cast<long>(z) * cells_[1] + y) * stride_ + margin + x; }
+    /// Whether some of a cell's neighbours are beyond an end; along y there are none in plane flow.
+    bool is_at_end(const int (&cell)[3]) const {
+        bool is = false;
+        for (int a = 0; a < 3; ++a)
+            is = is || (cells_[a] > 1 || a == 0 ? cell[a] == 0 || cell[a] == cells_[a] - 1 : !periodic_[a]);
+        return is;
+    }
     View view();
     void let_in(double step);
     void hold(const std::vector<Cube>& cubes);
@@ -62,7 +94,8 @@ private:
     static void add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int cells_[3], stride_;
-    Array now_[moments], next_[moments], change_[3];
+    PerCell now_[moments], next_[moments];
+    Array change_[3];
     std::vector<unsigned char> row_changes_;
     std::vector<int> owner_;  ///< by cell: the cube that held it in the last step, -1: none
     struct Owned {
@@ -81,6 +114,8 @@ private:
     std::vector<long> made_cells_;
     std::vector<Array> rooms_;
     cpu::ThreadTeam team_;
+    long beside_[physics::lattice_populations];  ///< from a cell to where each population streams to, but at ends
+    bool beyond_caches_;
     bool begun_ = false;  ///< else the water in bodies begins with their velocity
 };
 
@@ -90,8 +125,12 @@ CpuWater::CpuWater(const Box& box, int threads)
       stride_(padded(cells_[0]) + 2 * margin),
       team_(threads) {
     const auto size = static_cast<std::size_t>(stride_) * cells_[1] * cells_[2] + margin;
-    for (Array& array : now_) array.assign(size, 0);
-    for (Array& array : next_) array.assign(size, 0);
+    for (int i = 0; i < physics::lattice_populations; ++i)
+        beside_[i] = i % 3 - 1 +
+                     stride_ * ((cells_[1] > 1 ? i / 3 % 3 - 1 : 0) +
+                                static_cast<long>(cells_[1]) * (cells_[2] > 1 ? i / 9 - 1 : 0));
+    beyond_caches_ = 2 * moments * sizeof(float) * size > std::size_t{32} << 20;
+    for (int e = 0; e < moments; ++e) now_[e].assign(size, e), next_[e].assign(size, e);
     for (Array& array : change_) array.assign(size, 0);
     row_changes_.assign(static_cast<std::size_t>(cells_[1]) * cells_[2], 0);
     owner_.assign(size, -1);
@@ -101,7 +140,11 @@ CpuWater::CpuWater(const Box& box, int threads)
 }
 
 View CpuWater::view() {
-    View view{cells_[0], cells_[1], cells_[2], stride_, {}, {}, {}, {}, {}, {}, row_changes_.data(), {}};
+    View view{};
+    view.nx = cells_[0], view.ny = cells_[1], view.nz = cells_[2], view.stride = stride_;
+    view.rows = rows_at_once(cells_[1], stride_);
+    view.beyond_caches = beyond_caches_;
+    view.row_changes = row_changes_.data();
     for (int a = 0; a < 3; ++a)
         for (int end = 0; end < 2; ++end) {
             view.bounces[a][end] = box_.faces[a][end] == Face::no_slip;
@@ -248,7 +291,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
-    const std::size_t room = std::size_t{3} * physics::lattice_populations * cells_[1] * stride_ + 2 * margin;
+    const std::size_t room = std::size_t{3} * physics::lattice_populations * (lattice.rows + 2) * stride_ + 2 * margin;
     team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
         Array& own = rooms_[static_cast<std::size_t>(part)];
         if (own.empty()) own.assign(room, 0);
@@ -283,16 +326,22 @@ void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& p
         double j[3] = {};
         const int here[3] = {held.x, held.y, held.z};
         const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};
+        const bool at_end = is_at_end(here);
         bool any = false;
+        float moving[physics::lattice_populations];
         for (int i = 0; i < physics::lattice_populations; ++i) {
-            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             const int opposite = physics::lattice_populations - 1 - i;
-            int from[3];
-            if (!neighbour(opposite, here, cells_, periodic_, from)) continue;
-            const long source = place(from[0], from[1], from[2]);
+            long source = held.cell + beside_[opposite];
+            if (at_end) {
+                int from[3];
+                if (!neighbour(opposite, here, cells_, periodic_, from)) continue;
+                source = place(from[0], from[1], from[2]);
+            }
             if (chosen_[source] >= 0) continue;
-            const float in = after_collision(source, rates).of[i] - physics::moving_population(i, u);
-            const float out = after_collision(held.cell, rates).of[opposite] - physics::moving_population(opposite, u);
+            if (!any) physics::moving_populations(u, moving);
+            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            const float in = after_collision(source, rates).of[i] - moving[i];
+            const float out = after_collision(held.cell, rates).of[opposite] - moving[opposite];
             for (int a = 0; a < 3; ++a)
                 j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
             any = true;
@@ -309,8 +358,8 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
     const auto inside = [&](const Eigen::Vector3i& c) {
         return (c.array() >= 0).all() && (c.array() < size.array()).all();
     };
-    for (Array& array : now_) {
-        const Array old = array;
+    for (PerCell& array : now_) {
+        const PerCell old = array;
         for (int z = 0; z < cells_[2]; ++z)
             for (int y = 0; y < cells_[1]; ++y)
                 for (int x = 0; x < cells_[0]; ++x) {

@@ -125,7 +125,8 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places,
         shape = completed(shape, missing_[p], spacing / 2) / box.cell;
         const Eigen::Vector3d middle = middle_of(places[p], box);
         Cube& cube = cubes[p];
-        const bool crushed = !(shape.determinant() > min_volume * std::pow(spacing / 2 / box.cell, 3));
+        const double half = spacing / 2 / box.cell;
+        const bool crushed = !(shape.determinant() > min_volume * half * half * half);
         if (!crushed) store(shape.inverse(), cube.to_rest);
         store(rate * per_step, cube.rate);
         for (int a = 0; a < 3; ++a) {

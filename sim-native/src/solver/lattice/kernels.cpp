@@ -1,6 +1,9 @@
 // Compiled once per instruction set, like ../cpu/fluid_kernels.cpp and by the same rules. physics/lattice.h has the
 // formulas.
 #include "kernels.h"
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
 
 namespace natator::lattice::NATATOR_ISA {
 namespace {
@@ -8,6 +11,23 @@ namespace {
 using namespace physics;
 
 constexpr int populations = lattice_populations, moments = lattice_moments;
+
+/// Stores past the caches.
+void stream(float* to, const Floats& value) {
+#if defined(__AVX512F__)
+    _mm512_stream_ps(to, reinterpret_cast<const __m512&>(value));
+#elif defined(__AVX2__)
+    _mm256_stream_ps(to, reinterpret_cast<const __m256&>(value));
+#else
+    __builtin_memcpy(to, &value, sizeof value);
+#endif
+}
+/// Waits until all have seen what was streamed.
+void end_streams() {
+#if defined(__AVX2__)
+    _mm_sfence();
+#endif
+}
 
 int at(int cx, int cy, int cz) {
     return (cx + 1) + 3 * (cy + 1) + 9 * (cz + 1);
@@ -21,33 +41,42 @@ long first_of(const View& view, int y, int z) {
     return (static_cast<long>(z) * view.ny + y) * view.stride + margin;
 }
 
-/// One part's planes of populations after collision, the last three. Across periodic ends z counts on.
+/// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y get theirs
+/// from. Across periodic ends z counts on, and so does y unless these are all rows.
 class Planes {
 public:
-    Planes(const View& view, const LatticeRates& rates, float* room) : view_(view), rates_(rates), room_(room) {}
+    Planes(const View& view, const LatticeRates& rates, int begin, int end, float* room)
+        : view_(view), rates_(rates), begin_(begin), end_(end), room_(room) {}
 
     template <bool eddies>
     void collide_plane(int z) const;
     void gather_plane(int z) const;
 
 private:
-    long size() const { return static_cast<long>(view_.ny) * view_.stride; }
-    float* plane(int z) const { return room_ + margin + (z + 3) % 3 * populations * size(); }
+    bool all_rows() const { return end_ - begin_ == view_.ny; }
+    long size() const { return static_cast<long>(end_ - begin_ + 2) * view_.stride; }
+    float* row(int y, int z) const {
+        return room_ + margin + (z + 3) % 3 * populations * size() + static_cast<long>(y - begin_ + 1) * view_.stride +
+               margin;
+    }
     const float* source(int i, int y, int z) const;
 
     const View& view_;
     const LatticeRates& rates_;
+    int begin_, end_;
     float* room_;
 };
 
 template <bool eddies>
 void Planes::collide_plane(int z) const {
     const long size_of_one = size();
-    const int inside = (z + view_.nz) % view_.nz;
-    for (int y = 0; y < view_.ny; ++y) {
-        const long row = first_of(view_, y, inside);
-        float* to = plane(z) + static_cast<long>(y) * view_.stride + margin;
-        const bool changes = view_.row_changes[static_cast<long>(inside) * view_.ny + y] != 0;
+    const int inside = (z + view_.nz) % view_.nz, more = all_rows() ? 0 : 1;
+    for (int y = begin_ - more; y < end_ + more; ++y) {
+        if ((y < 0 || y >= view_.ny) && !periodic(view_, 1)) continue;
+        const int y_inside = (y + view_.ny) % view_.ny;
+        const long row = first_of(view_, y_inside, inside);
+        float* to = this->row(y, z);
+        const bool changes = view_.row_changes[static_cast<long>(inside) * view_.ny + y_inside] != 0;
         for (int x = 0; x < view_.nx; x += width) {
             Floats m[moments];
             for (int e = 0; e < moments; ++e) m[e] = load_unaligned(view_.now[e] + row + x);
@@ -78,7 +107,7 @@ const float* Planes::source(int i, int y, int z) const {
             comes_in = true;
         else if (view_.mirrors[axis][end])
             from = here, d = -d;
-        else if (axis == 1)
+        else if (axis == 1 && all_rows())
             from = (from + n) % n;
     };
     meet(1, view_.ny, y, from_y, dy);
@@ -86,10 +115,10 @@ const float* Planes::source(int i, int y, int z) const {
         from_z = z;  // plane flow
     else
         meet(2, view_.nz, z, from_z, dz);
-    float* const opposite = plane(z) + (populations - 1 - i) * size() + static_cast<long>(y) * view_.stride + margin;
+    float* const opposite = row(y, z) + (populations - 1 - i) * size();
     if (bounced) return opposite;
     if (comes_in) return view_.inflow[i];
-    float* const base = plane(from_z) + static_cast<long>(from_y) * view_.stride + margin;
+    float* const base = row(from_y, from_z);
     float* const from = base + at(cx, dy, dz) * size();
     if (cx == 0) return from;
     const int end = cx > 0 ? 0 : 1, inside = end == 0 ? 0 : view_.nx - 1, outside = inside - cx;
@@ -101,7 +130,7 @@ const float* Planes::source(int i, int y, int z) const {
 }
 
 void Planes::gather_plane(int z) const {
-    for (int y = 0; y < view_.ny; ++y) {
+    for (int y = begin_; y < end_; ++y) {
         const float* from[populations];
         for (int i = 0; i < populations; ++i) from[i] = source(i, y, z);
         const long row = first_of(view_, y, z);
@@ -109,25 +138,31 @@ void Planes::gather_plane(int z) const {
             Floats f[populations], m[moments];
             for (int i = 0; i < populations; ++i) f[i] = load_unaligned(from[i] + x);
             moments_of(f, m);
-            for (int e = 0; e < moments; ++e) __builtin_memcpy(view_.next[e] + row + x, &m[e], sizeof m[e]);
+            for (int lane = view_.nx - x; lane < width; ++lane)  // beyond the row's end
+                for (int e = 0; e < moments; ++e) m[e][lane] = 0;
+            if (view_.beyond_caches)
+                for (int e = 0; e < moments; ++e) stream(view_.next[e] + row + x, m[e]);
+            else
+                for (int e = 0; e < moments; ++e) __builtin_memcpy(view_.next[e] + row + x, &m[e], sizeof m[e]);
         }
-        for (int e = 0; e < moments; ++e)
-            for (long x = view_.nx; x < view_.stride - 2 * margin; ++x) view_.next[e][row + x] = 0;
     }
 }
 
 template <bool eddies>
 void advance_with(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
-    Planes planes(view, rates, room);
-    const auto collide_at = [&](int z) {
-        if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane<eddies>(z);
-    };
-    collide_at(begin - 1);
-    collide_at(begin);
-    for (int z = begin; z < end; ++z) {
-        collide_at(z + 1);
-        planes.gather_plane(z);
+    for (int y = 0; y < view.ny; y += view.rows) {
+        const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, room);
+        const auto collide_at = [&](int z) {
+            if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane<eddies>(z);
+        };
+        collide_at(begin - 1);
+        collide_at(begin);
+        for (int z = begin; z < end; ++z) {
+            collide_at(z + 1);
+            planes.gather_plane(z);
+        }
     }
+    end_streams();
 }
 
 void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {

@@ -34,7 +34,7 @@ Populations Water::inflow(double step) const {
     const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
     const float u[3] = {current.x(), current.y(), current.z()};
     Populations populations;
-    for (int i = 0; i < physics::lattice_populations; ++i) populations.of[i] = physics::moving_population(i, u);
+    physics::moving_populations(u, populations.of);
     return populations;
 }
 
