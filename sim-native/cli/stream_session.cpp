@@ -20,11 +20,21 @@ using nlohmann::ordered_json;
 template <class Real>
 StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
                                    const StreamSettings& settings)
-    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
+    : settings_(settings),
+      simulation_(setup, execution),
+      pace_(settings.rate),
+      running_(!settings.paused),
+      policy_(settings.policy) {
+    if (!policy_) return;
+    policy_->check(simulation_.model());
+    sensing_.target = policy_->target();
+    if (policy_->gait()) simulation_.set_gait(*policy_->gait());
+}
 
 template <class Real>
 void StreamSession<Real>::go_on() {
     pace_.begin_frame(simulation_.scene().time_step);
+    drive_by_policy();
     if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
 }
 
@@ -134,6 +144,7 @@ void StreamSession<Real>::begin_step(const stream::Step& step) {
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
     if (due_) drop_frame();
     running_ = false;
+    if (!step.steer.empty()) policy_.reset();
     if (step.steer.size() == 1) simulation_.steer(steering_of(step.steer.front()));
     under_way_ = {.step = &step};
 }
@@ -144,7 +155,13 @@ bool StreamSession<Real>::steer_next_frame() {
     const auto& [step, frames, stable] = under_way_;
     if (!step || !stable || frames == static_cast<std::size_t>(step->frames) || at_end()) return false;
     if (step->steer.size() > 1) simulation_.steer(steering_of(step->steer[frames]));
+    drive_by_policy();
     return true;
+}
+
+template <class Real>
+void StreamSession<Real>::drive_by_policy() {
+    if (policy_) simulation_.steer(policy_->next(simulation_, sensing_.target));
 }
 
 template <class Real>
@@ -184,6 +201,7 @@ Steering StreamSession<Real>::steering_of(const stream::Steer& steer) const {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Steer& steer) {
     simulation_.steer(steering_of(steer));
+    policy_.reset();
 }
 
 template <class Real>
@@ -240,6 +258,7 @@ void StreamSession<Real>::apply(const stream::Reset& reset) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewGait& gait) {
     simulation_.set_gait(gait.gait);
+    if (std::exchange(policy_, {})) simulation_.steer(no_steering(simulation_.model().actuators));
     scene_changed(false);
 }
 
@@ -247,6 +266,14 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
     const bool restarted = simulation_.merge_overrides(overrides.patch.dump());
     if (restarted) forget_senses();
+    if (restarted && policy_) {
+        try {
+            policy_->check(simulation_.model());
+            sensing_.target = policy_->target();
+        } catch (const InputError&) {
+            policy_.reset();  // another body
+        }
+    }
     scene_changed(restarted);
 }
 
@@ -255,6 +282,7 @@ void StreamSession<Real>::apply(const stream::NewScene& scene) {
     SimulationSetup setup = scene.setup;
     setup.until = settings_.until;
     simulation_.load(setup);
+    policy_.reset();
     forget_senses();
     scene_changed(true);
 }
@@ -273,6 +301,7 @@ void StreamSession<Real>::scene_changed(bool restarted) {
     say(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
     last_scene_ = std::move(body);
     if (!restarted) return;
+    if (policy_) policy_->restart();
     due_ = !simulation_.instability();
     dropped_ = 0;
     wall_seconds_ = 0;
