@@ -46,7 +46,8 @@ Policy::Policy(const std::string& path) {
     const fields::Place top{"--policy " + path, ""}, place = top.key("environment");
     fields::check_keys(all, top, {"environment", "layers"});
     const json &environment = fields::required(all, top, "environment"), &layers = fields::required(all, top, "layers");
-    if (fields::read_choice<bool>(fields::required(environment, place, "actions"), place.key("actions"), {{"drive", false}, {"gait", true}}))
+    if (fields::read_choice<bool>(fields::required(environment, place, "actions"), place.key("actions"),
+                                  {{"drive", false}, {"gait", true}}))
         gait_ = read_gait(fields::required(environment, place, "gait"), place.key("gait"));
     fields::read(fields::required(environment, place, "frames"), place.key("frames"), {1, 1000}, frames_);
     const json& flow = fields::required(environment, place, "flow");
@@ -70,8 +71,10 @@ Policy::Policy(const std::string& path) {
         const fields::Place at = top.key("layers").item(i);
         fields::check_keys(layers[i], at, {"weights", "bias"});
         const Eigen::MatrixXd weights = read_matrix(fields::required(layers[i], at, "weights"), at.key("weights"));
-        const Eigen::MatrixXd bias = read_matrix(json::array({fields::required(layers[i], at, "bias")}), at.key("bias"));
-        if (bias.cols() != weights.cols()) fields::refuse(at.key("bias"), "must have a number for each column of weights");
+        const Eigen::MatrixXd bias =
+            read_matrix(json::array({fields::required(layers[i], at, "bias")}), at.key("bias"));
+        if (bias.cols() != weights.cols())
+            fields::refuse(at.key("bias"), "must have a number for each column of weights");
         if (i > 0 && weights.rows() != layers_.back().bias.size())
             fields::refuse(at.key("weights"), "must have a row for each output of the layer before");
         layers_.push_back({weights.transpose(), bias.transpose()});
@@ -135,7 +138,8 @@ Steering Policy::next(const Simulation<Real>& simulation, std::optional<Eigen::V
         Senses senses = sense(model, simulation.state(), sensing_);
         if (senses.target && senses.target_distance <= reached_ * model.body.length) {
             for (int axis = 0; axis < 3; ++axis)
-                (*sensing_.target)[axis] = low_[axis] + (high_[axis] - low_[axis]) * static_cast<double>(random_()) / std::mt19937::max();
+                (*sensing_.target)[axis] =
+                    low_[axis] + (high_[axis] - low_[axis]) * static_cast<double>(random_()) / std::mt19937::max();
             target = sensing_.target;
             senses = sense(model, simulation.state(), sensing_);
         }

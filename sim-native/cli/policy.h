@@ -12,8 +12,8 @@
 
 namespace natator::cli {
 
-/// A network that was learned (sim-native/python/natator/policy.py): from what a swimmer senses to its next action, in a
-/// closed loop. It acts every few frames, which the muscles follow linearly: by drives of the actuators, or by scales
+/// A network that was learned (sim-native/python/natator/policy.py): from what a swimmer senses to its next action, in
+/// a closed loop. It acts every few frames, which the muscles follow linearly: by drives of the actuators, or by scales
 /// and offsets of a gait.
 class Policy {
 public:

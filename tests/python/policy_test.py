@@ -1,6 +1,7 @@
 """Policies that were learned: their file, and the closed loop of natator-sim stream --policy."""
 
 import json
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -56,6 +57,27 @@ class PolicyTest(unittest.TestCase):
             self.assertEqual(*swims)
             stream.step(3, drive=[0.25, 0])
             self.assertEqual(stream.step(3).drive.tolist(), [0.25, 0])
+
+    def test_it_drives_a_stream_that_runs_and_a_film(self):
+        with SwimmerEnv(**SCENE, **KINDS[1]) as env:
+            self.save(SCENE | KINDS[1], env.observation_space.shape[0], 4)
+        options = {"overrides": SCENE["overrides"], "duration": 0.2}
+        stepped = natator.record(SCENE["scene"], fields=("position",), arguments=["--policy", str(self.file)], **options)
+        film = natator.swim(SCENE["scene"], policy=self.file, **options).trajectory
+        np.testing.assert_array_equal(film.position, stepped.position[::2])
+        command = [simulator_path(None), "stream", SCENE["scene"], "--policy", self.file, "--overrides", json.dumps(SCENE["overrides"]),
+                   "--fields", "none", "--rate", "0", "--until", "0.2", "--lossless"]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as program:
+            program.stdin.write(b'{"do":"credit","frames":100}\n')
+            program.stdin.flush()
+            told, drives = program.stdout.read(), []
+        while told:
+            size, = struct.unpack_from("<I", told, 4)
+            if told.startswith(b"FRAM"):
+                drives.append(struct.unpack_from("<2f", told, 8 + 72))
+            told = told[8 + size:]
+        np.testing.assert_array_equal(drives, stepped.drive)
+        self.assertGreater(np.ptp(stepped.drive), 0.05)
 
     def test_what_is_no_policy_is_refused_in_a_line(self):
         good = {"environment": SCENE | KINDS[0], "layers": [{"weights": [[0, 0]] * 19, "bias": [0, 0]}]}
