@@ -34,10 +34,10 @@ class LearnTest(unittest.TestCase):
 
     def test_it_swims_what_it_has_learned(self):
         with tempfile.TemporaryDirectory() as folder:
-            told = [self.run_in(folder, "turn", "--check", check) for check in ("{}", '{"solver": {"substeps": 12}}', "{}")]
-            self.assertTrue(told[0][0].startswith("turn, overrides {}: "), told)
-            self.assertNotEqual(*(lines[0].split(": ")[-1] for lines in told[:2]))  # other steps, other swims
-            self.assertEqual(told[0], told[2], "what is learned swims again with the same bits")
+            told = [self.run_in(folder, "turn", "--check", '{"solver": {"substeps": 12}}') for _ in range(2)]
+            self.assertEqual([line.split(": ")[0] for line in told[0]], ["turn, overrides {}", "turn, overrides {'solver'"])
+            self.assertNotEqual(*(line.split(": ")[-1] for line in told[0]))  # other steps, other swims
+            self.assertEqual(*told, "what is learned swims again with the same bits")
 
 
 if __name__ == "__main__":

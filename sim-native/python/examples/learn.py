@@ -20,14 +20,13 @@ from natator.gym import SwimmerVectorEnv
 from natator.policy import Policy, save
 
 GAIT = {"frequency": 2, "amplitude": [0.4, 0.35, 0.3, 0.25, 0.2], "phase": [0, 0.902, 0.804, 0.706, 0.608]}  # sim-native/examples/gaits/loach.json
-TASKS = {"ahead": {},
-         "turn": {"target": [[2.4, 0.01, -1.2], [3.9, 0.01, 2.8]], "reached": 0.25},
+TASKS = {"ahead": {}, "turn": {"target": [[2.4, 0.01, -1.2], [3.9, 0.01, 2.8]], "reached": 0.25},
          "station": {"target": [[2.2, 0.01, 0.6], [2.6, 0.01, 1]], "reached": 0, "overrides": {"movingTank": {"current": [-0.4, 0, 0]}}}}
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 parser.add_argument("folder", help="gets policy.json and curve.csv; a policy that is there is swum, not learned again")
 parser.add_argument("task", nargs="?", choices=TASKS, default="ahead", help="ahead along x; to targets in a box; or to stay at one in a current")
 for name, kind, default, text in (
-        ("env", json.loads, {}, "arguments of SwimmerVectorEnv, over those of the task"), ("check", json.loads, {}, "overrides to swim with in the end"),
+        ("env", json.loads, {}, "arguments of SwimmerVectorEnv, over those of the task"), ("check", json.loads, {}, "overrides to swim with at last, too"),
         ("num-envs", int, 64, "at a time"), ("steps", int, 1500, "of each; Ctrl-C ends it before"), ("rollouts", int, 8, "steps between updates"),
         ("seed", int, 1, "of all"), ("log-std", float, -0.5, "logarithm of the actions' standard deviation at first"),
         ("fall", float, 0, "taken off the reward where a swim becomes unstable, body lengths"), ("backend", str, "auto", "cpu, cuda or auto")):
@@ -97,5 +96,6 @@ def learn():
 
 if not os.path.exists(f"{options.folder}/policy.json"):
     learn()
-returns = Policy(f"{options.folder}/policy.json").swims(range(1000, 1016), range(500, 516), options.check, options.backend)["return"]
-print(f"{options.task}, overrides {options.check}: {returns.mean():.4g} body lengths, standard deviation {returns.std(ddof=1):.2g}, {len(returns)} new starts")
+for overrides in [{}, options.check][:1 + bool(options.check)]:
+    returns = Policy(f"{options.folder}/policy.json").swims(range(1000, 1016), range(500, 516), overrides, options.backend)["return"]
+    print(f"{options.task}, overrides {overrides}: {returns.mean():.4g} body lengths, standard deviation {returns.std(ddof=1):.2g}, {len(returns)} new starts")
