@@ -132,8 +132,8 @@ def make(folder):
         return list(dict.fromkeys(row["swimmer"] for row in swum if row["task"] == task))
 
     turn = study.table(["to a target", "reached, of 16", "s, those", "at half the time step", "s, those"], [
-        [NAMES[name], *(text for level in LEVELS for text in (str(there(name, level)), cell(of("turn", name, level, "time", lambda row: float(row["reached"])))))]
-        for name in told("turn")])
+        [NAMES[name], *(text for level in LEVELS for text in (
+            str(there(name, level)), cell(of("turn", name, level, "time", lambda row: float(row["reached"])))))] for name in told("turn")])
     station = study.table(["in a current of 0.4", "body lengths away", "at half the time step"], [
         [NAMES[name], *(cell(of("station", name, level, "away")) for level in LEVELS)] for name in told("station")])
     ahead = study.table(["ahead", "body lengths/s", "at half the time step"], [
@@ -141,14 +141,15 @@ def make(folder):
     trainings = study.table(["task", "steps of 0.1 s", "s", "steps/s"], [
         [row["task"], row["steps"], row["seconds"], f"{int(row['steps']) / int(row['seconds']):.0f}"] for row in rows("trainings.csv")])
     speeds = [statistics.fmean(of("ahead", name, "scene", "return")) / 4 for name in ("ahead-1", "evolved")]
-    answer = (f"**In about a minute PPO learns to turn: it reaches {there('turn-1', 'scene')} of 16 targets, {there('turn-1', 'step')} at half the time step, and "
-              f"stays within {statistics.fmean(of('station', 'station-1', 'scene', 'away')):.2f} body lengths of a station in a current, where a resting body is "
-              f"{statistics.fmean(of('station', 'rest', 'scene', 'away')):.2f} away; but a rule that bends the evolved gait reaches {there('steered-0.4', 'scene')} sooner, "
-              f"and ahead that gait makes {speeds[1]:.2f} body lengths/s, what is learned {speeds[0]:.2f}.**\n")
+    away = [statistics.fmean(of("station", name, "scene", "away")) for name in ("station-1", "rest")]
+    answer = (f"**In about a minute PPO learns to turn: it reaches {there('turn-1', 'scene')} of 16 targets, {there('turn-1', 'step')} at half the time "
+              f"step, and stays within {away[0]:.2f} body lengths of a station in a current, where a resting body is {away[1]:.2f} away; but a rule that "
+              f"bends the evolved gait reaches {there('steered-0.4', 'scene')} sooner, and ahead that gait makes {speeds[1]:.2f} body lengths/s, what is "
+              f"learned {speeds[0]:.2f}.**\n")
     curves(folder)
     paths(folder)
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, turn=turn, station=station, ahead=ahead, trainings=trainings),
-                                      encoding="utf-8")
+    page = study.filled(HERE / "README.md", answer=answer, turn=turn, station=station, ahead=ahead, trainings=trainings)
+    (folder / "README.md").write_text(page, encoding="utf-8")
 
 
 study.main(make, run)

@@ -88,7 +88,8 @@ class PolicyTest(unittest.TestCase):
                             ({"environment": good["environment"] | {"actions": "swim"}}, "environment.actions = \"swim\": must be \"drive\" or \"gait\"")):
             with self.subTest(why):
                 self.file.write_text(json.dumps(good | change))
-                done = subprocess.run([simulator_path(None), "stream", SCENE["scene"], "--policy", self.file], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+                done = subprocess.run([simulator_path(None), "stream", SCENE["scene"], "--policy", self.file], capture_output=True, text=True,
+                                      stdin=subprocess.DEVNULL)
                 self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
                 self.assertIn(why, done.stderr)
         for text in ("no json", '{"layers": []}', '{"environment": {}, "layers": [{"weights": [[1]]}]}'):

@@ -14,6 +14,8 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse.BodyHandlers;
 import java.net.http.WebSocket;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -112,7 +114,7 @@ class ViewCommandTest extends CommandTest {
                 .contains("expected a named scene or one that the server was started with");
     }
 
-    /** A network without weights, which leaves its gait; in no scene but its own. */
+    /** A network without weights, which stops the beat and bends; in no scene but its own. */
     @Test
     void aPolicySwimsInItsScene() throws IOException, InterruptedException {
         Path policy = policy(15);
@@ -123,7 +125,30 @@ class ViewCommandTest extends CommandTest {
         assertThat(shown.get("scene").textValue()).isEqualTo("bench/small-tank");
         assertThat(shown.get("overrides").toString()).isEqualTo("{\"solver\":{\"substeps\":3}}");
         assertThat(watch(server, "bench/small-tank")).startsWith("{\"type\":\"SCEN\"").contains("\"frequency\":1.25");
+        assertThat(driven(server, "bench/small-tank")).containsExactly(0.25f, -0.25f);
         assertThat(watch(server, "thesis/creature-1")).startsWith("{\"type\":\"SCEN\"").doesNotContain("1.25");
+    }
+
+    /** How the two actuators are driven after six frames. */
+    private static List<Float> driven(URI server, String scene) {
+        CompletableFuture<List<Float>> heard = new CompletableFuture<>();
+        WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
+                .header("Origin", "http://" + server.getAuthority())
+                .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
+                    @Override
+                    public CompletionStage<?> onBinary(WebSocket one, ByteBuffer data, boolean last) {
+                        ByteBuffer frame = data.order(ByteOrder.LITTLE_ENDIAN);
+                        if (frame.remaining() >= 80 && frame.getInt(frame.position() + 4) == 6) {
+                            heard.complete(List.of(frame.getFloat(frame.position() + 72),
+                                    frame.getFloat(frame.position() + 76)));
+                        }
+                        one.request(1);
+                        return null;
+                    }
+                }).join();
+        socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
+        socket.sendText("{\"do\":\"credit\",\"frames\":100}", true).join();
+        return heard.orTimeout(5, TimeUnit.MINUTES).join();
     }
 
     /** With so many inputs, for two actuators. */
@@ -132,7 +157,7 @@ class ViewCommandTest extends CommandTest {
         return Files.writeString(folder.resolve("policy.json"),
                 "{\"environment\":{\"scene\":\"bench/small-tank\",\"overrides\":{\"solver\":{\"substeps\":3}},\"actions\":\"gait\","
                         + "\"gait\":{\"frequency\":1.25,\"amplitude\":[0.5,0.5],\"phase\":[0,0.5]},\"frames\":3,\"flow\":[],"
-                        + "\"target\":null},\"layers\":[{\"weights\":[" + rows + "],\"bias\":[1,1,0,0]}]}");
+                        + "\"target\":null},\"layers\":[{\"weights\":[" + rows + "],\"bias\":[-1,-1,0.5,-0.5]}]}");
     }
 
     @Test
