@@ -76,7 +76,7 @@ def interval(values):
 
 
 def cell(values):
-    return "" if len(values) < 2 else "{:.2f} ± {:.2f}".format(*interval(values))
+    return "" if len(values) < 2 else study.with_error(*interval(values), 2)
 
 
 def curves(folder):
@@ -140,12 +140,14 @@ def make(folder):
         [NAMES[name], *(cell([one / 4 for one in of("ahead", name, level, "return")]) for level in LEVELS)] for name in told("ahead")])
     trainings = study.table(["task", "steps of 0.1 s", "s", "steps/s"], [
         [row["task"], row["steps"], row["seconds"], f"{int(row['steps']) / int(row['seconds']):.0f}"] for row in rows("trainings.csv")])
-    speeds = [statistics.fmean(of("ahead", name, "scene", "return")) / 4 for name in ("ahead-1", "evolved")]
-    away = [statistics.fmean(of("station", name, "scene", "away")) for name in ("station-1", "rest")]
-    answer = (f"**In about a minute PPO learns to turn: it reaches {there('turn-1', 'scene')} of 16 targets, {there('turn-1', 'step')} at half the time "
-              f"step, and stays within {away[0]:.2f} body lengths of a station in a current, where a resting body is {away[1]:.2f} away; but a rule that "
-              f"bends the evolved gait reaches {there('steered-0.4', 'scene')} sooner, and ahead that gait makes {speeds[1]:.2f} body lengths/s, what is "
-              f"learned {speeds[0]:.2f}.**\n")
+    def both(task, name, key, part=1):
+        """A mean, and that at half the time step."""
+        return "{:.2f} ({:.2f} at half the time step)".format(*(statistics.fmean(of(task, name, level, key)) / part for level in LEVELS))
+    rest, gait = statistics.fmean(of("station", "rest", "scene", "away")), statistics.fmean(of("ahead", "evolved", "scene", "return")) / 4
+    answer = (f"**In about a minute PPO learns to reach {there('turn-1', 'scene')} of 16 targets ({there('turn-1', 'step')} at half the time step) and to "
+              f"stay within {both('station', 'station-1', 'away')} body lengths of a station in a current, where a resting body is {rest:.2f} away; "
+              f"but a rule that bends the evolved gait reaches {there('steered-0.4', 'scene')}, sooner, and ahead that gait makes {gait:.2f} body "
+              f"lengths/s, what is learned {both('ahead', 'ahead-1', 'return', 4)}.**\n")
     curves(folder)
     paths(folder)
     page = study.filled(HERE / "README.md", answer=answer, turn=turn, station=station, ahead=ahead, trainings=trainings)
