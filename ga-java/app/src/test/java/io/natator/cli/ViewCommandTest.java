@@ -162,9 +162,13 @@ class ViewCommandTest extends CommandTest {
 
     @Test
     void aPolicyOfAnotherBodyIsRefused() throws IOException {
-        refused(natator("view --no-browser --port 0 --policy", policy(14).toString()))
-                .isEqualTo(
-                        "natator view: natator-sim: --policy: has 14 inputs and 4 outputs; must have 15 and 4 for this body\n");
+        for (String command : List.of("view --no-browser --port 0",
+                "page bench/small-tank --duration 0.1 --output " + folder.resolve("page.html"))) {
+            refused(natator(command + " --policy", policy(14).toString()))
+                    .isEqualTo("natator " + command.split(" ")[0]
+                            + ": natator-sim: --policy: has 14 inputs and 4 outputs; "
+                            + "must have 15 and 4 for this body\n");
+        }
         refused(natator("view --no-browser --port 0 --creature 1 --policy", policy(15).toString()))
                 .isEqualTo(
                         "natator view: --policy has its own scene and gait; expected no --scene, --creature or --gait\n");
