@@ -51,6 +51,7 @@ Policy::Policy(const std::string& path) {
         gait_ = read_gait(fields::required(environment, place, "gait"), place.key("gait"));
     fields::read(fields::required(environment, place, "frames"), place.key("frames"), {1, 1000}, frames_);
     const json& flow = fields::required(environment, place, "flow");
+    if (!flow.is_array()) fields::refuse(place.key("flow"), flow, "a list of slices and sides");
     for (std::size_t i = 0; i < flow.size(); ++i) {
         const fields::Place at = place.key("flow").item(i);
         if (!flow[i].is_array() || flow[i].size() != 2) fields::refuse(at, flow[i], "a slice and a side");

@@ -85,6 +85,7 @@ class PolicyTest(unittest.TestCase):
                             ({"layers": [{"weights": [[0, 0]] * 19, "bias": [0]}]}, "layers[0].bias: must have a number for each column of weights"),
                             ({"layers": [{"weights": [[0, 0]] * 18, "bias": [0, 0]}]},
                              "--policy: has 18 inputs and 2 outputs; must have 19 and 2 for this body"),
+                            ({"environment": good["environment"] | {"flow": 3}}, "environment.flow = 3: must be a list of slices and sides"),
                             ({"environment": good["environment"] | {"actions": "swim"}}, "environment.actions = \"swim\": must be \"drive\" or \"gait\"")):
             with self.subTest(why):
                 self.file.write_text(json.dumps(good | change))
