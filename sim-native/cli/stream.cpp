@@ -25,7 +25,7 @@ struct StreamOptions {
     std::string precision = "float";
     std::vector<std::string> fields{"position"};
     std::optional<int> start;
-    std::string state;  ///< file
+    std::string state, policy;  ///< files
     int swims = 1;
     StreamSettings settings;
     BackendChoice backend;
@@ -93,6 +93,7 @@ int stream_scene(StreamOptions& options) {
         throw InputError("--rate = " + number_text(options.settings.rate) + ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
     options.settings.paused |= options.swims > 1;
+    if (!options.policy.empty()) options.settings.policy.emplace(options.policy);
     refuse_gpu_options_for_cpu(options.backend);
     precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options)
                                                                       : run_stream<float>(options);
@@ -111,6 +112,9 @@ void add_stream(CLI::App& app, int& status) {
     StreamSettings& settings = options->settings;
     command->add_option("scene", options->scene, "Name or path of the scene.")->required();
     command->add_option("--gait", options->gait, "File or JSON text. Default: muscles at rest.");
+    command->add_option(
+        "--policy", options->policy,
+        "File of a policy that was learned (natator.policy), which drives the swimmer in a closed loop.");
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     command->add_option("--scheme", options->scheme, "Update rule: flex, conserving or lattice. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")

@@ -37,13 +37,22 @@ std::vector<double> part_of(const std::vector<double>& values, const Model& mode
 template <class Real>
 StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution& execution,
                                    const StreamSettings& settings)
-    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {
+    : settings_(settings),
+      simulation_(setup, execution),
+      pace_(settings.rate),
+      running_(!settings.paused),
+      policy_(settings.policy) {
     forget_senses();
+    if (!policy_) return;
+    policy_->check(simulation_.model());
+    sensing_.front().target = policy_->target();
+    if (policy_->gait()) simulation_.set_gait(*policy_->gait());
 }
 
 template <class Real>
 void StreamSession<Real>::go_on() {
     pace_.begin_frame(simulation_.scene().time_step);
+    drive_by_policy();
     if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
 }
 
@@ -163,7 +172,13 @@ bool StreamSession<Real>::steer_next_frame() {
     const auto& [step, frames, stable] = under_way_;
     if (!step || !stable || frames == static_cast<std::size_t>(step->frames) || at_end()) return false;
     if (step->steer.size() > 1) apply(steered_by(step->steer[frames]));
+    drive_by_policy();
     return true;
+}
+
+template <class Real>
+void StreamSession<Real>::drive_by_policy() {
+    if (policy_) simulation_.steer(policy_->next(simulation_, sensing_.front().target));
 }
 
 template <class Real>
@@ -234,7 +249,10 @@ auto StreamSession<Real>::steered_by(const stream::Steer& steer, const std::stri
 
 template <class Real>
 void StreamSession<Real>::apply(const std::vector<Steered>& all) {
-    for (const Steered& one : all) simulation_.steer(one.steering, one.swimmer);
+    for (const Steered& one : all) {
+        simulation_.steer(one.steering, one.swimmer);
+        if (one.swimmer == 0) policy_.reset();
+    }
 }
 
 template <class Real>
@@ -299,6 +317,7 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::NewGait& gait) {
     simulation_.gait(gait.swimmer);  // it is there
     for_swimmer(gait.swimmer, gait.swimmer > 0, [&] { simulation_.set_gait(gait.gait, gait.swimmer); });
+    if (gait.swimmer == 0 && std::exchange(policy_, {})) simulation_.steer(no_steering(simulation_.model().actuators));
     scene_changed(false);
 }
 
@@ -306,6 +325,14 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
     const bool restarted = simulation_.merge_overrides(overrides.patch.dump());
     if (restarted) forget_senses();
+    if (restarted && policy_) {
+        try {
+            policy_->check(simulation_.model());
+            sensing_.front().target = policy_->target();
+        } catch (const InputError&) {
+            policy_.reset();  // another body
+        }
+    }
     scene_changed(restarted);
 }
 
@@ -314,6 +341,7 @@ void StreamSession<Real>::apply(const stream::NewScene& scene) {
     SimulationSetup setup = scene.setup;
     setup.until = settings_.until;
     simulation_.load(setup);
+    policy_.reset();
     forget_senses();
     scene_changed(true);
 }
@@ -346,6 +374,7 @@ void StreamSession<Real>::scene_changed(bool restarted) {
     say(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
     last_scene_ = std::move(body);
     if (!restarted) return;
+    if (policy_) policy_->restart();
     due_ = !simulation_.instability();
     dropped_ = 0;
     wall_seconds_ = 0;

@@ -7,6 +7,7 @@
 
 #include "natator/simulation.h"
 #include "pace.h"
+#include "policy.h"
 #include "protocol/stream.h"
 
 namespace natator::cli {
@@ -14,11 +15,12 @@ namespace natator::cli {
 /// How a scene is streamed.
 struct StreamSettings {
     stream::Fields fields;
-    int every = 1;                ///< frames of which one is offered
-    double rate = 1;              ///< simulated seconds per second of wall time, at most; 0 = as fast as possible
-    std::optional<double> until;  ///< s
-    bool lossless = false;        ///< waits for credit instead of dropping frames
-    bool paused = false;          ///< at first
+    int every = 1;                 ///< frames of which one is offered
+    double rate = 1;               ///< simulated seconds per second of wall time, at most; 0 = as fast as possible
+    std::optional<double> until;   ///< s
+    bool lossless = false;         ///< waits for credit instead of dropping frames
+    bool paused = false;           ///< at first
+    std::optional<Policy> policy;  ///< that drives the swimmer, until another gait, steering or scene
 };
 
 /// Runs a scene, carries out commands and says messages (sim-native/protocol/stream.md). One thread at a time.
@@ -85,6 +87,7 @@ private:
     void check(const stream::Step& step) const;
     void begin_step(const stream::Step& step);
     bool steer_next_frame();
+    void drive_by_policy();
     bool end_frame(bool stable, double wall_seconds);
     void end_step();
     /// Does something of the action that is under way, unless it has been refused.
@@ -108,6 +111,7 @@ private:
     Pace pace_;
     bool running_;
     std::vector<Sensing> sensing_;             ///< by swimmer
+    std::optional<Policy> policy_;             ///< that drives the first swimmer
     bool sense_each_ = false;                  ///< a SENS before every frame
     nlohmann::ordered_json answer_;            ///< of the command that is carried out
     std::shared_ptr<const std::string> held_;  ///< the last STAT, of either direction; null before it

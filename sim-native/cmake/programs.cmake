@@ -31,6 +31,7 @@ natator_program(natator-sim
     main.cpp
     output_file.cpp
     particles.cpp
+    policy.cpp
     run.cpp
     run_record.cpp
     serve.cpp
@@ -41,7 +42,7 @@ natator_program(natator-sim
 
 # The simulator of the page that natator page --live writes, with its data inside.
 if(EMSCRIPTEN)
-    add_executable(natator-live cli/live.cpp cli/stream_session.cpp)
+    add_executable(natator-live cli/live.cpp cli/policy.cpp cli/stream_session.cpp)
     target_link_libraries(natator-live PRIVATE natator nlohmann_json::nlohmann_json)
     target_compile_options(natator-live PRIVATE ${NATATOR_WARNINGS} ${NATATOR_PROGRAM_OPTIMISATION})
     target_include_directories(natator-live PRIVATE ${PROJECT_SOURCE_DIR}/sim-native/src)

@@ -24,20 +24,23 @@ BAR = 0.2  # body lengths
 GHOSTS = 4  # earlier places of the body that are drawn, too
 
 
-def swim(creature_or_scene, duration=2.0, gait=None, **options):
+def swim(creature_or_scene, duration=2.0, gait=None, policy=None, **options):
     """Simulates one swim and keeps it; it does not end early as an evaluation may.
 
     creature_or_scene: a creature, such as "eel" (in the scene pool/eel), a scene's name, or a path that ends in .json. duration: s, to
-    the nearest frame. gait: a Gait or a dict; None is the one that comes with the creature, else a wave from head to tail. options:
-    those of Stream. One swim is one start: evaluate several before you compare gaits. Returns a Swim. Raises InputError, ProgramError
-    and Unstable.
+    the nearest frame. gait: a Gait or a dict; None is the one that comes with the creature, else a wave from head to tail. policy: a
+    file of natator.policy, which drives in place of a gait. options: those of Stream. One swim is one start: evaluate several before you
+    compare gaits. Returns a Swim. Raises InputError, ProgramError and Unstable.
     """
     scene = scene_of(creature_or_scene)
+    if policy is not None:
+        options["arguments"] = [*options.get("arguments", ()), "--policy", os.fspath(policy)]
     with Stream(scene, fields=("position",), **options) as stream:
         if not stream.actuators:
             raise InputError(f'scene "{scene}": must have a creature with actuators')
-        gait = _own_gait(stream.scene, options.get("program")) if gait is None else gait
-        stream.set_gait(gait)
+        if policy is None:
+            gait = _own_gait(stream.scene, options.get("program")) if gait is None else gait
+            stream.set_gait(gait)
         step = stream.scene["timeStep"]
         steps = int(number("duration", duration) / step + 0.5)
         every = next(count for count in range(max(1, round(1 / PICTURES / step)), 0, -1) if steps % count == 0)

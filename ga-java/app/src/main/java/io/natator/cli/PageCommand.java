@@ -68,6 +68,11 @@ final class PageCommand implements Callable<Integer> {
     private Path gait;
 
     @Section(Topic.SCENE)
+    @Option(names = "--policy", paramLabel = "FILE",
+            description = "A policy that was learned, which drives all of them.")
+    private Path policy;
+
+    @Section(Topic.SCENE)
     @Option(names = "--best", paramLabel = "N", defaultValue = "1",
             description = "So many different gaits of each run, the best first. Default: ${DEFAULT-VALUE}.")
     private int best;
@@ -179,7 +184,8 @@ final class PageCommand implements Callable<Integer> {
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         StreamOptions options = StreamOptions.recording(swimmer.scene(), overrides, swimmer.gaitJson(),
                 swimmer.seconds(sceneOptions.duration(), overrides, simulator))
-                .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null);
+                .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null)
+                .withPolicy(policy);
         Replay swim = new ReplayRecorder(simulator).record(swimmer.name(), options);
         StreamFrame last = swim.frames().get(swim.frames().size() - 1);
         boolean asStored = swimmer.best() != null && sceneOptions.overrides() == null && sceneOptions.scheme() == null;

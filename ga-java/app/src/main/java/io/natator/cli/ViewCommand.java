@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
@@ -67,6 +68,12 @@ final class ViewCommand implements Callable<Integer> {
             + "Without a scene, its own is shown; of a chosen creature, that of its first run.")
     private List<Path> runs = List.of();
 
+    @Section(Topic.SCENE)
+    @Option(names = "--policy", paramLabel = "FILE",
+            description = "A policy that was learned, which drives the swimmer in "
+                    + "its own scene (sim-native/python/README.md).")
+    private Path policy;
+
     @Section(Topic.PAGE)
     @Option(names = "--port", paramLabel = "N", defaultValue = "" + ViewServer.DEFAULT_PORT,
             description = "Where to listen; 0 for any port that is free. Default: ${DEFAULT-VALUE}.")
@@ -91,10 +98,9 @@ final class ViewCommand implements Callable<Integer> {
         if (!runs.isEmpty()) {
             RejectRepeated.checkFolders("--run", runs);
         }
-        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
-        Path shown = shownRun();
-        ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),
-                ThesisGaits::in, runs);
+        ViewSettings settings = new ViewSettings(program, host, port,
+                policy == null ? start(program) : learned(program),
+                ThesisGaits::in, runs, policy);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
         ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> {
@@ -116,6 +122,24 @@ final class ViewCommand implements Callable<Integer> {
             shutdown.close();
         }
         return ExitCode.OK;
+    }
+
+    private InitialScene start(Path program) throws InterruptedException {
+        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
+        return start(scene, shownRun(), program);
+    }
+
+    /** The scene that a policy was learned in. */
+    private InitialScene learned(Path program) throws InterruptedException {
+        if (gait != null || choice.isGiven()) {
+            throw new InvalidInputException(
+                    "--policy has its own scene and gait; expected no --scene, --creature or --gait");
+        }
+        JsonNode environment = Json.read(policy, JsonNode.class, "--policy").path("environment");
+        InitialScene start = new InitialScene(environment.path("scene").asText(), InitialScene.patch(
+                MergePatch.both(environment.get("overrides"), sceneOptions.overrides()), sceneOptions.scheme()), null);
+        check(start, program);
+        return start;
     }
 
     /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
@@ -146,16 +170,19 @@ final class ViewCommand implements Callable<Integer> {
         boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
         InitialScene start = new InitialScene(scene, overrides, fits || given != null ? swimmer.gait() : null);
         if (given != null) {
-            checkGait(start, program);
+            check(start, program);
         }
         return start;
     }
 
     /** Before the page opens, where it would only be told that the simulator refuses it. */
-    private static void checkGait(InitialScene start, Path program) throws InterruptedException {
+    private void check(InitialScene start, Path program) throws InterruptedException {
         try {
             StreamProcess.check(program,
-                    StreamOptions.live(start.scene(), start.overrides(), Json.tree(start.gait()), true));
+                    StreamOptions
+                            .live(start.scene(), start.overrides(),
+                                    start.gait() == null ? null : Json.tree(start.gait()), true)
+                            .withPolicy(policy));
         } catch (IOException e) {
             throw new UncheckedIOException("scene " + start.scene() + " cannot be shown: " + e.getMessage(), e);
         }
@@ -183,7 +210,7 @@ final class ViewCommand implements Callable<Integer> {
                 scheme);
         InitialScene start = new InitialScene(run.problem().scene(), overrides, swimmer.gait());
         if (given != null) {
-            checkGait(start, program);
+            check(start, program);
         } else if (sceneOptions.overrides() != null) {
             SceneInfo.of(run.problem().scene(), overrides, program);
         }

@@ -14,9 +14,12 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse.BodyHandlers;
 import java.net.http.WebSocket;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionStage;
@@ -109,6 +112,66 @@ class ViewCommandTest extends CommandTest {
         assertThat(watch(server, named)).startsWith("{\"type\":\"SCEN\"").contains("\"scheme\":\"conserving\"");
         assertThat(watch(server, other.toString())).startsWith("{\"type\":\"ANSW\"")
                 .contains("expected a named scene or one that the server was started with");
+    }
+
+    /** A network without weights, which stops the beat and bends; in no scene but its own. */
+    @Test
+    void aPolicySwimsInItsScene() throws IOException, InterruptedException {
+        Path policy = policy(15);
+        URI server = start("--policy", policy.toString());
+
+        JsonNode shown = start(server);
+
+        assertThat(shown.get("scene").textValue()).isEqualTo("bench/small-tank");
+        assertThat(shown.get("overrides").toString()).isEqualTo("{\"solver\":{\"substeps\":3}}");
+        assertThat(watch(server, "bench/small-tank")).startsWith("{\"type\":\"SCEN\"").contains("\"frequency\":1.25");
+        assertThat(driven(server, "bench/small-tank")).containsExactly(0.25f, -0.25f);
+        assertThat(watch(server, "thesis/creature-1")).startsWith("{\"type\":\"SCEN\"").doesNotContain("1.25");
+    }
+
+    /** How the two actuators are driven after six frames. */
+    private static List<Float> driven(URI server, String scene) {
+        CompletableFuture<List<Float>> heard = new CompletableFuture<>();
+        WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
+                .header("Origin", "http://" + server.getAuthority())
+                .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
+                    @Override
+                    public CompletionStage<?> onBinary(WebSocket one, ByteBuffer data, boolean last) {
+                        ByteBuffer frame = data.order(ByteOrder.LITTLE_ENDIAN);
+                        if (frame.remaining() >= 80 && frame.getInt(frame.position() + 4) == 6) {
+                            heard.complete(List.of(frame.getFloat(frame.position() + 72),
+                                    frame.getFloat(frame.position() + 76)));
+                        }
+                        one.request(1);
+                        return null;
+                    }
+                }).join();
+        socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
+        socket.sendText("{\"do\":\"credit\",\"frames\":100}", true).join();
+        return heard.orTimeout(5, TimeUnit.MINUTES).join();
+    }
+
+    /** With so many inputs, for two actuators. */
+    private Path policy(int inputs) throws IOException {
+        String rows = String.join(",", Collections.nCopies(inputs, "[0,0,0,0]"));
+        return Files.writeString(folder.resolve("policy.json"),
+                "{\"environment\":{\"scene\":\"bench/small-tank\",\"overrides\":{\"solver\":{\"substeps\":3}},\"actions\":\"gait\","
+                        + "\"gait\":{\"frequency\":1.25,\"amplitude\":[0.5,0.5],\"phase\":[0,0.5]},\"frames\":3,\"flow\":[],"
+                        + "\"target\":null},\"layers\":[{\"weights\":[" + rows + "],\"bias\":[-1,-1,0.5,-0.5]}]}");
+    }
+
+    @Test
+    void aPolicyOfAnotherBodyIsRefused() throws IOException {
+        for (String command : List.of("view --no-browser --port 0",
+                "page bench/small-tank --duration 0.1 --output " + folder.resolve("page.html"))) {
+            refused(natator(command + " --policy", policy(14).toString()))
+                    .isEqualTo("natator " + command.split(" ")[0]
+                            + ": natator-sim: --policy: has 14 inputs and 4 outputs; "
+                            + "must have 15 and 4 for this body\n");
+        }
+        refused(natator("view --no-browser --port 0 --creature 1 --policy", policy(15).toString()))
+                .isEqualTo(
+                        "natator view: --policy has its own scene and gait; expected no --scene, --creature or --gait\n");
     }
 
     /** Opens a socket and starts a scene; what it says first. */

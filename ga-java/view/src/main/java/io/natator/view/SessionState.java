@@ -5,6 +5,7 @@ import io.natator.stream.StreamException;
 import io.natator.stream.StreamOptions;
 import io.natator.stream.StreamProcess;
 import io.natator.stream.StreamScene;
+import java.nio.file.Path;
 
 /**
  * What a simulator was told to do: all that another one must be told that takes its place. Not for several threads at
@@ -17,16 +18,21 @@ final class SessionState {
     private boolean paused;
     private JsonNode rate;
 
-    /** The course of a simulator that is started with a command. */
-    SessionState(ClientCommand start) {
+    /**
+     * The course of a simulator that is started with a command.
+     *
+     * @param policy that drives the swimmer, or null
+     */
+    SessionState(ClientCommand start, Path policy) {
         paused = start.option("paused");
-        options = StreamOptions.live(start.scene(), start.object("overrides"), start.object("gait"), paused);
+        options = StreamOptions.live(start.scene(), start.object("overrides"), start.object("gait"), paused)
+                .withPolicy(policy);
     }
 
     /** What to start a simulator with. */
     StreamOptions options() {
         return StreamOptions.live(options.scene(), options.overrides(), options.gait(), paused)
-                .with(null, options.precision());
+                .with(null, options.precision()).withPolicy(options.policy());
     }
 
     /** Notes a command that goes to the simulator. */
@@ -35,6 +41,7 @@ final class SessionState {
             case "run" -> paused = false;
             case "pause", "step" -> paused = true;
             case "rate" -> rate = command.content();
+            case "gait", "scene", "drive", "steer" -> options = options.withPolicy(null);
             default -> {
                 // What changes the scene is told by the simulator, if it accepts it.
             }
@@ -44,7 +51,7 @@ final class SessionState {
     /** Notes what runs now. */
     void follow(StreamScene scene) {
         options = StreamOptions.live(scene.scene(), scene.overrides(), scene.gait(), paused)
-                .with(null, scene.precision());
+                .with(null, scene.precision()).withPolicy(options.policy());
     }
 
     /** Tells a fresh simulator what is not in its options. Credit is the page's to grant anew. */

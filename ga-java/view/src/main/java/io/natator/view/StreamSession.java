@@ -22,6 +22,7 @@ import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.locks.ReentrantLock;
 import java.util.function.Consumer;
+import java.util.function.Function;
 import org.eclipse.jetty.websocket.api.Callback;
 import org.eclipse.jetty.websocket.api.Session;
 import org.eclipse.jetty.websocket.api.StatusCode;
@@ -43,6 +44,7 @@ final class StreamSession implements AutoCloseable {
     final Session socket;
     private final Path simulator;
     private final Set<String> files;
+    private final Function<String, Path> policies;
     private final ReentrantLock sending = new ReentrantLock();
     private final Deque<Long> deaths = new ArrayDeque<>();
     /** Scenes that were saved since the page was told of them. */
@@ -64,12 +66,14 @@ final class StreamSession implements AutoCloseable {
     /**
      * A session that waits for the command that starts its simulator.
      *
-     * @param files that commands may name; see {@link ClientCommand#check}
+     * @param files    that commands may name; see {@link ClientCommand#check}
+     * @param policies that drive the swimmer of a scene, or null
      */
-    StreamSession(Session socket, Path simulator, Set<String> files) {
+    StreamSession(Session socket, Path simulator, Set<String> files, Function<String, Path> policies) {
         this.socket = socket;
         this.simulator = simulator;
         this.files = files;
+        this.policies = policies;
     }
 
     /** Takes a command. Waits while an answer of the server's own cannot be sent. */
@@ -114,7 +118,7 @@ final class StreamSession implements AutoCloseable {
 
     private void begin(ClientCommand start) throws StreamException {
         boolean started = false;
-        course = new SessionState(start);
+        course = new SessionState(start, policies.apply(start.scene()));
         try {
             started = startProcess();
         } finally {

@@ -10,6 +10,7 @@ import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.Semaphore;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Function;
 import org.eclipse.jetty.websocket.api.StatusCode;
 
 /** All sockets, each with a session of its own, and no more than {@value #MAX_SESSIONS} at a time. */
@@ -22,13 +23,15 @@ final class StreamSockets implements AutoCloseable {
 
     private final Path simulator;
     private final Set<String> files;
+    private final Function<String, Path> policies;
     private final Map<String, StreamSession> sessions = new ConcurrentHashMap<>();
     private final Semaphore free = new Semaphore(MAX_SESSIONS, true);
 
     /** See {@link StreamSession}. */
-    StreamSockets(Path simulator, Set<String> files) {
+    StreamSockets(Path simulator, Set<String> files, Function<String, Path> policies) {
         this.simulator = simulator;
         this.files = files;
+        this.policies = policies;
     }
 
     /** What happens at a socket. */
@@ -57,7 +60,7 @@ final class StreamSockets implements AutoCloseable {
         }
         // Tells a page that is paused from one that has gone.
         context.enableAutomaticPings(PING_SECONDS, TimeUnit.SECONDS);
-        sessions.put(context.sessionId(), new StreamSession(context.session, simulator, files));
+        sessions.put(context.sessionId(), new StreamSession(context.session, simulator, files, policies));
     }
 
     private void end(WsContext context) {

@@ -79,7 +79,8 @@ public final class ViewServer implements AutoCloseable {
         page = APP.text("index.html");
         headers = new SecurityHeaders(page);
         setup = Json.line(SetupResponse.of(ProgramInfo.of(settings.simulator()), settings));
-        sockets = new StreamSockets(settings.simulator(), files(settings));
+        sockets = new StreamSockets(settings.simulator(), files(settings),
+                scene -> scene.equals(settings.start().scene()) ? settings.policy() : null);
         saved = new SavedFiles(files(settings), scene -> sockets.sessions().forEach(session -> session.saved(scene)));
         javalin = Javalin.create(this::configure);
         try {

@@ -25,7 +25,7 @@ class StreamSessionTest {
                 }
                 return null;
             });
-    private final StreamSession session = new StreamSession(socket, Path.of("none"), Set.of());
+    private final StreamSession session = new StreamSession(socket, Path.of("none"), Set.of(), scene -> null);
 
     private static long tellers() {
         return Thread.getAllStackTraces().keySet().stream().filter(thread -> thread.getName().equals("view-saved"))
