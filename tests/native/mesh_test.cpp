@@ -942,17 +942,6 @@ TEST_F(Mesh, OfTooManyFacesIsRefused) {
     EXPECT_THROW(read_mesh(text, "many.obj"), InputError);
 }
 
-/// Two boxes side by side have the same slices as one, but no way from one to the other.
-TEST_F(Mesh, InPiecesHasNoRegions) {
-    json body = creature(write("pieces.obj", box({0, 0, -0.5}, {2, 0.5, -0.1}).add(box({0, 0, 0.1}, {2, 0.5, 0.5})).obj()));
-    EXPECT_EQ(model_of_mesh(body).clusters.size(), 3u);
-    body["mesh"].erase("joints");
-    for (const auto& points : {json(4), json::parse("[[0.5,0.2,0.3],[1.5,0.2,0.3]]")}) {
-        body["mesh"]["points"] = points;
-        expect_refused("pool/water", {{"creature", body}}, "creature.mesh.points: ", {"piece"});
-    }
-}
-
 class RayTest : public testing::Test {
 protected:
     Scene scene = load_scene("pool/ray");

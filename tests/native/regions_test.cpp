@@ -1,8 +1,14 @@
 // Bodies around control points: their regions, what drives them, and what is refused.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -10,6 +16,7 @@
 #include "natator/model.h"
 #include "natator/simulation.h"
 #include "refusal.h"
+#include "refusal_of.h"
 #include "scene/scene_json.h"
 #include "test_name.h"
 
@@ -134,7 +141,8 @@ TEST_P(RegionsTest, HaveMusclesThatSpanTheirBorder) {
     for (std::size_t i = 0; i < count.size(); ++i) {
         EXPECT_GE(count[i], 8) << i;
         EXPECT_EQ(most[i], 1) << i;
-        if (i > 0) EXPECT_GE(scene.creature->regions->places[i], 0);
+        EXPECT_GT(scene.creature->regions->places[i], 0);
+        EXPECT_LT(scene.creature->regions->places[i], 1);
     }
 }
 
@@ -190,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(All, RegionsTest, testing::Values("jellyfish", "torus",
                          [](const auto& info) { return std::string(info.param); });
 
 Scene with_points(const std::string& scene, const json& points, const std::string& bend = "vertical") {
-    return load_scene(scene, {{"creature", {{"mesh", {{"points", points}}}, {"bend", bend}}}});
+    return load_scene(scene, json{{"creature", {{"mesh", {{"points", points}}}, {"bend", bend}}}});
 }
 
 /// A ring: the head, the end across, the two sides, and what is between; both sides of a pair are driven as one.
@@ -212,8 +220,7 @@ TEST(Regions, OfABellContractRingByRing) {
         EXPECT_EQ(muscle.lateral, 1);
         const Spring& spring = model.springs[muscle.spring];
         const Vector3d along = (model.position[spring.a] - model.position[spring.b]).normalized();
-        if (muscle.actuator == 1) EXPECT_LT(std::abs(along.x()), 0.3);
-        if (muscle.actuator == 0) EXPECT_GT(std::abs(along.x()), 0.3);
+        EXPECT_EQ(std::abs(along.x()) > 0.3, muscle.actuator == 0);
     }
     for (const Actuator& actuator : scene.creature->actuator_list()) EXPECT_EQ(actuator.bend, Bend::contract);
 }
@@ -228,11 +235,59 @@ TEST(Regions, BendBothWays) {
         const Spring& spring = model.springs[muscle.spring];
         const Vector3d at = (model.position[spring.a] + model.position[spring.b]) / 2;
         EXPECT_GT(spring.rest_length, 2 * scene.creature->spacing);
-        if (muscle.actuator < 2) EXPECT_GT((at.z() - scene.creature->rear_centre.z()) * muscle.lateral, 0);
+        EXPECT_TRUE(muscle.actuator > 1 || (at.z() - scene.creature->rear_centre.z()) * muscle.lateral > 0);
     }
     const Gait gait = wave_gait(*scene.creature);
     EXPECT_GT(gait.amplitude[1], gait.amplitude[0]);
     EXPECT_EQ(gait.amplitude[2], 0);
+}
+
+/// Two boxes side by side have slices like one, but there is no way from one to the other.
+TEST(Regions, AreOfABodyInOnePiece) {
+    const std::string file = (std::filesystem::temp_directory_path() / ("pieces-" + std::to_string(getpid()) + ".obj")).string();
+    std::ofstream out(file);
+    for (const double z : {-0.5, 0.1})
+        for (int i = 0; i < 8; ++i)
+            out << "v " << 2 * (i & 1) << ' ' << 0.5 * (i >> 1 & 1) << ' ' << z + 0.4 * (i >> 2) << '\n';
+    for (const int first : {1, 9})
+        for (const auto& face : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+            out << 'f';
+            for (const int corner : face) out << ' ' << first + corner;
+            out << '\n';
+        }
+    out.close();
+    const json body = {{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}}}, {"spacing", 0.1}, {"rearCentre", {0.5, 0.5, 0.5}}};
+    EXPECT_NO_THROW(build_model(load_scene("pool/water", json{{"creature", body}})));
+    for (const json& points : {json(4), json::parse("[[0.5,0.2,0.3],[1.5,0.2,0.3]]")}) {
+        json changed = body;
+        changed["mesh"].erase("joints");
+        changed["mesh"]["points"] = points;
+        expect_refused("pool/water", {{"creature", changed}}, "creature.mesh.points: ", {"piece"});
+    }
+    std::filesystem::remove(file);
+}
+
+/// Those that a program has made.
+TEST(Regions, MustFitTheirBody) {
+    const Scene scene = load_scene("pool/torus");
+    const auto refused = [&](const std::function<void(Regions&)>& change) {
+        Regions regions = *scene.creature->regions;
+        change(regions);
+        Scene changed = scene;
+        changed.creature->regions = std::make_shared<const Regions>(regions);
+        return test::refusal_of([&] { build_model(changed); });
+    };
+    EXPECT_EQ(refused([](Regions&) {}), "");
+    const std::vector<std::pair<std::string, std::function<void(Regions&)>>> wrong = {
+        {"regions.clusters: particles", [](Regions& regions) { regions.clusters.emplace_back(); }},
+        {"regions.clusters = 290", [](Regions& regions) { regions.clusters[1].push_back(290); }},
+        {"regions.fibres: front = -1", [](Regions& regions) { regions.fibres[3].front = -1; }},
+        {"regions.fibres: rear = 290", [](Regions& regions) { regions.fibres[3].rear = 290; }},
+        {"regions.fibres: actuator = 4", [](Regions& regions) { regions.fibres[3].actuator = 4; }},
+        {"regions.places: length", [](Regions& regions) { regions.places.pop_back(); }},
+        {"regions.skin: length", [](Regions& regions) { regions.skin.pop_back(); }},
+        {"regions.skin: other = 8", [](Regions& regions) { regions.skin[0].other = 8; }}};
+    for (const auto& [what, change] : wrong) EXPECT_NE(refused(change).find(what), std::string::npos) << what << refused(change);
 }
 
 const BadInput bad_points[] = {

@@ -67,6 +67,7 @@ TEST(SceneTest, AllNamedScenesAreThere) {
                                                "lake/fry",
                                                "lake/ray",
                                                "lake/tadpole",
+                                               "lake/torus",
                                                "lake/tuna",
                                                "lake/water",
                                                "open-water/creature-1",
