@@ -220,8 +220,8 @@ struct Slice {
 /// Which way muscles bend a body; `contract`: all of an actuator shorten and lengthen together (Regions alone).
 enum class Bend { sideways, vertical, contract };
 
-/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends(), or Regions, that bend one
-/// way.
+/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends(), or Regions, that bend
+/// one way.
 struct Actuator {
     int gap = 0;                 ///< 0 = between the first two of these slices, or regions
     Bend bend = Bend::sideways;  ///< which way

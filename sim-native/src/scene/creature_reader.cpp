@@ -122,7 +122,8 @@ std::vector<Bend> read_region_bends(const json& value, const Place& place) {
 bool has_points(const json& value, const Place& place) {
     if (!value.contains("mesh") || !value.at("mesh").is_object() || !has(value.at("mesh"), "points")) return false;
     for (const char* key : {"joint", "muscleSlices"})
-        if (value.contains(key)) refuse(place.key(key), value.at(key), "left out beside mesh.points, which has no joints");
+        if (value.contains(key))
+            refuse(place.key(key), value.at(key), "left out beside mesh.points, which has no joints");
     for (const char* key : {"clusterStiffness", "springStiffness"})
         if (value.contains(key) && value.at(key).is_array())
             refuse(place.key(key), value.at(key), "a number beside mesh.points");

@@ -127,15 +127,16 @@ void read_points(const json& value, const Place& place, const std::vector<Bend>&
     const Skin& skin = *creature.skin;
     ControlPoints points{0, {}, bends};
     if (value.is_array()) {
-        if (value.empty() || value.size() > max_points)
-            refuse(place, value, "1 to " + std::to_string(max_points) + " places in the file, or a number of points");
+        if (value.empty() || value.size() > max_control_points)
+            refuse(place, value,
+                   "1 to " + std::to_string(max_control_points) + " places in the file, or a number of points");
         for (std::size_t i = 0; i < value.size(); ++i) {
             Eigen::Vector3d at = skin.origin;
             read(value[i], place.item(i), {-1e9, 1e9, false, "unit of the file"}, at);
             points.places.push_back(skin.axes * (at - skin.origin) * skin.unit / creature.spacing);
         }
     } else {
-        read(value, place, {min_points, max_points, false, "points"}, points.count);
+        read(value, place, {min_control_points, max_control_points, false, "points"}, points.count);
     }
     std::vector<Eigen::Vector3d> vertices;
     for (const Eigen::Vector3d& vertex : skin.vertices) vertices.push_back(vertex / creature.spacing);

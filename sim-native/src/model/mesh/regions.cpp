@@ -20,7 +20,7 @@ using Particles = std::vector<int>;
 constexpr int spacing = 3;  // in chamfer lengths
 constexpr int apart = 2 * spacing;
 constexpr std::size_t min_lines = 4;  // regions that only touch at a corner have no muscles
-constexpr double max_away = 2;  // spacings from a given place to its particle
+constexpr double max_away = 2;        // spacings from a given place to its particle
 constexpr int unreached = std::numeric_limits<int>::max();
 
 /// The particles of a body on their lattice. Places are in half spacings from the centre of the last slice.
@@ -118,25 +118,27 @@ Particles mirrored(const BodyLattice& body, Particles particles) {
 
 std::vector<Particles> sampled_points(const BodyLattice& body, int count) {
     const int head = body.place(0).x();
-    std::vector<Particles> points{
-        nearest_particles(body, Vector3d(head, 0, 0), [&](int particle) { return body.place(particle).x() == head; })};
-    std::vector<int> nearest = body.distances(points.front());
-    if (std::find(nearest.begin(), nearest.end(), unreached) != nearest.end())
-        throw InputError("the body is in several pieces at this spacing; must be in one");
+    int next = nearest_particles(body, Vector3d(head, 0, 0), [&](int particle) {
+                   return body.place(particle).x() == head;
+               }).front();
+    std::vector<Particles> points;
+    std::vector<int> nearest;  // distance to the nearest point, by particle
+    int away = apart;          // of the next one
     while (static_cast<int>(points.size()) < count) {
-        const auto farthest = static_cast<int>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
-        if (nearest[farthest] < apart)
-            throw InputError("at most " + std::to_string(points.size()) + " fit 2 spacings apart");
-        const Particles one{farthest}, other = mirrored(body, one);
-        const bool two = body.distances(one)[other.front()] >= nearest[farthest];
-        if (two && static_cast<int>(points.size()) + 2 > count) break;
-        points.push_back(one);
-        if (two)
-            points.push_back(other);
-        else
-            points.back().push_back(other.front());
-        const std::vector<int> distance = body.distances({farthest, other.front()});
+        if (away < apart) throw InputError("at most " + std::to_string(points.size()) + " fit 2 spacings apart");
+        const int image = body.mirrored(next);
+        if (body.distances({next})[image] < away) {
+            points.push_back({next, image});
+        } else {
+            if (static_cast<int>(points.size()) + 2 > count) break;
+            points.push_back({next});
+            points.push_back({image});
+        }
+        const std::vector<int> distance = body.distances({next, image});
+        if (nearest.empty()) nearest = distance;
         for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::min(nearest[i], distance[i]);
+        next = static_cast<int>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
+        away = nearest[next];
     }
     return points;
 }
@@ -151,18 +153,20 @@ std::vector<Particles> given_points(const BodyLattice& body, const std::vector<V
         const double away = (body.place(one.front()).cast<double>() - place).norm() / 2;
         if (away > max_away) {
             std::ostringstream text;
-            text << "point " << k << " is " << away << " spacings from the nearest particle; must be within " << max_away;
+            text << "point " << k << " is " << away << " spacings from the nearest particle; must be within "
+                 << max_away;
             throw InputError(text.str());
         }
+        const std::vector<int> from_one = body.distances({one.front()});
+        for (const int seed : one)
+            if (from_one[seed] > apart)
+                throw InputError("point " + std::to_string(k) + " is as near to two parts of the body; must be in one");
         for (const Particles& seeds : {one, mirrored(body, one)}) {
-            if (std::find(points.begin(), points.end(), seeds) != points.end()) continue;
+            const std::size_t same = std::find(points.begin(), points.end(), seeds) - points.begin();
+            if (same < points.size() && (given[same] == k || places[given[same]].z() * places[k].z() < 0)) continue;
             const std::vector<int> distance = body.distances(seeds);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                const int between = distance[points[i].front()];
-                if (between == unreached)
-                    throw InputError("points " + std::to_string(given[i]) + " and " + std::to_string(k) +
-                                     " are in different pieces of the body; must be in one");
-                if (between < apart)
+                if (distance[points[i].front()] < apart)
                     throw InputError("points " + std::to_string(given[i]) + " and " + std::to_string(k) +
                                      " or their mirror images are nearer than 2 spacings; must be farther apart");
             }
@@ -170,7 +174,7 @@ std::vector<Particles> given_points(const BodyLattice& body, const std::vector<V
             given.push_back(k);
         }
     }
-    if (static_cast<int>(points.size()) < min_points) throw InputError("one point; must be two or more");
+    if (static_cast<int>(points.size()) < min_control_points) throw InputError("one point; must be two or more");
     return points;
 }
 
@@ -205,8 +209,6 @@ public:
             distances_.push_back(body.distances(point));
             for (std::size_t i = 0; i < nearest_.size(); ++i) nearest_[i] = std::min(nearest_[i], distances_.back()[i]);
         }
-        if (std::find(nearest_.begin(), nearest_.end(), unreached) != nearest_.end())
-            throw InputError("a piece of the body has no point; must be in one piece");
         clusters_.resize(points_.size());
         for (std::size_t region = 0; region < clusters_.size(); ++region) {
             for (int particle = 0; particle < body_.particles(); ++particle)
@@ -349,6 +351,9 @@ void add_fibres(const BodyLattice& body, const Pair& pair, Bend bend, int actuat
 std::shared_ptr<const Regions> make_regions(const std::vector<Slice>& slices, const ControlPoints& points,
                                             const std::vector<Vector3d>& vertices) {
     const BodyLattice body(slices);
+    const std::vector<int> from_first = body.distances({0});
+    if (std::find(from_first.begin(), from_first.end(), unreached) != from_first.end())
+        throw InputError("the body is in several pieces at this spacing; must be in one");
     const RegionBuilder builder(
         body, points.count > 0 ? sampled_points(body, points.count) : given_points(body, points.places));
     auto regions = std::make_shared<Regions>();
