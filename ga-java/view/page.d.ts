@@ -67,7 +67,7 @@ interface Scene {
   joints: number[];
   actuators: number;
   muscles: {a: number, b: number, actuator: number, lateral: number, restLength: number, bend?: string}[];
-  skin: {vertices: number[][], triangles: number[][], cluster: number[], share: number[], rest: number[][]} | null;
+  skin: {vertices: number[][], triangles: number[][], cluster: number[], other?: number[], share: number[], rest: number[][]} | null;
 }
 
 /** One frame of the stream, or of a recording. Arrays are views into what was received. */

@@ -55,15 +55,18 @@ int particles_made_heavier(const Scene& scene, const Model& model) {
     return count;
 }
 
-/// Which actuators bend up and down; empty where none does.
+/// Which actuators bend which way; empty where all bend sideways.
 std::string describe_bends(const Creature& creature) {
-    int sideways = 0, vertical = 0;
-    for (const Actuator& one : creature.actuator_list()) ++(one.bend == Bend::sideways ? sideways : vertical);
+    int number[3] = {0, 0, 0};  // by Bend
+    for (const Actuator& one : creature.actuator_list()) ++number[static_cast<int>(one.bend)];
     const auto span = [](int first, int count) {
         return std::to_string(first) + (count > 1 ? " to " + std::to_string(first + count - 1) : "");
     };
-    if (vertical == 0) return "";
-    return (sideways > 0 ? span(0, sideways) + " sideways, " : "") + span(sideways, vertical) + " up and down";
+    const char* const words[3] = {" sideways", " up and down", " contract"};
+    std::string text;
+    for (int bend = 0, first = 0; bend < 3; first += number[bend++])
+        if (number[bend] > 0) text += (text.empty() ? "" : ", ") + span(first, number[bend]) + words[bend];
+    return number[0] == creature.actuators() ? "" : text;
 }
 
 ordered_json describe_skin(const Creature& creature, const Model& model) {

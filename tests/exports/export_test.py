@@ -131,6 +131,7 @@ class ReadersTest(FolderTest):
 
     def test_a_skin_has_bones(self):
         self.check("pool/ray", 0.1, "glb", gait=FIVE)
+        self.check("pool/torus", 0.1, "glb", dict(force=True))
         self.validate()
 
     def test_a_skin_follows_its_bones(self):

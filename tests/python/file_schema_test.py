@@ -62,6 +62,8 @@ SCENES = {
                      "digest": "DIGEST"}}},
     "a mesh by its length": {
         "base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "joints": [0.3, 0.5]}}},
+    "a mesh around points": {
+        "base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "points": [[-5, 0, 0], [-20, 0, 0]]}, "bend": "contract"}},
     "nothing": {"base": "pool/eel", "fluid": None, "creature": None, "movingTank": None, "periodic": None},
 }
 
@@ -254,9 +256,10 @@ class FileSchemaTest(unittest.TestCase):
         slices = {"slices": BODY["slices"], "joints": [2, 4, 6]}
         profile = {"profile": {"length": 1.2, "height": 0.3, "width": 0.2, "joints": [0.3, 0.5]}}
         mesh = {"mesh": {"file": str(ROOT / "sim-native/creatures/ray.obj"), "joints": [0.3, 0.5], "unit": 0.04}}
-        good = [slices, profile, mesh, slices | {"$schema": "x", "description": "y", "name": "z"}]
+        points = {"mesh": {key: value for key, value in mesh["mesh"].items() if key != "joints"} | {"points": 4}, "bend": "contract"}
+        good = [slices, profile, mesh, points, slices | {"$schema": "x", "description": "y", "name": "z"}]
         bad = [{}, {"slices": BODY["slices"]}, {"joints": [2]}, slices | profile, profile | mesh, slices | mesh,
-               profile | {"joints": [2]}, slices | {"$schema": 3}, slices | {"base": "pool/water"}, {"profile": {"length": 1}}]
+               mesh | {"mesh": mesh["mesh"] | {"points": 4}}, profile | {"joints": [2]}, slices | {"$schema": 3}, slices | {"base": "pool/water"}, {"profile": {"length": 1}}]
         bad += [{"profile": {key: value for key, value in profile["profile"].items() if key != left}}
                 for left in profile["profile"]]
         bad += [{"mesh": {key: value for key, value in mesh["mesh"].items() if key != left}} for left in ("file", "joints")]

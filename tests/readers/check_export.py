@@ -486,7 +486,7 @@ class Check:
                 turn = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ v))]) @ v
                 places.append((vertices - at.mean(0)) @ turn.T + now.mean(0))
             places = np.array(places)
-            rear = np.minimum(front + 1, len(places) - 1)
+            rear = np.array(skin.get("other", np.minimum(front + 1, len(places) - 1)))
             each = np.arange(len(vertices))
             wanted = share * places[front, each] + (1 - share) * places[rear, each]
             if np.abs(body.moved(i) - wanted).max() > 1e-4:

@@ -217,12 +217,13 @@ struct Slice {
     }
 };
 
-/// Which way muscles bend a body.
-enum class Bend { sideways, vertical };
+/// Which way muscles bend a body; `contract`: all of an actuator shorten and lengthen together (Regions alone).
+enum class Bend { sideways, vertical, contract };
 
-/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends() that bend one way.
+/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends(), or Regions, that bend
+/// one way.
 struct Actuator {
-    int gap = 0;                 ///< 0 = between the first two of these slices
+    int gap = 0;                 ///< 0 = between the first two of these slices, or regions
     Bend bend = Bend::sideways;  ///< which way
 };
 
@@ -244,6 +245,30 @@ struct Skin {
     double volume = 0;                                   ///< inside, length^3
 };
 
+/// How a vertex of a skin follows the body: by `share` as one cluster moves, by the rest as another one does.
+struct SkinWeight {
+    int cluster = 0;   ///< the first one
+    int other = 0;     ///< the other one
+    double share = 1;  ///< (0, 1]
+};
+
+/// Muscle springs between two particles.
+struct Fibre {
+    int front = 0;       ///< particle of the body as it is described, by slice from the head, then y, then z
+    int rear = 0;        ///< a later one
+    int actuator = 0;    ///< that drives it
+    double lateral = 0;  ///< as in Muscle
+};
+
+/// Clusters around control points, and the muscles between neighbouring ones (model/mesh/regions.h).
+struct Regions {
+    std::vector<std::vector<int>> clusters;  ///< particles of each, as in Fibre
+    std::vector<Actuator> actuators;         ///< in the order that a gait has them
+    std::vector<double> places;              ///< where each actuator is along the body, 0 = nose, 1 = tail
+    std::vector<Fibre> fibres;               ///< by actuator, front, rear
+    std::vector<SkinWeight> skin;            ///< of each vertex of the body's Skin
+};
+
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
 struct Creature {
     std::string name;                  ///< as it is looked up by
@@ -254,7 +279,9 @@ struct Creature {
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
     bool of_profile = false;           ///< whether slices and joints were made of curves: `profile` in the JSON
     std::shared_ptr<const Skin> skin;  ///< the mesh that slices and joints were made of: `mesh` in the JSON; null: none
-    Joint joint = Joint::slice;        ///< of all neighbouring clusters
+    /// Clusters and muscles around control points: `mesh.points` in the JSON; null: clusters are between joints.
+    std::shared_ptr<const Regions> regions;
+    Joint joint = Joint::slice;  ///< of all neighbouring clusters
     /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
     std::vector<std::vector<Bend>> bends;
     double cluster_stiffness = 0.2;           ///< shape-matching stiffness of every cluster, [0, 1]
@@ -283,8 +310,10 @@ struct Creature {
             if (bends_by(bend, gap)) return true;
         return false;
     }
-    /// In the order that a gait has them: those that bend sideways from the head on, then those that bend up and down.
+    /// In the order that a gait has them: those that bend sideways from the head on, then those that bend up and down,
+    /// then those that contract.
     std::vector<Actuator> actuator_list() const {
+        if (regions) return regions->actuators;
         std::vector<Actuator> list;
         for (const Bend bend : {Bend::sideways, Bend::vertical})
             for (int gap = 0; gap < gaps(); ++gap)

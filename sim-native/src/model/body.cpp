@@ -78,6 +78,11 @@ void add_body(const Creature& creature, const BodyLayout& layout, Model& model) 
     model.body.length = creature.length();
     model.body.spacing = creature.spacing;
 
+    if (creature.regions) {
+        for (const std::vector<int>& particles : creature.regions->clusters)
+            model.clusters.push_back(make_cluster(particles, model.position, creature.cluster_stiffness));
+        return;
+    }
     std::vector<int> shared;
     int first = 0, cluster = 0;
     for (const int joint : creature.joints) {

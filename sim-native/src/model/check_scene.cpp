@@ -55,6 +55,33 @@ void check_slice(const Slice& slice, const Check& check) {
     for (int iy = 0; iy < slice.height; ++iy) check.at_least("width", 1, slice.row(iy));
 }
 
+void check_regions(const Creature& creature, const Check& check) {
+    const Regions& regions = *creature.regions;
+    const auto within = [&](const char* key, int value, std::size_t count) {
+        if (value < 0 || static_cast<std::size_t>(value) >= count)
+            check.refuse(key, value, "0 to " + std::to_string(static_cast<long>(count) - 1));
+    };
+    std::size_t particles = 0;
+    for (const Slice& slice : creature.slices) particles += static_cast<std::size_t>(slice.particles());
+    for (const std::vector<int>& cluster : regions.clusters) {
+        check.at_least("regions.clusters: particles", 1, static_cast<int>(cluster.size()));
+        for (const int particle : cluster) within("regions.clusters", particle, particles);
+    }
+    for (const Fibre& fibre : regions.fibres) {
+        within("regions.fibres: front", fibre.front, particles);
+        within("regions.fibres: rear", fibre.rear, particles);
+        within("regions.fibres: actuator", fibre.actuator, regions.actuators.size());
+    }
+    if (regions.places.size() != regions.actuators.size())
+        check.refuse("regions.places: length", static_cast<double>(regions.places.size()), "that of actuators");
+    if (creature.skin && regions.skin.size() != creature.skin->vertices.size())
+        check.refuse("regions.skin: length", static_cast<double>(regions.skin.size()), "that of the skin's vertices");
+    for (const SkinWeight& weight : regions.skin) {
+        within("regions.skin: cluster", weight.cluster, regions.clusters.size());
+        within("regions.skin: other", weight.other, regions.clusters.size());
+    }
+}
+
 void check_creature(const Creature& creature, const Check& check) {
     const int slices = static_cast<int>(creature.slices.size()), last = slices - 1;
     if (slices == 0) check.refuse("slices", slices, "at least one slice");
@@ -65,6 +92,7 @@ void check_creature(const Creature& creature, const Check& check) {
     check.length_if_any("bend", creature.bends.size(), gaps);
     check.length_if_any("springStiffness", creature.spring_stiffnesses.size(), gaps);
     check.length_if_any("clusterStiffness", creature.cluster_stiffnesses.size(), creature.joints.size() + 1);
+    if (creature.regions) check_regions(creature, check);
     check.above_zero("spacing", creature.spacing);
     check.above_zero("particleMass", creature.particle_mass);
     check.at_least("springsPerParticle", 1, creature.springs_per_particle);

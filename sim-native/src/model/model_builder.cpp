@@ -69,6 +69,14 @@ void check_size(const Scene& scene) {
 
 /// Springs that the muscles may have, see muscles.h: those of the smaller slice of each actuator.
 void check_springs(const Scene& scene, const Creature& creature, const std::string& place) {
+    if (creature.regions) {
+        const auto fibres = static_cast<std::int64_t>(creature.regions->fibres.size());
+        const std::int64_t springs = fibres * creature.springs_per_particle * creature.parts();
+        if (springs > limits::springs)
+            refuse(scene, std::to_string(springs) + " springs (" + place + ".mesh.points and springsPerParticle " +
+                              "together): must be at most " + std::to_string(limits::springs));
+        return;
+    }
     const std::vector<int>& ends = creature.muscle_ends();
     const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].particles()}; };
     std::int64_t springs = 0;
@@ -95,6 +103,7 @@ void check_clearance(const Scene& scene, int body_particles) {
 }
 
 void check_muscles(const Scene& scene, const Creature& creature, const std::string& place, const Model& model) {
+    if (creature.regions) return;  // which have no actuator without
     std::vector<int> count(static_cast<std::size_t>(model.actuators));
     for (const Muscle& muscle : model.muscles) ++count[muscle.actuator];
     const std::vector<Actuator> actuators = creature.actuator_list();

@@ -146,23 +146,34 @@ double lateral(const Creature& creature, const Place& place, Bend bend) {
            ((bend == Bend::sideways ? shape.width : shape.height) - 1);
 }
 
+/// `springs` equal ones between two particles.
+void add_springs(int a, int b, int actuator, double lateral, double stiffness, int springs, Model& model) {
+    const double length = (model.position[a] - model.position[b]).norm();
+    for (int i = 0; i < springs; ++i) {
+        model.muscles.push_back({static_cast<int>(model.springs.size()), actuator, lateral});
+        model.springs.push_back({a, b, length, stiffness});
+    }
+}
+
 }  // namespace
 
 void add_muscles(const Creature& creature, const BodyLayout& layout, Model& model) {
     const std::vector<Actuator> actuators = creature.actuator_list();
     model.actuators = static_cast<int>(actuators.size());
+    if (creature.regions) {
+        for (const Fibre& fibre : creature.regions->fibres)
+            add_springs(fibre.front, fibre.rear, fibre.actuator, fibre.lateral, creature.spring_stiffness,
+                        creature.springs_per_particle, model);
+        return;
+    }
     const std::vector<int>& ends = creature.muscle_ends();
     for (int actuator = 0; actuator < model.actuators; ++actuator) {
         const auto [gap, bend] = actuators[static_cast<std::size_t>(actuator)];
         for (const Pair& pair : pairs_between(creature, ends[gap], ends[gap + 1], bend)) {
             const int a = layout.index(pair.front.slice, pair.front.iy, pair.front.iz);
             const int b = layout.index(pair.rear.slice, pair.rear.iy, pair.rear.iz);
-            const double length = (model.position[a] - model.position[b]).norm();
             const double z_m = (lateral(creature, pair.front, bend) + lateral(creature, pair.rear, bend)) / 2;
-            for (int i = 0; i < pair.springs; ++i) {
-                model.muscles.push_back({static_cast<int>(model.springs.size()), actuator, z_m});
-                model.springs.push_back({a, b, length, creature.stiffness_of_springs(gap)});
-            }
+            add_springs(a, b, actuator, z_m, creature.stiffness_of_springs(gap), pair.springs, model);
         }
     }
 }

@@ -19,6 +19,8 @@ namespace natator {
 /// The particles of the slice with fewer particles (of equal ones: the front slice) give `springs_per_particle` springs
 /// each, shared evenly among their 1, 2 or 4 partners; what does not divide goes one by one to the partners nearest the
 /// axis, of equally near ones to the lower y, then the lower z.
+///
+/// A body with Regions has `springs_per_particle` springs for each of their fibres instead.
 void add_muscles(const Creature& creature, const BodyLayout& layout, Model& model);
 
 }  // namespace natator

@@ -64,7 +64,8 @@ void divide_muscles(const Creature& creature, const std::vector<Eigen::Vector3d>
                 const bool sideways = actuators[static_cast<std::size_t>(muscles[k].actuator)].bend == Bend::sideways;
                 const std::vector<double>& half = sideways ? half_widths : half_heights;
                 const double z = sideways ? places[part].z() : places[part].y();
-                const double lateral = muscles[k].lateral + (z / half[whole.a] + z / half[whole.b]) / 2;
+                const double across = creature.regions ? 0 : (z / half[whole.a] + z / half[whole.b]) / 2;
+                const double lateral = muscles[k].lateral + across;
                 model.muscles.push_back({static_cast<int>(model.springs.size()), muscles[k].actuator, lateral});
                 model.springs.push_back(
                     {whole.a * parts + part, whole.b * parts + part, whole.rest_length, whole.stiffness});

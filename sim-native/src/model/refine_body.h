@@ -13,7 +13,7 @@ namespace natator {
 /// - muscles: a spring becomes n^3, which join the fine particles in the same place of its two ends, so that all have
 ///   its rest length. Its relative change of length goes on linearly across the body: lateral (Muscle) counts from the
 ///   middle in half widths (bending up and down: half heights) of the described slice, and is beyond 1 for the
-///   outermost. So the curvature that the muscles ask for is the same.
+///   outermost. So the curvature that the muscles ask for is the same. Between Regions it stays that of the spring.
 /// Stiffnesses are relative to masses (physics::softness), so the springs of a muscle, and a cluster, are together as
 /// stiff as they were; the stiffness of bending follows the second moments of the particles' places, which on the finer
 /// lattice are closer to those of the solid shape.

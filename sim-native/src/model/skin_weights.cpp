@@ -5,6 +5,7 @@
 namespace natator {
 
 std::vector<SkinWeight> skin_weights(const Creature& creature, const Model& model) {
+    if (creature.regions) return creature.regions->skin;
     std::vector<double> middles;  // x of each cluster from the centre of the last slice, falling from the head on
     for (const Cluster& cluster : model.clusters) {
         double low = model.position[cluster.particles.front()].x(), high = low;
@@ -22,7 +23,7 @@ std::vector<SkinWeight> skin_weights(const Creature& creature, const Model& mode
         if (cluster + 1 < static_cast<int>(middles.size()))
             share =
                 std::clamp((vertex.x() - middles[cluster + 1]) / (middles[cluster] - middles[cluster + 1]), 0.0, 1.0);
-        weights.push_back({cluster, share});
+        weights.push_back({cluster, std::min(cluster + 1, static_cast<int>(middles.size()) - 1), share});
     }
     return weights;
 }

@@ -7,13 +7,8 @@
 
 namespace natator {
 
-/// How a vertex of the skin follows the body: by `share` as cluster `cluster` moves, by the rest as the next one does.
-struct SkinWeight {
-    int cluster;
-    double share;  ///< (0, 1]; 1 at the last cluster
-};
-
-/// Of each vertex of the creature's skin: linear along the body between the middles of neighbouring clusters.
+/// Of each vertex of the creature's skin: linear along the body between the middles of neighbouring clusters, or that
+/// of its regions. `other` is the next cluster; of the last one itself.
 std::vector<SkinWeight> skin_weights(const Creature& creature, const Model& model);
 
 }  // namespace natator

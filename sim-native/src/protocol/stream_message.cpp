@@ -94,7 +94,8 @@ ordered_json muscles_json(const Creature& creature, const Model& model, int swim
                            {"actuator", actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
-        if (actuators[static_cast<std::size_t>(actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
+        const Bend bend = actuators[static_cast<std::size_t>(actuator)].bend;
+        if (bend != Bend::sideways) muscles.back()["bend"] = bend == Bend::vertical ? "vertical" : "contract";
     }
     return muscles;
 }
@@ -132,24 +133,27 @@ ordered_json skin_json(const Scene& scene, const Model& model) {
     if (!scene.creature || !scene.creature->skin) return nullptr;
     const Skin& skin = *scene.creature->skin;
     const std::vector<SkinWeight> weights = skin_weights(*scene.creature, model);
-    ordered_json clusters = ordered_json::array(), shares = ordered_json::array();
+    ordered_json clusters = ordered_json::array(), others = clusters, shares = clusters;
     for (const SkinWeight& weight : weights) {
         clusters.push_back(weight.cluster);
+        others.push_back(weight.other);
         shares.push_back(weight.share);
     }
     std::vector<Eigen::Vector3d> rest;
     for (const int particle : model.body.particles)
         rest.push_back(model.position[particle] - scene.creature->rear_centre);
-    return {{"file", skin.file},
-            {"digest", skin.digest},
-            {"unit", skin.unit},
-            {"axes", triples_json(skin.axes.rowwise())},
-            {"origin", {skin.origin.x(), skin.origin.y(), skin.origin.z()}},
-            {"vertices", triples_json(skin.vertices)},
-            {"triangles", triples_json(skin.triangles)},
-            {"cluster", clusters},
-            {"share", shares},
-            {"rest", triples_json(rest)}};
+    ordered_json body{{"file", skin.file},
+                      {"digest", skin.digest},
+                      {"unit", skin.unit},
+                      {"axes", triples_json(skin.axes.rowwise())},
+                      {"origin", {skin.origin.x(), skin.origin.y(), skin.origin.z()}},
+                      {"vertices", triples_json(skin.vertices)},
+                      {"triangles", triples_json(skin.triangles)},
+                      {"cluster", clusters},
+                      {"share", shares},
+                      {"rest", triples_json(rest)}};
+    if (scene.creature->regions) body["other"] = others;
+    return body;
 }
 
 template <class Real>

@@ -108,6 +108,28 @@ std::vector<std::vector<Bend>> read_bends(const json& value, const Place& place,
     return bends;
 }
 
+/// How muscles between the regions of `mesh.points` bend, for all of them.
+std::vector<Bend> read_region_bends(const json& value, const Place& place) {
+    const std::vector<std::pair<std::string_view, std::vector<Bend>>> words = {
+        {"sideways", {Bend::sideways}},
+        {"vertical", {Bend::vertical}},
+        {"both", {Bend::sideways, Bend::vertical}},
+        {"contract", {Bend::contract}}};
+    return read_choice(value, place, words);
+}
+
+/// Whether the body has control points instead of joints; refuses what belongs to joints alone.
+bool has_points(const json& value, const Place& place) {
+    if (!value.contains("mesh") || !value.at("mesh").is_object() || !has(value.at("mesh"), "points")) return false;
+    for (const char* key : {"joint", "muscleSlices"})
+        if (value.contains(key))
+            refuse(place.key(key), value.at(key), "left out beside mesh.points, which has no joints");
+    for (const char* key : {"clusterStiffness", "springStiffness"})
+        if (value.contains(key) && value.at(key).is_array())
+            refuse(place.key(key), value.at(key), "a number beside mesh.points");
+    return true;
+}
+
 /// Slices and joints, by the one of three keys that makes them.
 void read_shape(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature) {
     const char* const maker = value.contains("mesh") ? "mesh" : value.contains("profile") ? "profile" : nullptr;
@@ -115,10 +137,12 @@ void read_shape(const json& value, const Place& place, const std::filesystem::pa
     for (const char* key : {"slices", "joints", "profile"})
         if (key != std::string_view(maker) && value.contains(key))
             refuse(place.key(key), value.at(key), std::string("left out beside ") + maker + ", which makes them");
-    if (maker == std::string_view("mesh"))
-        read_mesh_body(value.at("mesh"), place.key("mesh"), data, creature);
-    else
-        read_profile(value.at("profile"), place.key("profile"), creature);
+    if (maker == std::string_view("profile")) return read_profile(value.at("profile"), place.key("profile"), creature);
+    std::vector<Bend> bends;
+    if (has_points(value, place))
+        bends = value.contains("bend") ? read_region_bends(value.at("bend"), place.key("bend"))
+                                       : std::vector<Bend>{Bend::sideways};
+    read_mesh_body(value.at("mesh"), place.key("mesh"), data, bends, creature);
 }
 
 }  // namespace
@@ -140,7 +164,8 @@ Creature read_creature(const json& value, const Place& place, const std::filesys
     if (value.contains("joint"))
         creature.joint =
             read_choice<Joint>(value.at("joint"), place.key("joint"), {{"slice", Joint::slice}, {"line", Joint::line}});
-    if (value.contains("bend")) creature.bends = read_bends(value.at("bend"), place.key("bend"), creature.gaps());
+    if (value.contains("bend") && !creature.regions)
+        creature.bends = read_bends(value.at("bend"), place.key("bend"), creature.gaps());
     std::vector<int> ends = creature.joints;
     ends.insert(ends.begin(), 0);
     ends.push_back(last);

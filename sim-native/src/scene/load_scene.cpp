@@ -108,11 +108,13 @@ json with_bases(const std::string& name, json document, const std::filesystem::p
     return merged;
 }
 
-/// Of unit and length a mesh has one: what the scene gives takes the place of what the file has.
-void replace_scale(json& of_file, const json& of_scene) {
+/// Of unit and length, and of joints and points, a mesh has one: what the scene gives takes the place of what the file
+/// has.
+void replace_alternatives(json& of_file, const json& of_scene) {
     for (const json* creature : {static_cast<const json*>(&of_file), &of_scene})
         if (!creature->contains("mesh") || !creature->at("mesh").is_object()) return;
-    for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"}})
+    for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"},
+                                       std::pair{"joints", "points"}, std::pair{"points", "joints"}})
         if (fields::has(of_scene.at("mesh"), given) && !of_scene.at("mesh").contains(other))
             of_file["mesh"].erase(other);
 }
@@ -134,7 +136,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
         if (!fields::has(creature, kind) || merged.contains(kind)) continue;
         for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
     }
-    replace_scale(merged, creature);
+    replace_alternatives(merged, creature);
     merged.merge_patch(creature);
     creature = std::move(merged);
 }

@@ -10,6 +10,7 @@
 #include "model/mesh/check_mesh.h"
 #include "model/mesh/mesh_points.h"
 #include "model/mesh/mesh_slices.h"
+#include "model/mesh/regions.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "readers.h"
@@ -121,16 +122,44 @@ TurnedMesh read_turned_mesh(const json& value, const Place& place, const std::fi
     return turned;
 }
 
+/// Control points of a body whose skin is known: a number, or places in the file.
+void read_points(const json& value, const Place& place, const std::vector<Bend>& bends, Creature& creature) {
+    const Skin& skin = *creature.skin;
+    ControlPoints points{0, {}, bends};
+    if (value.is_array()) {
+        if (value.empty() || value.size() > max_control_points)
+            refuse(place, value,
+                   "1 to " + std::to_string(max_control_points) + " places in the file, or a number of points");
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            Eigen::Vector3d at = skin.origin;
+            read(value[i], place.item(i), {-1e9, 1e9, false, "unit of the file"}, at);
+            points.places.push_back(skin.axes * (at - skin.origin) * skin.unit / creature.spacing);
+        }
+    } else {
+        read(value, place, {min_control_points, max_control_points, false, "points"}, points.count);
+    }
+    std::vector<Eigen::Vector3d> vertices;
+    for (const Eigen::Vector3d& vertex : skin.vertices) vertices.push_back(vertex / creature.spacing);
+    try {
+        creature.regions = make_regions(creature.slices, points, vertices);
+    } catch (const InputError& error) {
+        refuse(place, error.what());
+    }
+}
+
 }  // namespace
 
 std::string mesh_digest(const std::string& file, const Place& place, const std::filesystem::path& data) {
     return of_file(place, file, [&] { return digest_of(mesh_bytes(file, data)); });
 }
 
-void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature) {
+void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data,
+                    const std::vector<Bend>& bends, Creature& creature) {
     std::vector<std::string_view> keys = mesh_keys;
-    keys.push_back("joints");
+    keys.insert(keys.end(), {"joints", "points"});
     check_keys(value, place, keys);
+    if (has(value, "points") && has(value, "joints"))
+        refuse(place.key("points"), value.at("points"), "left out beside joints");
     auto [mesh, read_skin] = read_turned_mesh(value, place, data);
     auto skin = std::make_shared<Skin>(std::move(read_skin));
     const MeshSlices body = of_file(place.key("file"), skin->file,
@@ -141,9 +170,10 @@ void read_mesh_body(const json& value, const Place& place, const std::filesystem
         skin->vertices.push_back((vertex - body.rear_centre) * skin->unit);
     skin->triangles = mesh.triangles;
     creature.slices = body.slices;
+    creature.skin = std::move(skin);
+    if (has(value, "points")) return read_points(value.at("points"), place.key("points"), bends, creature);
     creature.joints = read_joint_parts(required(value, place, "joints"), place.key("joints"),
                                        static_cast<int>(creature.slices.size()));
-    creature.skin = std::move(skin);
 }
 
 std::vector<Eigen::Vector3d> read_mesh_points(const json& value, const Place& place, const std::filesystem::path& data,

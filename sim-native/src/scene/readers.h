@@ -28,8 +28,10 @@ void read_profile(const json& value, const Place& place, Creature& creature);
 /// Keys of a mesh's file, its scale and its axes.
 inline const std::vector<std::string_view> mesh_keys{"file", "digest", "unit", "length", "forward", "up"};
 
-/// Gives a creature whose spacing is known the slices, the joints and the skin of a mesh.
-void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature);
+/// Gives a creature whose spacing is known the slices, the joints or regions, and the skin of a mesh. `bends`: how
+/// muscles between regions bend.
+void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data,
+                    const std::vector<Bend>& bends, Creature& creature);
 
 /// Places of particles inside a mesh, from the middle of its box, length.
 std::vector<Eigen::Vector3d> read_mesh_points(const json& value, const Place& place, const std::filesystem::path& data,

@@ -89,12 +89,13 @@ def _skin(skin, particles, clusters):
     """Its arrays. Raises ValueError and others if they do not fit a body of so many particles and clusters."""
     arrays = {key: np.array(skin[key], dtype) for key, dtype in (
         ("vertices", float), ("rest", float), ("share", float), ("triangles", int), ("cluster", int))}
-    vertices, rest, share, triangles, cluster = arrays.values()
+    arrays["other"] = np.array(skin.get("other", arrays["cluster"] + 1), int)
+    vertices, rest, share, triangles, cluster, other = arrays.values()
     count = len(vertices)
-    fits = (vertices.shape == (count, 3) and rest.shape == (particles, 3) and share.shape == cluster.shape == (count,)
+    fits = (vertices.shape == (count, 3) and rest.shape == (particles, 3) and share.shape == cluster.shape == other.shape == (count,)
             and triangles.shape == (len(triangles), 3) and ((0 <= triangles) & (triangles < count)).all()
             and ((0 <= cluster) & (cluster < clusters)).all() and ((0 <= share) & (share <= 1)).all()
-            and (share[cluster == clusters - 1] == 1).all() and np.isfinite(vertices).all() and np.isfinite(rest).all())
+            and ((0 <= other) & ((other < clusters) | (share == 1))).all() and np.isfinite(vertices).all() and np.isfinite(rest).all())
     if not fits:
         raise ValueError
     return arrays
@@ -197,13 +198,13 @@ class Rig:
     def __init__(self, swim, creature, start):
         self._clusters = [np.array(cluster) for cluster in swim.clusters_of(creature)]
         if creature == 0 and swim.skin:
-            self.vertices, rest, share, self.triangles, self.cluster = swim.skin.values()
+            self.vertices, rest, share, self.triangles, self.cluster, other = swim.skin.values()
             self._rest = np.zeros((swim.scene["particles"], 3))
             self._rest[swim.scene["body"]] = rest
             follows = np.zeros((len(self.vertices), len(self._clusters) + 1))
             each = np.arange(len(self.vertices))
             follows[each, self.cluster] = share
-            follows[each, self.cluster + 1] = 1 - share
+            follows[each, other] += 1 - share
         else:
             self._rest = start.astype(float)
             used, triangles = np.unique(swim.triangles[creature], return_inverse=True)

@@ -20,6 +20,19 @@ test('a skin follows the rigid motion of its clusters', () => {
       [2, 3, 0, 3.375, 0.875, 0, 5, -2, 1]);
 });
 
+/** With three clusters, of which the last has not moved, the vertex in the middle follows the first and the last. */
+test('a skin between regions follows two that need not be neighbours', () => {
+  const rest = [[1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 0, 1], [-1, 0, 0], [-2, 0, 0], [-1, 1, 0], [-1, 0, 1]];
+  const motion = new SkinMotion({body: [0, 1, 2, 3, 4, 5, 6, 7], clusters: [[0, 1, 2, 3], [1, 2, 3, 4], [4, 5, 6, 7]], skin: {
+    triangles: [[0, 0, 0]], vertices: [[0, 0.5, 0]], cluster: [0], other: [2], share: [0.75], rest}});
+  const position = new Float32Array(24);
+  rest.forEach(([x, y, z], i) => position.set(i < 4 ? [x, y + 3, z] : [x, y, z], 3 * i));
+
+  motion.update({position});
+
+  assert.deepEqual(Array.from(motion.places, place => Math.round(1e4 * place) / 1e4 + 0), [0, 2.75, 0]);
+});
+
 /** A block of 6 × 6 × 6 particles, 1 apart: closed, as seen from outside, and about a block of 6³. */
 test('a surface is closed around its particles', () => {
   const places = Array.from({length: 216}, (_, i) => [i % 6, Math.floor(i / 6) % 6, Math.floor(i / 36)]);

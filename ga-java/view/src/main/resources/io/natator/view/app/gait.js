@@ -31,8 +31,8 @@ function offsets(gait) {
 
 /** Numbers of the actuators of a scene (SCEN) that bend the body sideways. */
 function sidewaysActuators({actuators, muscles}) {
-  const upright = new Set(muscles.filter(muscle => muscle.bend === 'vertical').map(muscle => muscle.actuator));
-  return Array.from({length: actuators}, (_, i) => i).filter(i => !upright.has(i));
+  const others = new Set(muscles.filter(muscle => muscle.bend).map(muscle => muscle.actuator));
+  return Array.from({length: actuators}, (_, i) => i).filter(i => !others.has(i));
 }
 
 /**

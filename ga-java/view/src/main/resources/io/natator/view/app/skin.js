@@ -123,11 +123,11 @@ export class SkinMotion {
   update(frame) {
     this.#clusters.forEach(cluster => cluster.update(frame.position));
     this.places.fill(0);
-    const {vertices, cluster, share} = this.#skin;
+    const {vertices, cluster, other, share} = this.#skin;
     vertices.forEach((vertex, i) => {
       this.#clusters[cluster[i]].add(vertex, share[i], this.places, 3 * i);
       if (share[i] < 1) {
-        this.#clusters[cluster[i] + 1].add(vertex, 1 - share[i], this.places, 3 * i);
+        this.#clusters[other ? other[i] : cluster[i] + 1].add(vertex, 1 - share[i], this.places, 3 * i);
       }
     });
   }
