@@ -39,7 +39,7 @@ def parser():
             command.add_argument("--workers", type=int, metavar="N", help="with --fresh: how many at a time; default: all processors")
             command.add_argument("--duration", type=float, help="s, to the nearest frame; default: the run's, else the scene's")
             command.add_argument("--every", type=int, default=1, metavar="N", help="every Nth frame only")
-            command.add_argument("--fields", default=",".join(export.WIDTHS), help="of each particle; default: %(default)s")
+            command.add_argument("--fields", default=",".join(export.USUAL), help="of each particle, also force; default: %(default)s")
             command.add_argument("--water-surface", action="store_true", help="with a mesh of the water's surface")
             command.add_argument("--precision", help="what is computed in, float or double; files hold floats")
             command.add_argument("--output-dir", metavar="DIR", help="default: RUN/export-FORMAT, or the scene's name and the format")
