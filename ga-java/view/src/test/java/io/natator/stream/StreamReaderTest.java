@@ -120,7 +120,8 @@ class StreamReaderTest {
         assertThat(water.body()).isEqualTo(ByteBuffer.wrap(body));
         assertThat(water.body().isReadOnly()).isTrue();
         assertThat(water.body().order()).isEqualTo(ByteOrder.LITTLE_ENDIAN);
-        byte[] pressed = ByteBuffer.allocate(64 + 20 * 6).order(ByteOrder.LITTLE_ENDIAN).put(body).putInt(20, 1).array();
+        byte[] pressed = ByteBuffer.allocate(64 + 20 * 6).order(ByteOrder.LITTLE_ENDIAN).put(body).putInt(20, 1)
+                .array();
         assertThat(reader(new StreamBytes().message("WATR", pressed)).next()).isInstanceOf(StreamMessage.Water.class);
         assertThatAllOfItThrows(new StreamBytes().message("WATR", new byte[60]),
                 "WATR of 60 bytes; expected 64 to 268435456");
@@ -184,7 +185,7 @@ class StreamReaderTest {
         assertThatAllOfItThrows(new StreamBytes().message("STOP", new byte[3]),
                 "STOP of 3 bytes; expected a multiple of 4 up to 268435456");
         assertThatAllOfItThrows(begun().message("FRAM", StreamBytes.frameBody(1, 0, FLOATS + 1)),
-                "FRAM of 304 bytes; expected 300 for 8 particles and 1 actuator");
+                "FRAM of 400 bytes; expected 396 for 8 particles and 1 actuator");
     }
 
     @Test

@@ -21,7 +21,7 @@ const PARTS = [
     + 'get anywhere. What still moves forwards does so by an error of the method, not by swimming.'],
   ['Schemes', '“conserving” keeps momentum to rounding and is meant for swimming as physics. “flex” moves particles as NVIDIA '
     + 'Flex does, to repeat work made with it; momentum is not kept there, and bodies move even in vacuum. “lattice” has the '
-    + 'bodies of “conserving” in water on a lattice, which has no surface: its vorticity is drawn.'],
+    + 'bodies of “conserving” in water on a lattice, which has no surface: its vortices are drawn.'],
 ];
 const CHARTS = [
   ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat.'],
