@@ -126,7 +126,8 @@ void add_stream(CLI::App& app, int& status) {
         ->check(whole_number_in(0, 2147483647));
     command->add_option("--state", options->state, "File of a saved moment of this scene, to begin at.");
     command
-        ->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density, force of the water; none.")
+        ->add_option("--fields", options->fields,
+                     "What frames hold of particles: position, velocity, density, force of the water; none.")
         ->delimiter(',')
         ->check(one_of({"position", "velocity", "density", "force", "none"}))
         ->capture_default_str();

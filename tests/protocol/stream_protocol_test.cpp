@@ -302,7 +302,8 @@ TEST(StreamTest, AnOutputThatCannotBeWrittenIsAFailure) {
 /// In the settled start there has been none; scheme flex knows none, and leaves the field out.
 TEST(StreamTest, FramesHoldTheForceOfTheWaterWhereTheSchemeKnowsIt) {
     StreamClient client({"plane/loach", "--paused", "--gait",
-                         R"({"frequency":2,"amplitude":[1,1,1,1,1],"phase":[0,0,0,0,0]})", "--fields", "position,force"});
+                         R"({"frequency":2,"amplitude":[1,1,1,1,1],"phase":[0,0,0,0,0]})", "--fields",
+                         "position,force"});
     EXPECT_EQ(client.expect("SCEN")["fields"], (json{"position", "force"}));
     const StreamFrame start = take_start(client);
     EXPECT_EQ(start.force, std::vector<float>(start.position.size(), 0));

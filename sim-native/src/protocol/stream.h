@@ -37,7 +37,7 @@ struct Sense {
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
-struct Water {           ///< a WATR of the present state
+struct Water {  ///< a WATR of the present state
     bool pressure = false;
 };
 struct Save {};          ///< a STAT of the present moment
