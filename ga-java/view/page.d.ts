@@ -64,7 +64,8 @@ interface Scene {
   body: number[];
   slices: number[][];
   bodyLength: number;
-  companions: {name: string, body: number[], slices: number[][]}[];
+  /** Missing in recordings. */
+  companions?: {name: string, body: number[], slices: number[][]}[];
   clusters: number[][];
   joints: number[];
   actuators: number;

@@ -94,7 +94,7 @@ test('the force on each part is the sum over its particles, and all parts togeth
 test('pressure on the body is that of the water outside of it', () => {
   const pressure = new SkinPressure();
   pressure.isShown = true;
-  pressure.setScene({restarted: true, slices: [[0, 1], [2, 3]], companions: [], solidRestDistance: 0.2, bodyLength: 0.1, clusters: [], body: [0, 1, 2, 3]});
+  pressure.setScene({restarted: true, slices: [[0, 1], [2, 3]], solidRestDistance: 0.2, bodyLength: 0.1, clusters: [], body: [0, 1, 2, 3]});
   const still = water([10, 1, 20], [0, 0, 0], () => [0, 0, 0]);
   still.pressure = Float32Array.from(still.density, (_, i) => 2 * (0.1 * (Math.floor(i / 10) + 0.5)));
   pressure.setWater(still, Float32Array.from([0.4, 0.05, 0.9, 0.4, 0.05, 1.1, 0.5, 0.05, 0.9, 0.5, 0.05, 1.1]));

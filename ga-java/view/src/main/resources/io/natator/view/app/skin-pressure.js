@@ -65,7 +65,7 @@ export class SkinPressure {
   setScene(scene) {
     this.#scene = scene;
     this.#wraps = ['x', 'y', 'z'].map(axis => axis in (scene.periodic ?? {}));
-    this.#sides = [scene.slices, ...scene.companions.map(one => one.slices)].flat();
+    this.#sides = [scene.slices, ...(scene.companions ?? []).map(one => one.slices)].flat();
     if (scene.restarted) {
       this.#water = this.#last = null;
       this.#end = new RoundEnd(LEAST);
