@@ -1,6 +1,8 @@
 /** Elements of the page that are more than any element, by their id: index.html, replay.html and live-page.html. */
 interface PageElements {
   'dye': HTMLInputElement;
+  'forces': HTMLInputElement;
+  'pressure': HTMLInputElement;
   'front-other': HTMLSelectElement;
   'gait-file': HTMLInputElement;
   'gait-load': HTMLButtonElement;
@@ -62,7 +64,8 @@ interface Scene {
   body: number[];
   slices: number[][];
   bodyLength: number;
-  companions: {name: string, body: number[], slices: number[][]}[];
+  /** Missing in recordings. */
+  companions?: {name: string, body: number[], slices: number[][]}[];
   clusters: number[][];
   joints: number[];
   actuators: number;
@@ -96,6 +99,8 @@ interface Frame {
   position: Float32Array | null;
   velocities: Float32Array | null;
   density: Float32Array | null;
+  /** Of the water on each particle, mass length/s²: 3 numbers; null where the stream or a recording leaves it out. */
+  force?: Float32Array | null;
   /** How far the tank has moved along with its swimmer: by that much places are greater than in the stream. */
   origin?: number[];
 }
@@ -115,6 +120,8 @@ interface Water {
   velocity: Float32Array;
   /** In rest densities. */
   density: Float32Array;
+  /** mass/(length s²), NaN where it is not known; null where it was not asked for. */
+  pressure?: Float32Array | null;
   /** How far the tank had moved, see Frame. */
   origin?: number[];
 }

@@ -32,8 +32,8 @@ void start(const nlohmann::json& command) {
     const StreamCommand parsed = parse_stream_command(command);
     const auto* const scene = std::get_if<stream::NewScene>(&parsed);
     if (!scene) throw InputError("command: do must be \"scene\" at first");
-    const StreamSettings settings{.fields = {.position = true, .velocity = true}, .paused = true};
-    session.emplace(scene->setup, Execution{}, settings);
+    const StreamSettings settings{.fields = {.position = true, .velocity = true, .force = true}, .paused = true};
+    session.emplace(scene->setup, Execution{.forces = true}, settings);
     session->begin();
 }
 

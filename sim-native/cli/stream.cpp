@@ -49,12 +49,13 @@ SimulationSetup read_setup(const StreamOptions& options) {
 stream::Fields read_fields(const std::vector<std::string>& names) {
     if (names.size() > 1 && std::find(names.begin(), names.end(), "none") != names.end())
         throw InputError(
-            "--fields: none stands beside others; must be none alone, or some of position, velocity, density");
+            "--fields: none stands beside others; must be none alone, or some of position, velocity, density, force");
     stream::Fields fields{.position = false};
     for (const std::string& name : names) {
         fields.position |= name == "position";
         fields.velocity |= name == "velocity";
         fields.density |= name == "density";
+        fields.force |= name == "force";
     }
     return fields;
 }
@@ -72,11 +73,15 @@ void run_stream(StreamOptions& options) {
     const BatchSize size{.swims = options.swims, .threads = execution.threads};
     if (size.swims > 1) execution.threads = 1;
     const SimulationSetup setup = read_setup(options);
+    execution.forces = options.settings.fields.force;
+    if (execution.forces && size.swims > 1 && options.backend.name != "cpu")
+        throw InputError(
+            "--fields: force is not known of many swims on a GPU; must be without --batch, or with --backend cpu");
     SharedGpu shared;
     if (options.backend.name != "cpu" &&
         on_gpu(options.backend, load_scene(setup.scene, SceneOptions{setup.overrides, setup.data}))) {
         execution.gpu = options.backend.device;
-        execution.shared = &shared;
+        if (!execution.forces) execution.shared = &shared;
     }
     StreamBatch<Real> batch(setup, execution, options.settings, size);
     if (!options.state.empty()) batch.restore(read_state(options.state));
@@ -125,9 +130,10 @@ void add_stream(CLI::App& app, int& status) {
         ->check(whole_number_in(0, 2147483647));
     command->add_option("--state", options->state, "File of a saved moment of this scene, to begin at.");
     command
-        ->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
+        ->add_option("--fields", options->fields,
+                     "What frames hold of particles: position, velocity, density, force of the water; none.")
         ->delimiter(',')
-        ->check(one_of({"position", "velocity", "density", "none"}))
+        ->check(one_of({"position", "velocity", "density", "force", "none"}))
         ->capture_default_str();
     command
         ->add_option("--batch", options->swims,

@@ -274,9 +274,9 @@ void StreamSession<Real>::apply(const stream::Sense& sense) {
 }
 
 template <class Real>
-void StreamSession<Real>::apply(const stream::Water&) {
+void StreamSession<Real>::apply(const stream::Water& water) {
     refuse_if_unstable();
-    say(stream_water(simulation_, scene_));
+    say(stream_water(simulation_, scene_, water.pressure));
 }
 
 template <class Real>

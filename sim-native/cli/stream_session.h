@@ -65,7 +65,7 @@ private:
     void apply(const stream::Run&);
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
-    void apply(const stream::Water&);
+    void apply(const stream::Water& water);
     void apply(const stream::Save&);
     void apply(const stream::Restore& restore);
     void apply(const stream::Rate& rate);

@@ -101,6 +101,22 @@ class ReadersTest(FolderTest):
                                    scheme="conserving", overrides={"solver": {"substeps": 2, "viscosity": 3}})
                 self.assertEqual(len(found.reference.frames), 5)
 
+    def test_the_force_of_the_water_and_its_pressure(self):
+        swim = self.folder / "forces"
+        export("bench/small-tank", "npz", swim, scheme="conserving", duration=0.1, fields=("force",))
+        with np.load(swim / "swim.npz") as arrays:
+            force, body = arrays["force"], arrays["kind"] == 1
+            self.assertNotIn("velocity", arrays)
+        self.assertEqual(np.abs(force[0]).max(), 0)
+        self.assertEqual(np.abs(force[:, ~body]).max(), 0)
+        self.assertGreater(force[1:, body].sum(1)[:, 1].min(), 0)  # it is held up
+        import pyvista
+        export("bench/small-tank", "vti", self.folder / "grid", scheme="conserving", duration=0.1)
+        *_, last = sorted((self.folder / "grid" / "water").iterdir())
+        self.assertGreater(np.nanmax(pyvista.read(last)["pressure"]), 0)
+        with self.assertRaisesRegex(InputError, "fields: scheme flex knows no force"):
+            export("bench/small-tank", "npz", self.folder / "none", scheme="flex", duration=0.1, fields=("force",))
+
     def test_water_without_a_body(self):
         for format in FORMATS.keys() - {"glb"}:
             with self.subTest(format):
@@ -267,7 +283,7 @@ class CommandTest(FolderTest):
                 ("thesis/tank --format ply --no-water", "thesis/tank has no particles to export; expected some"),
                 ("thesis/tank --format glb", "--format glb: thesis/tank has no body with a surface; expected one"),
                 (f"{TANK} --format csv --fields velocity,velocity", "--fields is velocity,velocity: must be some of position, velocity, "
-                 "density, each once"),
+                 "density, force, each once"),
                 (f"{TANK} --format csv --every 0", "every = 0: must be a whole number from 1 on"),
                 (f"{TANK} --format csv --every x", "argument --every: invalid int value: 'x'"),
                 (f"{TANK} --format csv --duration 0", "duration = 0.0: must be above 0 s"),

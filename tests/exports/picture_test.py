@@ -13,6 +13,7 @@ from unittest import mock
 import numpy as np
 from natator import picture
 from natator.errors import InputError
+from natator.water import Water
 from PIL import Image
 
 TANK = "bench/small-tank"
@@ -76,6 +77,33 @@ class PictureTest(unittest.TestCase):
         self.assertGreater(cold[0], 0.002 + 4 * cold[1])
         with self.assertRaisesRegex(InputError, "the water does not turn anywhere"):
             self.drawn("lake/creature-2", overrides=cells, at=0, vortices=True, size=(500, 300))
+
+    def test_a_plane_of_the_water_and_what_it_does_to_the_body_are_seen(self):
+        gait = {"frequency": 2, "amplitude": [1] * 5, "phase": [0] * 5}
+        red, bare = [], self.drawn("plane/loach", gait=gait, at=0.1, view="top", size=(500, 300))[0]
+        for more in ({"plane": "velocity"}, {"plane": "vorticity"}, {"plane": "pressure"}, {"forces": True}, {"pressure": True}):
+            pixels = self.drawn("plane/loach", gait=gait, at=0.1, view="top", size=(500, 300), **more)[0].astype(int)
+            self.assertGreater((np.abs(pixels[40:] - bare[40:]).max(-1) > 30).mean(), 0.001, more)
+            red.append(np.mean((pixels[..., 0] > 160) & (pixels[..., 1] < 60) & (pixels[..., 2] > 60) & (pixels[..., 2] < 140)))
+        self.assertGreater(red[3], 3 * red[0] + 0.0005)  # its arrows
+        with self.assertRaisesRegex(InputError, "pressure: scheme flex has none"):
+            self.drawn(TANK, scheme="flex", plane="pressure")
+        with self.assertRaisesRegex(InputError, "fields: scheme flex knows no force"):
+            self.drawn(TANK, scheme="flex", forces=True)
+
+    def test_the_force_of_all_parts_is_that_of_the_body_and_pressure_that_outside_of_it(self):
+        swim = SimpleNamespace(solids=np.arange(4), cluster=np.array([0, 0, 1, 1]), scene={
+            "body": [0, 1, 2, 3], "bodyLength": 2.0, "slices": [[0, 1], [2, 3]], "definition": {"creature": {"spacing": 0.1}}})
+        frame = SimpleNamespace(position=np.array([(0, 0, -0.1), (0, 0, 0.1), (1, 0, -0.1), (1, 0, 0.1)], "f4"),
+                                force=np.array([(1, 0, 0), (0, 2, 0), (0, 0, 3), (-4, 0, 0)], "f4"))
+        drawn = []
+        with mock.patch.object(picture, "_arrows", lambda *given, **_: drawn.extend(given[2:4])):
+            self.assertIn("longest 5 mass", picture._forces(None, None, swim, frame))
+        np.testing.assert_allclose(drawn[0], [(0, 0, 0), (1, 0, 0)], atol=1e-7)
+        np.testing.assert_allclose(drawn[1], 0.4 * 2 / 5 * np.array([(1, 2, 0), (-4, 0, 3)]))
+        z = -1 + 0.1 * (np.arange(20) + 0.5)
+        water = Water(0.0, 0.1, np.array([-1.0, -0.05, -1.0]), np.zeros((30, 1, 20, 3)), np.ones((30, 1, 20)), np.broadcast_to(3 * z, (30, 1, 20)))
+        np.testing.assert_allclose(picture._pressed(water, swim, frame), 3 * 0.3 * np.array([-1, 1, -1, 1]), atol=1e-6)
 
     def test_water_veils_what_is_behind_it_and_ends_at_the_walls(self):
         _, wet, _ = self.drawn(size=(500, 300))

@@ -346,10 +346,10 @@ def check_frame(body):
 
 def check_water(body):
     """As many cells as it says; all numbers are finite."""
-    x, y, z = struct.unpack_from("<3I", body, 8)
-    if len(body) != 64 + 16 * x * y * z:
+    x, y, z, pressed = struct.unpack_from("<4I", body, 8)
+    if pressed > 1 or len(body) != 64 + (16 + 4 * pressed) * x * y * z:
         raise Fault(f"{len(body)} bytes of {x} x {y} x {z} cells")
-    check_finite("the water", struct.unpack_from("<5d", body, 24), body[64:])
+    check_finite("the water", struct.unpack_from("<5d", body, 24), body[64:64 + 16 * x * y * z])  # of the pressure some are not known
 
 
 def check_finite(what, doubles, floats):

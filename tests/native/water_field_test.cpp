@@ -109,6 +109,27 @@ TEST(WaterField, WaterThatClosesUpHasNoEnds) {
     EXPECT_NEAR(field.density[middle], sum, 1e-5);
 }
 
+/// A column at rest: what is linear is exact where neighbours stand evenly.
+TEST(WaterField, PressureIsTheMeanOfTheParticles) {
+    const auto still = [](const Eigen::Vector3d&) -> Eigen::Vector3d { return Eigen::Vector3d::Zero(); };
+    Block block({8, 9, 7}, 0.1, 0, still);
+    EXPECT_TRUE(water_field(block.model, block.state).pressure.empty());
+    std::vector<double> pressures;
+    for (const Eigen::Vector3d& place : block.state.position) pressures.push_back(9.81 * (0.9 - place.y()));
+    const WaterField field = water_field(block.model, block.state, pressures);
+    std::size_t i = 0;
+    lattice::for_each_cell({.cells = field.cells}, [&](const Eigen::Vector3i& at) {
+        const std::size_t cell = i++;
+        if (at.y() < 1 || at.y() > 7) return;  // whose neighbours are to one side
+        EXPECT_NEAR(field.pressure[cell], 9.81 * (0.9 - centre(field, at).y()), 1e-5) << at;
+    });
+    ASSERT_EQ(i, field.pressure.size());
+    block.model.periodic = {{0, 0, 2}};  // half of it air
+    const WaterField half = water_field(block.model, block.state, pressures);
+    EXPECT_TRUE(std::isnan(half.pressure[15]));
+    EXPECT_FALSE(std::isnan(half.pressure[4]));
+}
+
 TEST(WaterField, NoWaterHasNoCellsAndScatteredWaterTooMany) {
     EXPECT_EQ(water_field(Model{}, State<float>{}).cells, Eigen::Vector3i::Zero());
     Block block({2, 2, 2}, 0.1, 0, [](const Eigen::Vector3d&) -> Eigen::Vector3d { return Eigen::Vector3d::Zero(); });

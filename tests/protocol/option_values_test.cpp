@@ -59,7 +59,7 @@ const BadValue bad_values[] = {
     {{"stream", vacuum_scene, "--start", "99999999999999999999"},
      "--start = 99999999999999999999: must be a whole number in [0, 2147483647]; see "},
     {{"stream", vacuum_scene, "--fields", "position,speed"},
-     "--fields = speed: must be position, velocity, density or none; see "},
+     "--fields = speed: must be position, velocity, density, force or none; see "},
     {{"converge", "-", "--levels", "time/3"}, "--levels = time/3: must be time/2, time/4, spacing/2 or both/2; see "},
     {{"converge", "-", "--starts", "1"}, "--starts = 1: must be a whole number in [2, 1000]; see "},
     {{"particles", "x.json", "--backend", "auto"}, "--backend = auto: must be cpu or cuda; see "},

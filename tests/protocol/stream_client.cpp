@@ -70,6 +70,7 @@ StreamFrame::StreamFrame(const std::string& body, const nlohmann::json& about) {
         if (field == "position") position = bytes.take_floats(3 * particles);
         if (field == "velocity") velocity = bytes.take_floats(3 * particles);
         if (field == "density") density = bytes.take_floats(particles);
+        if (field == "force") force = bytes.take_floats(3 * particles);
     }
     if (!bytes.empty()) throw std::runtime_error("frame is too long");
     if (scene != about.at("number")) throw std::runtime_error("frame is of another scene than the last");

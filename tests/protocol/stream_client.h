@@ -23,7 +23,7 @@ struct StreamFrame {
     std::uint32_t scene = 0, number = 0, dropped = 0, flags = 0;
     double time = 0, wall = 0, distance = 0;
     std::vector<float> body_velocity, laws, drive;
-    std::vector<float> position, velocity, density;  ///< empty where the scene's `fields` lack it
+    std::vector<float> position, velocity, density, force;  ///< empty where the scene's `fields` lack it
 
     /// Throws std::runtime_error when the size is not that which `scene`, a SCEN, gives.
     StreamFrame(const std::string& body, const nlohmann::json& scene);

@@ -299,6 +299,26 @@ TEST(StreamTest, AnOutputThatCannotBeWrittenIsAFailure) {
     }
 }
 
+/// In the settled start there has been none; scheme flex knows none, and leaves the field out.
+TEST(StreamTest, FramesHoldTheForceOfTheWaterWhereTheSchemeKnowsIt) {
+    StreamClient client({"plane/loach", "--paused", "--gait",
+                         R"({"frequency":2,"amplitude":[1,1,1,1,1],"phase":[0,0,0,0,0]})", "--fields",
+                         "position,force"});
+    EXPECT_EQ(client.expect("SCEN")["fields"], (json{"position", "force"}));
+    const StreamFrame start = take_start(client);
+    EXPECT_EQ(start.force, std::vector<float>(start.position.size(), 0));
+    const StreamFrame later = take_step(client, 5);
+    const auto felt = [](float value) { return value != 0; };
+    EXPECT_GT(std::count_if(later.force.begin(), later.force.end(), felt), static_cast<long>(later.force.size() / 2));
+    EXPECT_EQ(client.ask({{"do", "scene"}, {"scene", water}})["ok"], true);
+    client.passed();
+    EXPECT_EQ(client.scene()["scheme"], "flex");
+    EXPECT_EQ(client.scene()["fields"], json{"position"});
+    EXPECT_TRUE(take_start(client).force.empty());
+    EXPECT_EQ(client.ask({{"do", "water"}, {"pressure", true}})["error"],
+              "pressure: scheme flex has none; must be conserving or lattice");
+}
+
 TEST(StreamTest, BadUsageSaysWhatIsWrong) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> bad{
         {{"thesis/none"}, "thesis/none"},
@@ -307,6 +327,7 @@ TEST(StreamTest, BadUsageSaysWhatIsWrong) {
         {{vacuum, "--rate", "-1"}, "--rate"},
         {{vacuum, "--every", "0"}, "--every"},
         {{vacuum, "--fields", "colour"}, "colour"},
+        {{vacuum, "--fields", "force", "--batch", "2", "--backend", "cuda"}, "--fields: force"},
         {{vacuum, "--precision", "half"}, "half"},
         {{}, "scene"}};
     for (const auto& [arguments, reason] : bad) {

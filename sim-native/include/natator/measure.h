@@ -143,9 +143,10 @@ std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& 
 /// velocity is Shepard's mean of those within two cells (Shepard 1968), weighted by Wendland's kernel C2; the density
 /// the sum of their volumes times that kernel. Throws InputError for particles so far apart that there would be more
 /// than 100 million cells. Without particles of water, as in scheme `lattice`, it has no cells: Simulation::water has
-/// those of the lattice.
+/// those of the lattice. `pressures`: of each particle (Solver::pressures), whose mean by the same weights it has then;
+/// empty: it has none.
 template <class Real>
-WaterField water_field(const Model& model, const State<Real>& state);
+WaterField water_field(const Model& model, const State<Real>& state, const std::vector<Real>& pressures = {});
 
 /// Where a body feels the water: the particles of a slice that lie outermost on one of its sides at rest.
 struct SkinPlace {

@@ -57,6 +57,9 @@ struct WaterField {
     std::vector<Eigen::Vector3f> velocity;
     /// in rest densities: about 1 in water, less at a surface or a body, 0 without
     std::vector<float> density;
+    /// mass/(length s^2): in scheme `lattice` c_s^2 (rho - rho_0), 0 at rest; in `conserving` the mean of
+    /// Solver::pressures, NaN without water and before the first update; empty in `flex`
+    std::vector<float> pressure;
 };
 
 /// Bits of a particle's phase: a group number and flags, as NVIDIA Flex packs them.

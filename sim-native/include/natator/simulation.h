@@ -113,6 +113,9 @@ public:
     /// The water on a grid: the cells of scheme `lattice`, the particles of the others as water_field has them. Throws
     /// InputError as that.
     WaterField water() const;
+    /// Mean force of the water on each particle over the last frame (Solver::forces), mass length/s^2; 0 before the
+    /// first frame. Empty without Execution::forces, and in scheme flex.
+    std::vector<Vector3<Real>> forces() const;
     const std::optional<Instability>& instability() const { return instability_; }  ///< none: it is stable
 
 private:

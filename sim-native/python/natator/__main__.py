@@ -39,7 +39,7 @@ def parser():
             command.add_argument("--workers", type=int, metavar="N", help="with --fresh: how many at a time; default: all processors")
             command.add_argument("--duration", type=float, help="s, to the nearest frame; default: the run's, else the scene's")
             command.add_argument("--every", type=int, default=1, metavar="N", help="every Nth frame only")
-            command.add_argument("--fields", default=",".join(export.WIDTHS), help="of each particle; default: %(default)s")
+            command.add_argument("--fields", default=",".join(export.USUAL), help="of each particle, also force; default: %(default)s")
             command.add_argument("--water-surface", action="store_true", help="with a mesh of the water's surface")
             command.add_argument("--precision", help="what is computed in, float or double; files hold floats")
             command.add_argument("--output-dir", metavar="DIR", help="default: RUN/export-FORMAT, or the scene's name and the format")
@@ -51,6 +51,11 @@ def parser():
             command.add_argument("--size", metavar="WxH", help="pixels; default: 1600 wide, as high as what is shown")
             command.add_argument("--vortices", action="store_true", help="draw them in place of the water's surface: surfaces of the "
                                  "Q-criterion, red where they turn to the left, seen from above")
+            command.add_argument("--slice", choices=picture.SLICES, help="draw this on a plane in place of the water's surface")
+            command.add_argument("--plane", default="level", choices=picture.PLANES, help="of --slice; default: %(default)s")
+            command.add_argument("--place", type=float, default=0, metavar="X", help="of the plane, in body lengths from the body; default: %(default)s")
+            command.add_argument("--pressure", action="store_true", help="colour the body by the pressure on it")
+            command.add_argument("--forces", action="store_true", help="draw the water's force on each part of the body")
             command.add_argument("-o", "--output", metavar="FILE", help="default: the scene's name and .png")
     about = "Runs a run's best gait once more, draws how it swims and says what fish it is like: a page report.html and its pictures."
     command = commands.add_parser("report", help=about, description=about)
@@ -120,8 +125,10 @@ def drawn(given):
     file = given.output or f"{swim.name}.png"
     if not file.lower().endswith(".png"):
         raise InputError(f"--output is {file}; expected a name that ends in .png")
+    if given.vortices and given.slice:
+        raise InputError(f"--vortices and --slice {given.slice}: expected one of them")
     size, time = picture.picture(swim.scene, file, swim.gait, given.at, given.view, size, not given.no_water, swim.duration,
-                                 given.vortices, overrides=swim.overrides, scheme=swim.scheme)
+                                 given.vortices, given.slice, (given.plane, given.place), given.pressure, given.forces, overrides=swim.overrides, scheme=swim.scheme)
     print(f"{file}: {size[0]} x {size[1]} pixels, at {time:.2f} s")
 
 

@@ -129,13 +129,14 @@ class Frame:
     position: np.ndarray    #: N × 3, length
     velocity: np.ndarray    #: N × 3, length/s
     density: np.ndarray     #: N, rest densities; 0 for solids
+    force: np.ndarray = None  #: N × 3, of the water over the frame, mass length/s²; 0 in the settled start, and on water
 
 
 class Stream:
     """A scene that stands still until it is told to step: the same commands give the same bits.
 
     scene: name or path. gait, overrides (a dict merged into the scene), scheme, start (an int: which of its many starts):
-    as in a request. fields: what frames hold of each particle, of "position", "velocity", "density"; without any there are
+    as in a request. fields: what frames hold of each particle, of "position", "velocity", "density", "force" (not in scheme flex); without any there are
     no frames. backend: "cpu", "cuda" or "auto". arguments: a list of more arguments of `natator-sim stream`. A context manager; what nobody closes or refers to
     is closed too. A forked process needs its own. Raises InputError and ProgramError.
 
@@ -152,6 +153,8 @@ class Stream:
         self._begin(*start_program(scene, gait, overrides, scheme, start, fields, arguments, program, backend))
         try:
             self._take(*self._message())
+            if "force" in fields and "force" not in self.scene["fields"]:
+                raise InputError(f"fields: scheme {self.scene.get('scheme')} knows no force; must be conserving or lattice")
             self.take_first_frame()
         except BaseException:
             self.close()
@@ -255,8 +258,13 @@ class Stream:
 
     def water(self):
         """The Water as it is now. Raises InputError, also when the simulation has become unstable."""
-        self.ask({"do": "water"})
+        self.ask(self.water_command)
         return self.last_water
+
+    @property
+    def water_command(self):
+        """What asks for it, with its pressure where that is known."""
+        return {"do": "water", "pressure": self.scene.get("scheme") != "flex"}
 
     def steer(self, scale=None, offset=None, swimmer=None):
         """Scales and offsets the gait from the next frame on, of the swimmers that `step` tells; without arguments the gait alone drives
@@ -418,7 +426,8 @@ class Stream:
         for field, width in widths.items():
             part = values[at:at + width * count]
             arrays[field], at = part.reshape(count, 3) if width == 3 else part, at + width * count
-        return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"))
+        return Frame(number, time, distance, drive, arrays.get("position"), arrays.get("velocity"), arrays.get("density"),
+                     arrays.get("force"))
 
 
 def _of_swimmer(swimmer):
@@ -490,7 +499,7 @@ def _is_scene(scene):
 
 PROTOCOL = 2
 MAX_COMMAND = 1 << 20  # bytes of a line
-WIDTHS = {"position": 3, "velocity": 3, "density": 1}
+WIDTHS = {"position": 3, "velocity": 3, "density": 1, "force": 3}
 #: bytes of a message's body
 LARGEST = {b"SCEN": 1 << 30, b"FRAM": 1 << 30, b"WATR": 1 << 31, b"STAT": 1 << 30,
            b"ACTS": 1 << 30, b"OBSV": 1 << 30, b"SWIM": 4, b"ANSW": 1 << 24, b"SENS": 1 << 24, b"STOP": 1 << 16}

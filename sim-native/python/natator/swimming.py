@@ -15,7 +15,7 @@ from natator.source import read_json
 from natator.stream import Stream
 from natator.trajectory import Trajectory, frames, joined
 
-ELSEWHERE = {"evolved-eel": "endless/evolved-eel", "fry": "lake/fry"}  # creatures that are not in pool/
+ELSEWHERE = {"evolved-eel": "endless/evolved-eel", "fry": "lake/fry", "loach": "plane/loach"}  # creatures that are not in pool/
 GAITS = {"creature-2": "fish-like", "eel": "fish-like"}  # those of others have their names
 PICTURES = 30  # of a second
 WIDTH, MARGIN, LEGEND = 720, 12, 22  # pixels

@@ -22,6 +22,7 @@ class Trajectory:
     body: np.ndarray      #: which particles are the body's
     fluid: slice          #: which are water: position[:, fluid]
     scene: dict           #: the SCEN message of the stream
+    force: np.ndarray = None  #: T × N × 3, of the water over the frame, mass length/s²
 
 
 def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **options):
@@ -46,7 +47,7 @@ def frames(stream, duration, every=1, least=0, water=False):
     frame, count = stream.frame, max(least, int(duration / stream.scene["timeStep"] + 0.5)) // every
     for _ in range(count):
         if water:
-            stream.send({"do": "water"})
+            stream.send(stream.water_command)
         for step in steps:
             stream.send({"do": "credit"})
             stream.send({"do": "step", "frames": step})
@@ -70,7 +71,7 @@ def joined(frames, scene):
 
     first, count = scene["fluid"]
     return Trajectory(*(all_of(name) for name in ("time", "distance", "drive", "position", "velocity", "density")),
-                      body=np.array(scene["body"], int), fluid=slice(first, first + count), scene=scene)
+                      body=np.array(scene["body"], int), fluid=slice(first, first + count), scene=scene, force=all_of("force"))
 
 
 MAX_STEPS = 10**7  # of an evaluation, as the simulator has it

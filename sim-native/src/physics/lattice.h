@@ -10,6 +10,8 @@ namespace natator::physics {
 // i = (cx + 1) + 3 (cy + 1) + 9 (cz + 1) goes by (cx, cy, cz) in a step. Moments: density - 1; x y z; xx yy zz xy xz
 // yz; xxy xxz xyy yyz xzz yzz xyz.
 constexpr int lattice_populations = 27, lattice_moments = 17;
+/// Square of the speed of sound, cells^2/step^2: the pressure is that times the density.
+constexpr float lattice_sound_squared = 1.0f / 3;
 
 /// Part of each kind of cumulant that is left after a collision.
 template <class V>

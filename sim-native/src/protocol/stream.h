@@ -39,7 +39,9 @@ struct Sense {
     std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
     std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
-struct Water {};         ///< a WATR of the present state
+struct Water {  ///< a WATR of the present state
+    bool pressure = false;
+};
 struct Save {};          ///< a STAT of the present moment
 struct Restore {         ///< to the last STAT, of either direction
     bool sense = false;  ///< the answer has the senses
@@ -98,7 +100,7 @@ bool is_rate(double value);
 
 /// What a frame holds of each particle, in the order of these members.
 struct Fields {
-    bool position = true, velocity = false, density = false;
+    bool position = true, velocity = false, density = false, force = false;
 };
 
 /// What a SCEN says beyond the simulation.
@@ -142,9 +144,10 @@ nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before,
 template <class Real>
 std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& head);
 
-/// The WATR of the present state, as bytes. `scene`: number of its SCEN. Throws InputError as Simulation::water.
+/// The WATR of the present state, as bytes. `scene`: number of its SCEN. Throws InputError as Simulation::water, and
+/// for the pressure in scheme flex.
 template <class Real>
-std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene);
+std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene, bool pressure);
 
 /// A saved moment as a STAT, as bytes.
 std::string stream_state(std::string_view saved);
@@ -175,8 +178,8 @@ extern template nlohmann::ordered_json stream_senses(const Simulation<float>&, c
 extern template nlohmann::ordered_json stream_senses(const Simulation<double>&, const std::vector<Sensing>&);
 extern template std::vector<double> stream_sense_numbers(const Simulation<float>&, const std::vector<Sensing>&);
 extern template std::vector<double> stream_sense_numbers(const Simulation<double>&, const std::vector<Sensing>&);
-extern template std::string stream_water(const Simulation<float>&, std::uint32_t);
-extern template std::string stream_water(const Simulation<double>&, std::uint32_t);
+extern template std::string stream_water(const Simulation<float>&, std::uint32_t, bool);
+extern template std::string stream_water(const Simulation<double>&, std::uint32_t, bool);
 extern template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
 extern template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 

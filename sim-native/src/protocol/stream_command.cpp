@@ -52,10 +52,10 @@ stream::Steer read_steer(const json& value) {
     return steer;
 }
 
-bool read_sense_flag(const json& value) {
-    bool sense = false;
-    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, sense);
-    return sense;
+bool read_flag(const json& value, const char* key) {
+    bool flag = false;
+    if (value.contains(key)) fields::read(value.at(key), place.key(key), {}, flag);
+    return flag;
 }
 
 bool has_rows(const json& value, const char* key) {
@@ -66,7 +66,7 @@ bool has_rows(const json& value, const char* key) {
 stream::Step read_step(const json& value) {
     stream::Step step;
     step.frames = read_frames(value, stream::max_step);
-    step.sense = read_sense_flag(value);
+    step.sense = read_flag(value, "sense");
     std::vector<const char*> given;
     for (const char* key : {"drive", "scale", "offset"})
         if (value.contains(key)) given.push_back(key);
@@ -173,9 +173,9 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "drive") return only({"drive", "swimmer"}), fields::required(value, place, "drive"), read_steer(value);
     if (name == "steer") return only({"scale", "offset", "swimmer"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each", "swimmer"}), read_sense(value);
-    if (name == "water") return only({}), stream::Water{};
+    if (name == "water") return only({"pressure"}), stream::Water{read_flag(value, "pressure")};
     if (name == "save") return only({}), stream::Save{};
-    if (name == "restore") return only({"sense"}), stream::Restore{read_sense_flag(value)};
+    if (name == "restore") return only({"sense"}), stream::Restore{read_flag(value, "sense")};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")

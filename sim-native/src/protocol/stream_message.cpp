@@ -5,6 +5,7 @@
 #include "model/boundaries.h"
 #include "model/skin_weights.h"
 #include "model/tank_ends.h"
+#include "natator/error.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/version.h"
@@ -53,11 +54,18 @@ std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Re
     return places;
 }
 
+/// Those that frames of this model have of the fields: in scheme flex there are no forces of the water.
+stream::Fields fields_of(const Model& model, stream::Fields fields) {
+    fields.force &= model.scheme != Scheme::flex;
+    return fields;
+}
+
 ordered_json fields_json(const stream::Fields& fields) {
     ordered_json names = ordered_json::array();
     if (fields.position) names.push_back("position");
     if (fields.velocity) names.push_back("velocity");
     if (fields.density) names.push_back("density");
+    if (fields.force) names.push_back("force");
     return names;
 }
 
@@ -194,7 +202,7 @@ ordered_json stream_scene(const Simulation<Real>& simulation, const stream::Scen
     body["fluidRestDistance"] = solver.fluid_rest_distance;
     body["planes"] = planes_json(model);
     body["periodic"] = periodic_json(model);
-    body["fields"] = fields_json(head.fields);
+    body["fields"] = fields_json(fields_of(model, head.fields));
     body["particles"] = model.particles();
     body["mass"] = masses_json(model);
     body["fluid"] = fluid_json(model);
@@ -231,7 +239,7 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
     const std::uint32_t touches = touches_plane(model, state) ? flag_touches_plane : 0;
 
     MessageWriter message("FRAM");
-    message.reserve(128 + 4 * model.actuators + std::size_t{28} * model.particles());
+    message.reserve(128 + 4 * model.actuators + std::size_t{40} * model.particles());
     message.add(head.scene);
     message.add(static_cast<std::uint32_t>(simulation.frames()));
     message.add(head.dropped);
@@ -247,23 +255,27 @@ std::string stream_frame(Simulation<Real>& simulation, const stream::FrameHead& 
     if (head.fields.position) message.add_vectors(places_around_body(model, state));
     if (head.fields.velocity) message.add_vectors(state.velocity);
     if (head.fields.density) message.add_numbers(densities);
+    if (fields_of(model, head.fields).force) message.add_vectors(simulation.forces());
     return message.finish();
 }
 
 template <class Real>
-std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene) {
+std::string stream_water(const Simulation<Real>& simulation, std::uint32_t scene, bool pressure) {
+    if (pressure && simulation.model().scheme == Scheme::flex)
+        throw InputError("pressure: scheme flex has none; must be conserving or lattice");
     const WaterField field = simulation.water();
     MessageWriter message("WATR");
-    message.reserve(64 + 16 * field.velocity.size());
+    message.reserve(64 + 20 * field.velocity.size());
     message.add(scene);
     message.add(static_cast<std::uint32_t>(simulation.frames()));
     for (const int count : field.cells) message.add(static_cast<std::uint32_t>(count));
-    message.add(std::uint32_t{0});
+    message.add(static_cast<std::uint32_t>(pressure));
     message.add(simulation.state().time);
     message.add(field.cell);
     for (const double component : field.corner) message.add(component);
     message.add_vectors(field.velocity);
     message.add_numbers(field.density);
+    if (pressure) message.add_numbers(field.pressure);
     return message.finish();
 }
 
@@ -288,8 +300,8 @@ ordered_json stream_stop(const Instability& instability) {
 
 template ordered_json stream_scene(const Simulation<float>&, const stream::SceneHead&);
 template ordered_json stream_scene(const Simulation<double>&, const stream::SceneHead&);
-template std::string stream_water(const Simulation<float>&, std::uint32_t);
-template std::string stream_water(const Simulation<double>&, std::uint32_t);
+template std::string stream_water(const Simulation<float>&, std::uint32_t, bool);
+template std::string stream_water(const Simulation<double>&, std::uint32_t, bool);
 template std::string stream_frame(Simulation<float>&, const stream::FrameHead&);
 template std::string stream_frame(Simulation<double>&, const stream::FrameHead&);
 

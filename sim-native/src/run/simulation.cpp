@@ -1,5 +1,7 @@
 #include "natator/simulation.h"
 
+#include <limits>
+
 #include "base/side_by_side.h"
 #include "base/strict_json.h"
 #include "conservation_errors.h"
@@ -257,7 +259,21 @@ double Simulation<Real>::distance(int swimmer) const {
 
 template <class Real>
 WaterField Simulation<Real>::water() const {
-    return model().water_box ? run_->solver.lattice_water() : water_field(model(), state_);
+    if (model().water_box) return run_->solver.lattice_water();
+    const bool known = updated_ && !restored_densities_;
+    WaterField field = water_field(model(), state_, known ? run_->solver.pressures() : std::vector<Real>{});
+    if (!known && model().scheme == Scheme::conserving)
+        field.pressure.assign(field.density.size(), std::numeric_limits<float>::quiet_NaN());
+    return field;
+}
+
+template <class Real>
+std::vector<Vector3<Real>> Simulation<Real>::forces() const {
+    if (!execution_.forces || model().scheme == Scheme::flex) return {};
+    std::vector<Vector3<Real>> forces;
+    if (updated_) forces = run_->solver.forces();
+    forces.resize(model().particles(), Vector3<Real>::Zero());
+    return forces;
 }
 
 template <class Real>

@@ -8,7 +8,7 @@ from natator.export.bodies import KINDS, Swim
 from natator.export.folder import FILES, METADATA, ExportFolder, files_in
 from natator.export.glb import Glb
 from natator.export.points import Ply, Vti, Vtp
-from natator.export.tables import WIDTHS, Csv, Npz
+from natator.export.tables import USUAL, WIDTHS, Csv, Npz
 from natator.export.usd import Usd
 from natator.export.water import WaterSurface
 from natator.script import package
@@ -22,12 +22,12 @@ HOLD_MESHES = ("vtp", "ply", "usd", "usdc")  # whose vertices are others in ever
 NOT_METADATA = {"protocol", "number", "restarted", "mass", "fluid"}
 
 
-def export(scene, format, folder, gait=None, duration=None, every=1, fields=tuple(WIDTHS), water=True, water_surface=False,
+def export(scene, format, folder, gait=None, duration=None, every=1, fields=USUAL, water=True, water_surface=False,
            force=False, source=None, on_frame=None, **options):
     """Simulates a swim once and writes every frame of it as it comes to a folder, which appears when it is whole.
 
     scene, gait, options: as of Stream. format: one of FORMATS. duration: s, to the nearest frame, one at least; None is the
-    scene's. fields: of "velocity" and "density"; "position" is always there. water: with the water's particles. water_surface:
+    scene's. fields: of "velocity", "density" and "force" (not in scheme flex); "position" is always there. water: with the water's particles. water_surface:
     with a mesh of it. force: may replace an earlier export. source: more entries of metadata.json. on_frame: called with each
     Frame. Returns metadata.json as a dict. Raises InputError, ProgramError, Unstable and OSError, and then there is no folder.
     """

@@ -121,7 +121,7 @@ class Vtp:
 
 
 class Vti:
-    """For ParaView: `water.pvd` names `water/water_FRAME.vti` of all times, the water on a grid: velocity, density, vorticity and Q."""
+    """For ParaView: `water.pvd` names `water/water_FRAME.vti` of all times, the water on a grid: velocity, density, pressure, vorticity and Q."""
 
     def __init__(self, swim, folder):
         self._folder, self._index = folder, []

@@ -6,7 +6,8 @@ import numpy as np
 
 from natator.export.bodies import KINDS
 
-WIDTHS = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"), "density": ("density",)}
+WIDTHS = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"), "density": ("density",), "force": ("fx", "fy", "fz")}
+USUAL = ("position", "velocity", "density")  # which every scheme has
 
 
 class Npz:

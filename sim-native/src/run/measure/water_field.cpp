@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "model/water_volumes.h"
@@ -37,7 +38,7 @@ WaterField grid_around(const Model& model, const Eigen::AlignedBox3d& water) {
 }  // namespace
 
 template <class Real>
-WaterField water_field(const Model& model, const State<Real>& state) {
+WaterField water_field(const Model& model, const State<Real>& state, const std::vector<Real>& pressures) {
     Eigen::AlignedBox3d box;
     for (int i = 0; i < model.particles(); ++i)
         if (model.is_fluid(i)) box.extend(state.position[i].template cast<double>());
@@ -46,6 +47,8 @@ WaterField water_field(const Model& model, const State<Real>& state) {
     const auto size = field.cells.cast<std::size_t>().prod();
     field.velocity.assign(size, Eigen::Vector3f::Zero());
     field.density.assign(size, 0);
+    const bool has_pressure = !pressures.empty();
+    if (has_pressure) field.pressure.assign(size, 0);
     const double radius = kernel_cells * field.cell;
     const physics::WendlandKernel<double> kernel = physics::wendland_kernel(radius, wendland(0, radius));
     const double volume = std::pow(field.cell, 3);
@@ -76,14 +79,20 @@ WaterField water_field(const Model& model, const State<Real>& state) {
                         (static_cast<std::size_t>(to[2]) * field.cells[1] + to[1]) * field.cells[0] + to[0];
                     field.density[cell] += weight;
                     field.velocity[cell] += weight * state.velocity[i].template cast<float>();
+                    if (has_pressure) field.pressure[cell] += weight * static_cast<float>(pressures[i]);
                 }
     }
-    for (std::size_t cell = 0; cell < size; ++cell)
-        if (field.density[cell] > min_weight) field.velocity[cell] /= field.density[cell];
+    for (std::size_t cell = 0; cell < size; ++cell) {
+        const bool wet = field.density[cell] > min_weight;
+        if (wet) field.velocity[cell] /= field.density[cell];
+        if (has_pressure)
+            field.pressure[cell] =
+                wet ? field.pressure[cell] / field.density[cell] : std::numeric_limits<float>::quiet_NaN();
+    }
     return field;
 }
 
-template WaterField water_field(const Model&, const State<float>&);
-template WaterField water_field(const Model&, const State<double>&);
+template WaterField water_field(const Model&, const State<float>&, const std::vector<float>&);
+template WaterField water_field(const Model&, const State<double>&, const std::vector<double>&);
 
 }  // namespace natator

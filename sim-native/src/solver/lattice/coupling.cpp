@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/lattice.h"
+
 namespace natator::lattice {
 namespace {
 
@@ -198,11 +200,14 @@ WaterField Coupling<Real>::field() const {
     field.corner = box.corner;
     field.velocity.resize(box.cells.cast<std::size_t>().prod(), box.current.cast<float>());
     field.density.resize(field.velocity.size(), 1);
+    field.pressure.resize(field.velocity.size(), 0);
     if (!water_ || step_ == 0) return field;
     const auto per_second = static_cast<float>(box.cell / step_);
+    const auto stiffness = static_cast<float>(box.density) * per_second * per_second * physics::lattice_sound_squared;
     std::size_t i = 0;
     for (const Eigen::Vector4f& cell : water_->cells()) {
         field.density[i] = cell[0];
+        field.pressure[i] = stiffness * (cell[0] - 1);
         field.velocity[i++] = per_second * cell.tail<3>();
     }
     return field;

@@ -13,7 +13,10 @@ public enum StreamField {
     VELOCITY(3),
     /** Density in rest densities; 0 for solids. */
     @JsonProperty("density")
-    DENSITY(1);
+    DENSITY(1),
+    /** Force of the water over the frame, mass length/s²; not in scheme flex. */
+    @JsonProperty("force")
+    FORCE(3);
 
     private final int components;
 

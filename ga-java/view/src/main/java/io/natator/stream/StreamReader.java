@@ -24,6 +24,8 @@ public final class StreamReader {
     /** Water of 16 million cells: more than any page shows. */
     static final int MAX_WATER_BYTES = 256 << 20;
     private static final int CELL_BYTES = 16;
+    /** Behind those, where the head says so. */
+    private static final int PRESSURE_BYTES = 4;
     private static final int HEAD_BYTES = 8;
     private static final int LETTERS = 4;
 
@@ -109,7 +111,8 @@ public final class StreamReader {
         byte[] bytes = in.readNBytes((int) length);
         whole("WATR", bytes.length, length);
         ByteBuffer body = ByteBuffer.wrap(bytes).asReadOnlyBuffer().order(ByteOrder.LITTLE_ENDIAN);
-        double expected = StreamMessage.Water.HEAD_BYTES + CELL_BYTES * (double) Integer.toUnsignedLong(body.getInt(8))
+        int ofCell = CELL_BYTES + (body.getInt(20) == 1 ? PRESSURE_BYTES : 0);
+        double expected = StreamMessage.Water.HEAD_BYTES + ofCell * (double) Integer.toUnsignedLong(body.getInt(8))
                 * Integer.toUnsignedLong(body.getInt(12)) * Integer.toUnsignedLong(body.getInt(16));
         if (length != expected) {
             throw new StreamException(

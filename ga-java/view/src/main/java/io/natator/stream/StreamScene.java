@@ -82,7 +82,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, @JsonProp
         expect(mass != null && mass.size() == particles, "mass has " + (mass == null ? 0 : mass.size())
                 + " numbers; expected " + particles);
         expect(fields != null && fields.stream().distinct().sorted().toList().equals(fields),
-                "fields are " + fields + "; expected some of position, velocity, density in this order");
+                "fields are " + fields + "; expected some of position, velocity, density, force in this order");
         expect(fluid != null && fluid.size() == 2 && fluid.get(0) >= 0 && fluid.get(1) >= 0
                 && fluid.get(0) + (long) fluid.get(1) <= particles,
                 "fluid is " + fluid + "; expected [first, count] of at most " + particles + " particles");

@@ -19,7 +19,7 @@ import {View} from './view.js';
 
 const SLOW_MS = 200;
 const USUAL = {stiffness: 1, viscosity: 1};
-const WATERS = ['surface', 'vorticity', 'vortices', 'none'];
+const WATERS = ['surface', 'vorticity', 'velocity', 'pressure', 'vortices', 'none'];
 
 const SLIDERS = [
   {group: 'gait', id: 'frequency', label: 'Beats per second', min: 0.2, max: 3, step: 0.05},
@@ -57,6 +57,14 @@ class LivePage {
       },
       turning: range => {
         this.#legend.turning = range;
+        this.#showLegend();
+      },
+      force: ([, force]) => {
+        this.#legend.force = force;
+        this.#showLegend();
+      },
+      pressure: range => {
+        this.#legend.pressed = range;
         this.#showLegend();
       },
     }, openSocket);
@@ -228,14 +236,18 @@ class LivePage {
     byId('run').addEventListener('click', () => this.#toggleRun());
     byId('reset').addEventListener('click', reset);
     byId('restore').addEventListener('click', () => this.#restore());
-    byId('dye').addEventListener('change', () => this.#setLook({dye: byId('dye').checked}));
+    for (const name of /** @type {('dye' | 'pressure' | 'forces')[]} */ (['dye', 'pressure', 'forces'])) {
+      byId(name).addEventListener('change', () => this.#setLook({[name]: byId(name).checked}));
+    }
     byId('theme').addEventListener('change', () => this.#theme.choose(byId('theme').value));
     listen([
       [' ', 'swim or pause', () => this.#toggleRun()],
       ['r', 'back to the start', reset],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.#setCamera(CAMERAS[Number(key) - 1])],
-      ['w', 'water: surface, vorticity, vortices, none', () => this.#nextWater()],
+      ['w', 'water: surface, vorticity, velocity, pressure, vortices, none', () => this.#nextWater()],
       ['y', 'dye from the tail', () => byId('dye').click()],
+      ['u', 'pressure on the body', () => byId('pressure').click()],
+      ['o', 'forces on the body', () => byId('forces').click()],
       ['d', 'light, dark', () => this.#theme.toggle()],
       ['?', 'this list', () => byId('help').showModal()],
     ]);

@@ -227,7 +227,7 @@ class Player {
       [[',', '.'], 'frame before, after', key => this.step(key === '.' ? 1 : -1)],
       ['r', 'back to the start', () => this.seek(0)],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.#setCamera(CAMERAS[Number(key) - 1])],
-      ['w', 'water: spheres, surface, vorticity, none', () => this.#look.next('water')],
+      ['w', 'water: spheres, surface, vorticity, velocity, none', () => this.#look.next('water')],
       ['c', 'colour: speed, density, mass, nothing', () => this.#look.next('colour')],
       ['k', 'body: skin, particles', () => this.#look.next('body')],
       ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],

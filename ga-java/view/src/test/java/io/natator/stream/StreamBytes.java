@@ -25,7 +25,7 @@ public final class StreamBytes {
                  "scene":"test/pool","overrides":null,"gait":{"frequency":1,"amplitude":[0.5],"phase":[0]},
                  "scheme":"flex","precision":"float","definition":{"name":"pool"},"timeStep":0.0125,"duration":4,
                  "radius":0.15,"solidRestDistance":0.15,"fluidRestDistance":0.1,"planes":[[0,1,0,0]],
-                 "fields":["position","velocity","density"],"particles":8,"mass":[2,2,1,1,1,1,1,null],
+                 "fields":["position","velocity","density","force"],"particles":8,"mass":[2,2,1,1,1,1,1,null],
                  "fluid":[0,4],"body":[4,5,6,7],"slices":[[4,5],[6,7]],"bodyLength":0.075,"clusters":[[4,5,6,7]],
                  "joints":[0,1],"actuators":1,
                  "muscles":[{"a":4,"b":6,"actuator":0,"lateral":-1,"restLength":0.075}]}""";
@@ -56,7 +56,7 @@ public final class StreamBytes {
 
     /** A frame of {@link #scene()}: every number tells its frame, its field and its place. */
     public StreamBytes frame(int number, int frame) {
-        return message("FRAM", frameBody(number, frame, 7 * PARTICLES + ACTUATORS));
+        return message("FRAM", frameBody(number, frame, 10 * PARTICLES + ACTUATORS));
     }
 
     /** A frame's body with so many floats behind its head. */

@@ -18,7 +18,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 class StreamReaderTest {
 
-    private static final int FLOATS = 7 * StreamBytes.PARTICLES + StreamBytes.ACTUATORS;
+    private static final int FLOATS = 10 * StreamBytes.PARTICLES + StreamBytes.ACTUATORS;
 
     private static StreamReader reader(StreamBytes stream) {
         return new StreamReader(new ByteArrayInputStream(stream.toBytes()));
@@ -120,6 +120,9 @@ class StreamReaderTest {
         assertThat(water.body()).isEqualTo(ByteBuffer.wrap(body));
         assertThat(water.body().isReadOnly()).isTrue();
         assertThat(water.body().order()).isEqualTo(ByteOrder.LITTLE_ENDIAN);
+        byte[] pressed = ByteBuffer.allocate(64 + 20 * 6).order(ByteOrder.LITTLE_ENDIAN).put(body).putInt(20, 1)
+                .array();
+        assertThat(reader(new StreamBytes().message("WATR", pressed)).next()).isInstanceOf(StreamMessage.Water.class);
         assertThatAllOfItThrows(new StreamBytes().message("WATR", new byte[60]),
                 "WATR of 60 bytes; expected 64 to 268435456");
         body[8] = 4;
@@ -182,7 +185,7 @@ class StreamReaderTest {
         assertThatAllOfItThrows(new StreamBytes().message("STOP", new byte[3]),
                 "STOP of 3 bytes; expected a multiple of 4 up to 268435456");
         assertThatAllOfItThrows(begun().message("FRAM", StreamBytes.frameBody(1, 0, FLOATS + 1)),
-                "FRAM of 304 bytes; expected 300 for 8 particles and 1 actuator");
+                "FRAM of 400 bytes; expected 396 for 8 particles and 1 actuator");
     }
 
     @Test
@@ -234,7 +237,7 @@ class StreamReaderTest {
             "particles|-1|particles is -1; expected 0 to 10000000",
             "particles|9|mass has 8 numbers; expected 9",
             "mass|null|mass has 0 numbers; expected 8",
-            "fields|[\"density\",\"position\"]|fields are [DENSITY, POSITION]; expected some of position, velocity, density in this order",
+            "fields|[\"density\",\"position\"]|fields are [DENSITY, POSITION]; expected some of position, velocity, density, force in this order",
             "fluid|[5,4]|fluid is [5, 4]; expected [first, count] of at most 8 particles",
             "fluid|[2147483647,2147483647]|fluid is [2147483647, 2147483647]; expected [first, count] of at most 8 particles"})
     void aSceneThatContradictsItselfIsToldOf(String key, String value, String message) throws IOException {

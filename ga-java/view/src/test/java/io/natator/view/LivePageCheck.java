@@ -94,6 +94,11 @@ class LivePageCheck extends BrowserTest {
 
         assertThat(get("water-surface").isHidden()).isTrue();
         await("/[1-9]0/.test(document.querySelector('[data-testid=legend-turns]').textContent)");
+        page.keyboard().press("o");
+        assertThat(get("forces").isChecked()).isTrue();
+        await("natator.forces().flat().some(one => Math.abs(one) > 1)");
+        page.keyboard().press("u");
+        await("/[1-9]/.test(document.querySelector('[data-testid=legend-pressure]').textContent)");
         get("viscosity-number").fill("2");
         get("viscosity-number").press("Enter");
         await("Math.abs(natator.scene().definition.solver.kinematicViscosity - 0.0008) < 1e-9");

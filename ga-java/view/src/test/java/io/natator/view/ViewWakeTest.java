@@ -6,6 +6,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.encoding.Gait;
 import java.awt.Color;
 import java.awt.image.BufferedImage;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicInteger;
@@ -56,12 +57,82 @@ class ViewWakeTest extends ViewBrowserTest {
         assertThat(get("legend-turns")).containsText(Pattern.compile("[1-9]0"));
         assertThat(get("picture-a")).hasAttribute("aria-describedby", "legend");
         assertThat(turning(stillPicture(get("picture-a")))).isGreaterThan(SEEN);
-        page.keyboard().press("w");
-        assertThat(get("water-none")).isChecked();
+        for (String next : List.of("velocity", "pressure", "none")) {
+            page.keyboard().press("w");
+            assertThat(get("water-" + next)).isChecked();
+        }
         assertThat(get("legend-turns")).isHidden();
         assertThat(turning(stillPicture(get("picture-a")))).isLessThan(UNSEEN);
         page.keyboard().press("w");
         assertThat(turning(stillPicture(get("picture-a")))).isGreaterThan(SEEN);
+    }
+
+    /** Pressure and forces are asked for where they are to be seen; the forces on all parts are all that is on the body. */
+    @ParameterizedTest
+    @ValueSource(strings = {"webgl", "plain"})
+    void whatTheWaterDoesToABodyIsSeen(String drawing) {
+        open(plane, "?drawing=" + drawing + FEW_PIXELS);
+        await("natator.time() > 0.3");
+        pause();
+        get("camera-top").check();
+        List<BufferedImage> pictures = new ArrayList<>();
+        for (String shown : List.of("velocity", "pressure", "none")) {
+            choose("water-" + shown);
+            pictures.add(stillPicture(get("picture-a")));
+        }
+        assertThat(get("legend-turns")).isHidden();
+        assertThat(get("plane-level")).isHidden();
+        page.keyboard().press("u");
+        assertThat(get("pressure")).isChecked();
+        assertThat(get("legend-pressure")).containsText("Body: pressure");
+        pictures.add(stillPicture(get("picture-a")));
+        page.keyboard().press("o");
+        await("natator.forces().length === 7 && natator.forces().flat().some(one => Math.abs(one) > 1)");
+        assertThat(get("legend-lines")).containsText("Arrows on the body: force of the water");
+        pictures.add(stillPicture(get("picture-a")));
+
+        BufferedImage bare = pictures.get(2);
+        for (int i : List.of(0, 1, 3, 4)) {
+            assertThat(changed(bare, pictures.get(i))).as("picture " + i).isGreaterThan(SEEN);
+        }
+        assertThat(changed(pictures.get(3), pictures.get(4))).isGreaterThan(UNSEEN);
+        choose("water-velocity");
+        assertThat(get("legend-turns")).containsText("Water: speed, length/s");
+    }
+
+    /** Share of the pixels that differ. */
+    private static double changed(BufferedImage one, BufferedImage other) {
+        int found = 0;
+        for (int y = 0; y < one.getHeight(); y++) {
+            for (int x = 0; x < one.getWidth(); x++) {
+                Color was = new Color(one.getRGB(x, y));
+                Color is = new Color(other.getRGB(x, y));
+                found += Math.max(Math.abs(was.getRed() - is.getRed()),
+                        Math.abs(was.getBlue() - is.getBlue())) > STRENGTH ? 1 : 0;
+            }
+        }
+        return found / (double) (one.getWidth() * one.getHeight());
+    }
+
+    @Test
+    void aPlaneIsMovedByKeyboardAndFlexKnowsNoForces() {
+        open(water, "?drawing=plain" + FEW_PIXELS);
+        choose("water-velocity");
+        await("natator.hasWake()");
+        pause();
+        page.keyboard().press("n");
+        assertThat(get("plane-along")).isChecked();
+        BufferedImage before = stillPicture(get("picture-a"));
+        get("place").focus();
+        for (int i = 0; i < 20; i++) {
+            page.keyboard().press("ArrowRight");
+        }
+        assertThat(get("place")).hasAttribute("aria-valuetext", "0.4 body lengths from the body");
+        assertThat(changed(before, stillPicture(get("picture-a")))).isGreaterThan(SEEN);
+
+        assertThat(get("water-pressure")).isHidden();
+        assertThat(get("pressure")).isDisabled();
+        assertThat(get("forces")).isDisabled();
     }
 
     /** Share of the pixels that are as violet or as green as what turns. */

@@ -12,8 +12,9 @@ const PARTS = [
   ['The water', 'Each particle stands for a small cube of water. “Surface” lays a smooth surface around them, with light that '
     + 'is bent, taken up and mirrored: a picture, not a measurement; it is bluer than so little water would be. “Spheres” '
     + 'shows the particles themselves. Colours and their units are in the legend.'],
-  ['The wake', 'Vorticity is how the water turns, in a slice at the body’s height. Vortices are surfaces around the hundredth of '
-    + 'the water that turns most against how it is strained (Q-criterion). Both are interpolated from cells.'],
+  ['The wake', 'Vorticity is how the water turns, velocity how fast it goes and where to, pressure what it has beyond the mean at its height: '
+    + 'on a plane through the body, which can be moved. Vortices are surfaces around the hundredth of the water that turns most '
+    + 'against how it is strained (Q-criterion); next to bodies none are told. All are interpolated from cells.'],
   ['The body', 'Its skin is the mesh that it was made of, or a smooth surface around its particles. Blue is where muscles '
     + 'shorten, orange where they lengthen; with muscles off the colours are its clusters, from the head to the tail. '
     + 'Lines show where the spine and the head have been.'],
@@ -21,7 +22,7 @@ const PARTS = [
     + 'get anywhere. What still moves forwards does so by an error of the method, not by swimming.'],
   ['Schemes', '“conserving” keeps momentum to rounding and is meant for swimming as physics. “flex” moves particles as NVIDIA '
     + 'Flex does, to repeat work made with it; momentum is not kept there, and bodies move even in vacuum. “lattice” has the '
-    + 'bodies of “conserving” in water on a lattice, which has no surface: its vorticity is drawn.'],
+    + 'bodies of “conserving” in water on a lattice, which has no surface: its vortices are drawn.'],
 ];
 const CHARTS = [
   ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat.'],

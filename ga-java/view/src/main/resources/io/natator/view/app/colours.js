@@ -3,6 +3,7 @@
 const STEPS = 256;
 /** Power of the value that opacity is where a scale fades: what is weak is seen, too. */
 const FADING = 0.85;
+const RISING = 0.5;
 
 /**
  * OKLCH (lightness, chroma, hue in degrees) to OKLab.
@@ -94,9 +95,13 @@ export function fadingBytes(scale) {
   }));
 }
 
-/** Such a scale as the CSS of a gradient from left to right. */
-export function fadingGradient(scale) {
-  const bytes = fadingBytes(scale);
+/** A scale of which what is little shows what is behind: as `fadingBytes`, from nothing to opaque. */
+export function risingBytes(scale) {
+  return Uint8ClampedArray.from(scale.flatMap((colour, i) => [...labToRgb(colour), 255 * (i / (scale.length - 1)) ** RISING]));
+}
+
+/** Such bytes as the CSS of a gradient from left to right. */
+export function bytesGradient(bytes) {
   const stops = Array.from({length: 17}, (_, i) => {
     const [red, green, blue, alpha] = bytes.subarray(4 * Math.round(i * (STEPS - 1) / 16));
     return `rgb(${red} ${green} ${blue} / ${(alpha / 255).toFixed(3)})`;

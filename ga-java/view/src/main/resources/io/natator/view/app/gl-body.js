@@ -1,6 +1,7 @@
 /** Bodies: a skin, or spheres coloured by cluster with joints marked. */
 
 import * as THREE from 'three';
+import {SCALES, colourAt} from './colours.js';
 import {shader} from './gl-shader.js';
 import {GlSkin} from './gl-skin.js';
 import {BODY_RADIUS, bodySpacing, solidKinds, solids} from './scene.js';
@@ -36,6 +37,9 @@ const FRAGMENT = `
 /** One mesh, or one point per particle. */
 export class GlBody {
   #particles = [];
+  #pressure = null;
+  #coloured = 0;
+  #tint = [];
   #isSkin = true;
   #position = null;
   #skin = new GlSkin();
@@ -61,15 +65,22 @@ export class GlBody {
     this.#skin.setScene(scene);
     this.#particles = solids(scene);
     const kinds = solidKinds(scene);
-    const tint = this.#particles.flatMap(particle => kinds.colours[kinds.of[particle]]);
+    this.#tint = this.#particles.flatMap(particle => kinds.colours[kinds.of[particle]]);
+    this.#coloured = 0;
     this.#position = new THREE.BufferAttribute(new Float32Array(3 * this.#particles.length), 3)
         .setUsage(THREE.DynamicDrawUsage);
     this.points.geometry.dispose();
     this.points.geometry = new THREE.BufferGeometry()
         .setAttribute('position', this.#position)
-        .setAttribute('tint', new THREE.Float32BufferAttribute(tint, 3))
+        .setAttribute('tint', new THREE.Float32BufferAttribute(this.#tint, 3))
         .setAttribute('joint', new THREE.Float32BufferAttribute(this.#particles.map(particle => kinds.joint[particle]), 1));
     this.#material.uniforms.radius.value = BODY_RADIUS * bodySpacing(scene);
+  }
+
+  /** The pressure on it: a `SkinPressure`. */
+  set pressure(pressure) {
+    this.#pressure = pressure;
+    this.#skin.pressure = pressure;
   }
 
   /**
@@ -89,6 +100,22 @@ export class GlBody {
         }
       });
       this.#position.needsUpdate = true;
+      this.#colour();
+    }
+  }
+
+  /** By pressure where that is shown, else by cluster. */
+  #colour() {
+    const version = this.#pressure.isKnown ? this.#pressure.version : 0;
+    if (version !== this.#coloured) {
+      this.#coloured = version;
+      const tint = this.points.geometry.getAttribute('tint');
+      tint.array.set(this.#tint);
+      if (this.#pressure.isKnown) {
+        this.#particles.forEach((particle, i) =>
+          tint.array.set(colourAt(SCALES.diverging, 0.5 + 0.5 * this.#pressure.shares[particle]), 3 * i));
+      }
+      tint.needsUpdate = true;
     }
   }
 

@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import {Fence} from './gl-fence.js';
+import {GlArrows} from './gl-arrows.js';
 import {GlBody} from './gl-body.js';
 import {GlDye} from './gl-dye.js';
 import {GlLightMap} from './gl-light-map.js';
@@ -12,7 +13,7 @@ import {GlTrace} from './gl-trace.js';
 import {GlWake} from './gl-wake.js';
 import {GlWater} from './gl-water.js';
 import {Refined} from './gl-refined.js';
-import {solids} from './scene.js';
+import {bodiesReach, solids} from './scene.js';
 
 THREE.ColorManagement.enabled = false;
 
@@ -21,6 +22,9 @@ const MAX_PIXEL_RATIO = 2;
 
 /** With a smaller share of the pixels than this the surface of the water is simpler, too. */
 const PLAIN_SHARE = 0.65;
+
+/** Half the width of an arrow of force, in lengths of the body. */
+const ARROW_WIDTH = 0.008;
 
 /** Samples of a picture that rests. */
 const SAMPLES = 16;
@@ -40,6 +44,8 @@ export class GlPicture {
   #trace;
   #wake;
   #dye;
+  #forces;
+  #arrows = new GlArrows(1, true);
   #background = new THREE.Color();
   #behind = new Layer();
   #bare = new Layer();
@@ -60,7 +66,7 @@ export class GlPicture {
   name = 'WebGL';
 
   /** @throws if the canvas has no context for WebGL */
-  constructor(canvas, trace, field, wake, dye) {
+  constructor(canvas, {trace, field, wake, dye, forces, pressure}) {
     this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.#renderer.autoClear = false;
@@ -72,8 +78,11 @@ export class GlPicture {
     this.#trace = new GlTrace(trace);
     this.#wake = new GlWake(wake);
     this.#dye = new GlDye(dye);
+    this.#forces = forces;
+    this.#body.pressure = pressure;
+    this.#arrows.object.renderOrder = 21;
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object,
-        this.#wake.object, this.#dye.object);
+        this.#wake.object, this.#dye.object, this.#arrows.object);
   }
 
   setScene(scene) {
@@ -108,6 +117,8 @@ export class GlPicture {
     this.#tank.setColours(colours);
     this.#trace.setInk(colours.ink);
     this.#dye.setColour(colours.dye);
+    this.#wake.setInk(colours.ink);
+    this.#arrows.setColour(colours.dye);
   }
 
   /** The size in CSS pixels, the share of the screen's pixels along each side, and the angle of view in degrees. */
@@ -169,6 +180,7 @@ export class GlPicture {
     this.#trace.update();
     this.#wake.update(this.#look.opacity);
     this.#dye.update(frame.time);
+    this.#arrows.show(this.#forces.arrows, ARROW_WIDTH * bodiesReach(this.#scene, 2));
     this.#water.update(frame, camera, this.#look, from);
     const isSurface = this.#water.isSurface(this.#look);
     this.#map.update(isSurface ? this.#water.shapes : null, this.#solids, frame.position);
@@ -201,6 +213,7 @@ export class GlPicture {
     this.#body.dispose();
     this.#wake.dispose();
     this.#dye.dispose();
+    this.#arrows.dispose();
     this.#map.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();

@@ -54,6 +54,9 @@ export class GlSkin {
   #scene = null;
   #motion = null;
   #muscles = null;
+  #pressure = null;
+  #pressed = -1;
+  #showsMuscles = true;
   #material = shader(VERTEX, FRAGMENT,
       {scale: scaleTexture(scaleBytes(SCALES.diverging)), muscles: 1, lamp: new THREE.Vector3(0, 1, 0)}, {side: THREE.DoubleSide});
 
@@ -76,7 +79,12 @@ export class GlSkin {
 
   /** Whether muscles are told by colour, and else clusters. */
   set showsMuscles(value) {
-    this.#material.uniforms.muscles.value = value ? 1 : 0;
+    this.#showsMuscles = value;
+  }
+
+  /** The pressure that is told by colour in place of muscles where it is shown: a `SkinPressure`. */
+  set pressure(pressure) {
+    this.#pressure = pressure;
   }
 
   /** The direction to the lamp. */
@@ -94,11 +102,27 @@ export class GlSkin {
       this.#build(frame);
     }
     this.#motion.update(frame);
-    this.#muscles.update(frame);
     const {geometry} = this.object;
     geometry.computeVertexNormals();
+    const {isKnown, version} = this.#pressure;
+    if (!isKnown) {
+      this.#muscles.update(frame);
+    } else if (version !== this.#pressed) {
+      this.#press(geometry.getAttribute('normal').array);
+    }
+    this.#pressed = isKnown ? version : -1;
+    this.#material.uniforms.muscles.value = isKnown || this.#showsMuscles ? 1 : 0;
     for (const name of ['position', 'normal', 'change']) {
       geometry.getAttribute(name).needsUpdate = true;
+    }
+  }
+
+  /** Takes the pressure at each vertex over. */
+  #press(normals) {
+    const {places} = this.#motion;
+    for (let i = 0; i < places.length; i += 3) {
+      this.#muscles.change[i / 3] = this.#pressure.share([places[i], places[i + 1], places[i + 2]],
+          [normals[i], normals[i + 1], normals[i + 2]]);
     }
   }
 

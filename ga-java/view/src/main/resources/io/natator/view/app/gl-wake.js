@@ -1,14 +1,23 @@
 /** The wake: a slice of vorticity, or surfaces around vortices. */
 
 import * as THREE from 'three';
-import {SCALES, fadingBytes, scaleBytes} from './colours.js';
+import {SCALES, fadingBytes, risingBytes, scaleBytes} from './colours.js';
+import {GlArrows} from './gl-arrows.js';
+import {NO_ARROWS} from './arrows.js';
 import {shader} from './gl-shader.js';
 import {scaleTexture} from './gl-spheres.js';
+import {vortexOpacity} from './wake.js';
+
+/** Numbers of half precision go up to 65504. */
+const MOST = 6e4;
+/** Half the width of an arrow, in cells. */
+const ARROW_WIDTH = 0.12;
 
 const SLICE_VERTEX = `
+  in vec2 along;
   out vec2 place;
   void main() {
-    place = position.xz;
+    place = along;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }`;
 
@@ -18,7 +27,7 @@ const SLICE_FRAGMENT = `
   uniform sampler2D scale;
   uniform vec2 low;
   uniform float cell;
-  uniform float most;
+  uniform vec2 ends;
   in vec2 place;
   out vec4 shown;
   void main() {
@@ -36,7 +45,7 @@ const SLICE_FRAGMENT = `
     float value = mix(
       mix(texture(map, after).r, texture(map, vec2(before.x, after.y)).r, weight.x),
       mix(texture(map, vec2(after.x, before.y)).r, texture(map, before).r, weight.x), weight.y);
-    shown = texture(scale, vec2(0.5 + 0.498 * clamp(value / most, -1.0, 1.0), 0.5));
+    shown = texture(scale, vec2(clamp((value - ends.x) / (ends.y - ends.x), 0.002, 0.998), 0.5));
   }`;
 
 const VORTEX_VERTEX = `
@@ -65,15 +74,22 @@ const VORTEX_FRAGMENT = `
     vec3 up = (viewMatrix * vec4(0.0, 1.0, 0.0, 0.0)).xyz;
     vec3 normal = normalize(facing);
     float rim = 1.0 - abs(dot(normal, normalize(-place)));
-    shown = vec4(colour * (0.62 + 0.2 * dot(normal, up) + 0.35 * (1.0 - rim)), mix(opacity, 1.0, 0.6 * rim * rim));
+    shown = vec4(colour * (0.4 + 0.22 * dot(normal, up) + 0.55 * (1.0 - rim)), mix(opacity, 1.0, 0.6 * rim * rim));
   }`;
 
 /** Draws a `Wake`. */
 export class GlWake {
   #wake;
   #version = -1;
+  /** What the numbers of the map are multiples of. */
+  #unit = 1;
+  #arrows = new GlArrows(0.8, false);
+  #scales = {
+    vorticity: scaleTexture(fadingBytes(SCALES.turning)), velocity: scaleTexture(risingBytes(SCALES.sequential)),
+    pressure: scaleTexture(fadingBytes(SCALES.diverging)),
+  };
   #slice = new THREE.Mesh(new THREE.BufferGeometry(), shader(SLICE_VERTEX, SLICE_FRAGMENT, {
-    map: null, scale: scaleTexture(fadingBytes(SCALES.turning)), low: new THREE.Vector2(), cell: 1, most: 1,
+    map: null, scale: null, low: new THREE.Vector2(), cell: 1, ends: new THREE.Vector2(),
   }, {side: THREE.DoubleSide, transparent: true, depthWrite: false}));
   /** Of what lies behind each other only the nearest is seen: its depth is drawn first. */
   #nearest = new THREE.Mesh(new THREE.BufferGeometry(),
@@ -93,19 +109,31 @@ export class GlWake {
       this.object.add(part);
     });
     this.#nearest.material.transparent = true;  // to be drawn after bodies
+    this.#arrows.object.renderOrder = 14;
+    this.object.add(this.#arrows.object);
+  }
+
+  /** The colour of arrows, as CSS. */
+  setInk(colour) {
+    this.#arrows.setColour(colour);
   }
 
   /** Brings what changed to the GPU. */
   update(opacity) {
-    const {slice, vortices, version, range: [, most]} = this.#wake;
-    this.#slice.material.uniforms.most.value = most;
+    const {slice, vortices, version, range: [low, most]} = this.#wake;
     this.#vortices.material.uniforms.most.value = most;
-    this.#vortices.material.uniforms.opacity.value = opacity;
-    if (version === this.#version) {
-      return;
+    this.#vortices.material.uniforms.opacity.value = vortexOpacity(opacity);
+    if (version !== this.#version) {
+      this.#version = version;
+      this.#renew(slice, vortices, most);
     }
-    this.#version = version;
+    this.#slice.material.uniforms.ends.value.set(low, most).divideScalar(this.#unit);
+  }
+
+  #renew(slice, vortices, most) {
+    this.#unit = most;
     this.#slice.visible = slice !== null;
+    this.#arrows.show(slice?.arrows ?? NO_ARROWS, ARROW_WIDTH * (slice?.cell ?? 1));
     this.#nearest.visible = this.#vortices.visible = vortices !== null;
     if (slice !== null) {
       this.#cut(slice);
@@ -115,10 +143,11 @@ export class GlWake {
     }
   }
 
-  #cut({values, columns, rows, cell, low, height, from: [x0, z0], to: [x1, z1]}) {
+  #cut({values, columns, rows, cell, low, axis, sides, height, from: [x0, z0], to: [x1, z1]}) {
     const {uniforms} = this.#slice.material;
+    uniforms.scale.value = this.#scales[this.#wake.kind];
     uniforms.map.value?.dispose();
-    const halves = Uint16Array.from(values, value => THREE.DataUtils.toHalfFloat(value));
+    const halves = Uint16Array.from(values, value => THREE.DataUtils.toHalfFloat(Math.max(-MOST, Math.min(MOST, value / this.#unit))));
     const map = new THREE.DataTexture(halves, columns, rows, THREE.RedFormat, THREE.HalfFloatType);
     map.magFilter = map.minFilter = THREE.LinearFilter;
     map.wrapS = map.wrapT = THREE.RepeatWrapping;
@@ -127,17 +156,20 @@ export class GlWake {
     uniforms.low.value.fromArray(low);
     uniforms.cell.value = cell;
     this.#slice.geometry.dispose();
-    this.#slice.geometry = new THREE.BufferGeometry().setIndex([0, 1, 2, 2, 1, 3]).setAttribute('position',
-        new THREE.Float32BufferAttribute([x0, height, z0, x0, height, z1, x1, height, z0, x1, height, z1], 3));
+    const along = [x0, z0, x0, z1, x1, z0, x1, z1];
+    const corners = Float32Array.from({length: 12}, (_, i) => i % 3 === axis ? height : along[2 * Math.floor(i / 3) + sides.indexOf(i % 3)]);
+    this.#slice.geometry = new THREE.BufferGeometry().setIndex([0, 1, 2, 2, 1, 3])
+        .setAttribute('position', new THREE.BufferAttribute(corners, 3))
+        .setAttribute('along', new THREE.Float32BufferAttribute(along, 2));
   }
 
-  #surround({vertices, triangles, turns}) {
+  #surround({vertices, triangles, normals, turns}) {
     this.#vortices.geometry.dispose();
     const geometry = new THREE.BufferGeometry()
         .setAttribute('position', new THREE.BufferAttribute(vertices, 3))
+        .setAttribute('normal', new THREE.BufferAttribute(normals, 3))
         .setAttribute('turns', new THREE.BufferAttribute(turns, 1))
         .setIndex(new THREE.BufferAttribute(triangles, 1));
-    geometry.computeVertexNormals();
     this.#nearest.geometry = this.#vortices.geometry = geometry;
   }
 
@@ -147,5 +179,6 @@ export class GlWake {
       part.material.dispose();
     }
     this.#slice.material.uniforms.map.value?.dispose();
+    this.#arrows.dispose();
   }
 }

@@ -4,20 +4,26 @@ import {byId, choose, fillSegments, fillSelect, make} from './element.js';
 import {FIELDS} from './fields.js';
 import {Legend} from './legend.js';
 import {LEVELS} from './quality.js';
-import {isParticles, waterShown, watersOf} from './scene.js';
+import {isParticles, isPlane, waterShown, watersOf} from './scene.js';
 
-const WATERS = [['spheres', 'Spheres'], ['surface', 'Surface'], ['vorticity', 'Vorticity', 'A slice at the body, coloured by how the water turns'],
+const WATERS = [['spheres', 'Spheres'], ['surface', 'Surface'], ['vorticity', 'Vorticity', 'A plane, coloured by how the water turns'],
+  ['velocity', 'Velocity', 'A plane, coloured by speed, with arrows along it'],
+  ['pressure', 'Pressure', 'A plane, coloured by the pressure less its mean at that height'],
   ['vortices', 'Vortices', 'Surfaces around water that turns more than it strains (Q-criterion)'], ['none', 'None']];
 const BODIES = [['skin', 'Skin'], ['particles', 'Particles']];
 const SWITCHES = [
   ['muscles', 'Muscles', 'm'], ['trace', 'Trace', 't'], ['dye', 'Dye', 'y'], ['cut', 'Cut open', 'x'],
+  ['pressure', 'Pressure on the body', 'u'], ['forces', 'Forces on it', 'o'],
 ];
+const PLANES = [['level', 'Level'], ['along', 'Along', 'Upright, along the tank'], ['across', 'Across', 'Upright, across the tank']];
 
 /** Controls of the picture and its legend; for the live page and for replays. */
 export class LookControls {
   #look;
   #onChange;
   #water;
+  #plane;
+  #place;
   #body;
   #legend = new Legend();
   #colour;
@@ -25,7 +31,7 @@ export class LookControls {
   #quality;
   #drawing;
   #switches = new Map();
-  #has = {water: true, lattice: false, wake: true, vortices: true, muscles: true, bodies: true, others: false};
+  #has = {water: true, lattice: false, wake: true, vortices: true, forces: true, muscles: true, bodies: true, others: false};
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
   constructor(look, onChange) {
@@ -33,6 +39,11 @@ export class LookControls {
     this.#onChange = onChange;
     this.#water = make('div', {className: 'segments wide', role: 'radiogroup', 'aria-label': 'Water'});
     fillSegments(this.#water, 'water', WATERS, value => this.set({water: value}));
+    this.#plane = make('div', {className: 'segments wide', role: 'radiogroup', 'aria-label': 'Plane through the water'});
+    fillSegments(this.#plane, 'plane', PLANES, value => this.set({plane: value}));
+    this.#place = make('input', {type: 'range', id: 'place', min: -1, max: 1, step: 0.02, 'data-testid': 'place',
+      title: 'Of the plane, from the body: −1 to 1 body lengths'});
+    this.#place.addEventListener('input', () => this.set({place: Number(this.#place.value)}));
     this.#body = make('div', {className: 'segments wide', role: 'radiogroup', 'aria-label': 'Body',
       title: 'Without a graphics card it is drawn as particles'});
     fillSegments(this.#body, 'body', BODIES, value => this.set({body: value}));
@@ -56,7 +67,8 @@ export class LookControls {
       this.#switches.set(name, input);
       return make('label', {className: 'switch', title: `key ${key}`}, input, text);
     });
-    byId('look').replaceChildren(row('Water', this.#water, null), row('Body', this.#body, null), row('Coloured by', this.#colour, 'colour'),
+    byId('look').replaceChildren(row('Water', this.#water, null), row('Plane', this.#plane, null),
+        row('Place', this.#place, 'place'), row('Body', this.#body, null), row('Coloured by', this.#colour, 'colour'),
         row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'),
         row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
@@ -76,7 +88,7 @@ export class LookControls {
 
   /** The next way to show water or the body, or to colour water. */
   next(name) {
-    const choices = {water: watersOf(this.#has), body: BODIES.map(([value]) => value)}[name] ?? Object.keys(FIELDS);
+    const choices = {water: watersOf(this.#has), body: valuesOf(BODIES), plane: valuesOf(PLANES)}[name] ?? Object.keys(FIELDS);
     const now = name === 'water' ? waterShown(this.#look.water, this.#has) : this.#look[name];
     this.set({[name]: choices[(choices.indexOf(now) + 1) % choices.length]});
   }
@@ -103,15 +115,31 @@ export class LookControls {
     this.#show();
   }
 
+  /** Likewise of pressure on the body. */
+  showPressure(range) {
+    this.#legend.pressed = range;
+    this.#show();
+  }
+
+  /** The force of an arrow of 0.4 body lengths, behind 0. */
+  showForce(range) {
+    this.#legend.force = range[1];
+    this.#show();
+  }
+
   #show() {
-    const {body, colour, opacity, quality, drawing} = this.#look;
+    const {plane, place, body, colour, opacity, quality, drawing} = this.#look;
     const water = waterShown(this.#look.water, this.#has);
     choose(this.#water, water);
     for (const input of this.#water.querySelectorAll('input')) {
       input.parentElement.hidden = !watersOf(this.#has).includes(input.value);
     }
     this.#colour.disabled = !isParticles(water);
-    this.#opacity.disabled = water === 'vorticity' || water === 'none';
+    this.#opacity.disabled = isPlane(water) || water === 'none';
+    this.#plane.parentElement.hidden = this.#place.parentElement.hidden = !isPlane(water) || !this.#has.vortices;
+    choose(this.#plane, plane);
+    this.#place.value = place;
+    this.#place.setAttribute('aria-valuetext', `${place} body lengths from the body`);
     choose(this.#body, body);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
@@ -119,10 +147,15 @@ export class LookControls {
     this.#drawing.value = drawing;
     for (const [name, input] of this.#switches) {
       input.checked = this.#look[name];
-      input.disabled = name === 'dye' && !this.#has.wake;
+      input.disabled = name === 'dye' && !this.#has.wake || name === 'forces' && !this.#has.forces
+          || name === 'pressure' && !(this.#has.forces && this.#has.wake);
     }
     this.#legend.show(this.#look, this.#has);
   }
+}
+
+function valuesOf(choices) {
+  return choices.map(([value]) => value);
 }
 
 function row(text, input, id) {

@@ -45,6 +45,10 @@ export class Page {
       view => view.scene?.fluid[1] > 0);
   #turning = new SharedRange(range => this.#look.showTurning(range), (view, range) => view.stage.shareTurning(range),
       view => view.stage.wantsWater);
+  #force = new SharedRange(range => this.#look.showForce(range), (view, range) => view.stage.shareForce(range),
+      view => view.scene?.fields.includes('force'));
+  #pressure = new SharedRange(range => this.#look.showPressure(range), (view, range) => view.stage.sharePressure(range),
+      view => view.scene?.fields.includes('force'));
   #transport = new Transport(this);
   #watching = new Watching(this);
   #capture = new Capture(() => this.#views.map(view => view.stage));
@@ -121,6 +125,8 @@ export class Page {
       notice: showBanner,
       range: range => this.#range.changed(which, range, this.#views),
       turning: range => this.#turning.changed(which, range, this.#views),
+      force: range => this.#force.changed(which, range, this.#views),
+      pressure: range => this.#pressure.changed(which, range, this.#views),
     });
     view.stage.setTheme(this.#theme.colours);
     view.stage.setLook(this.#look.look);
@@ -140,7 +146,7 @@ export class Page {
     this.#views[0].isLed = false;
     this.#figures.pop();
     this.#range.keepFirst(this.#views[0]);
-    this.#turning.keepFirst(this.#views[0]);
+    [this.#turning, this.#force, this.#pressure].forEach(one => one.keepFirst(this.#views[0]));
     const old = byId('stage-b').querySelector('.picture');
     old.replaceWith(old.cloneNode());
     /** @type {HTMLElement} */ (byId('stage-b').querySelector('.overlay')).hidden = false;

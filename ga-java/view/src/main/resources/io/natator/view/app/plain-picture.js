@@ -1,8 +1,10 @@
 /** Draws without WebGL: spheres by the processor into pixels, lines with the 2-d canvas. */
 
 import {Color} from 'three';
+import {addArrows} from './arrows.js';
 import {SCALES, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
+import {vortexOpacity} from './wake.js';
 import {dyeStrength} from './dye.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
 import {PlainSkin} from './plain-skin.js';
@@ -19,6 +21,10 @@ import {SPINES} from './trace.js';
 const COLOURS = 256;
 const CHANGES = 33;
 const DYE_STEPS = 6;
+/** Half the width of an arrow of force, pixels. */
+const ARROW_WIDTH = 1.5;
+/** Radius of the discs that a vortex' surface is drawn with, in cells. */
+const VORTEX_RADIUS = 0.72;
 /** Pixels of the surface for each of the spheres' layer, along each side, while it moves. */
 const SURFACE_SHARE = 0.5;
 
@@ -39,6 +45,8 @@ export class PlainPicture {
   #slice = new PlainSlice();
   #wake;
   #dye;
+  #forces;
+  #pressure;
   #order = new NearestFirst();
   #projector = new Projector();
   #lineProjector = new Projector();
@@ -59,12 +67,13 @@ export class PlainPicture {
   #waterShades = null;
   #turnShades = null;
   #bodyShades = null;
+  #pressureShades = shades(Array.from({length: COLOURS}, (_, i) => colourAt(SCALES.diverging, i / (COLOURS - 1))), 1);
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
   #lineWidth = 1;
   #surfaceShare = SURFACE_SHARE;
   #place = [0, 0, 0];
 
-  constructor(canvas, trace, field, wake, dye) {
+  constructor(canvas, {trace, field, wake, dye, forces, pressure}) {
     this.#canvas = canvas;
     this.#context = canvas.getContext('2d', {alpha: false});
     this.#layerContext = this.#layerCanvas.getContext('2d');
@@ -73,6 +82,8 @@ export class PlainPicture {
     this.#field = field;
     this.#wake = wake;
     this.#dye = dye;
+    this.#forces = forces;
+    this.#pressure = pressure;
   }
 
   /** What draws, for people. */
@@ -123,10 +134,10 @@ export class PlainPicture {
 
   setLook(look) {
     this.#look = look;
-    const shadesOf = scale => shades(Array.from({length: COLOURS}, (_, i) => colourAt(scale, i / (COLOURS - 1))),
-        Math.min(look.opacity, 0.995));
-    this.#waterShades = shadesOf(SCALES.sequential);
-    this.#turnShades = shadesOf(SCALES.turning);
+    const shadesOf = (scale, opacity) => shades(Array.from({length: COLOURS}, (_, i) => colourAt(scale, i / (COLOURS - 1))),
+        Math.min(opacity, 0.995));
+    this.#waterShades = shadesOf(SCALES.sequential, look.opacity);
+    this.#turnShades = shadesOf(SCALES.turning, vortexOpacity(look.opacity));
   }
 
   setTheme(colours) {
@@ -161,7 +172,7 @@ export class PlainPicture {
     this.#lineProjector.set(camera, this.#canvas.width, this.#canvas.height);
     this.#drawTank();
     if (this.#wake.slice !== null) {
-      this.#slice.draw(this.#context, this.#canvas.width, this.#canvas.height, this.#lineProjector, this.#wake);
+      this.#slice.draw(this.#context, this.#canvas.width, this.#canvas.height, this.#lineProjector, this.#wake, this.#colours.ink);
     }
     this.#projector.set(camera, this.#layerCanvas.width, this.#layerCanvas.height);
     this.#surfaceProjector.set(camera, this.#surfaceCanvas.width, this.#surfaceCanvas.height);
@@ -170,7 +181,7 @@ export class PlainPicture {
     if (this.#look.water === 'surface') {
       this.#drawSurface();
     }
-    this.#skin.draw(frame, this.#context, this.#lineProjector);
+    this.#skin.draw(frame, this.#context, this.#lineProjector, this.#pressure);
     if (this.#look.muscles) {
       this.#drawMuscles(frame);
     }
@@ -180,6 +191,10 @@ export class PlainPicture {
     if (this.#dye.count > 0) {
       this.#drawDye(frame.time);
     }
+    this.#context.fillStyle = this.#colours.dye;
+    this.#context.beginPath();
+    addArrows(this.#context, this.#lineProjector, this.#forces.arrows, ARROW_WIDTH);
+    this.#context.fill();
   }
 
   dispose() {
@@ -232,7 +247,7 @@ export class PlainPicture {
       projector.project(places[3 * particle], places[3 * particle + 1], places[3 * particle + 2], this.#place, 0);
       const [x, y, depth] = this.#place;
       if (particle >= particles) {
-        this.#vortexSphere(x, y, depth, particle - particles);
+        this.#vortexDisc(x, y, depth, particle - particles);
       } else if (kind >= 0) {
         this.#bodySphere(x, y, depth, kind, particle, isSurface);
       } else if (isWater && depth >= from) {
@@ -260,17 +275,26 @@ export class PlainPicture {
     return places;
   }
 
-  #vortexSphere(x, y, depth, vertex) {
-    const {vortices: {turns, cell}, range: [, most]} = this.#wake;
-    const share = Math.min(1, Math.max(-1, turns[vertex] / most));
-    this.#waterSphere(x, y, depth, Math.round((COLOURS - 1) * (0.5 + 0.5 * share)), cell, this.#turnShades);
+  /** A disc with the light that its surface has there: where they overlap, that looks smooth. */
+  #vortexDisc(x, y, depth, vertex) {
+    const {vortices: {turns, normals, cell}, range: [, most]} = this.#wake;
+    const radius = VORTEX_RADIUS * cell / depth * this.#projector.pixels;
+    if (isOn(this.#layerCanvas, x, y, radius)) {
+      const {forward} = this.#projector;
+      const [right, up, front] = normals.subarray(3 * vertex, 3 * vertex + 3);
+      const facing = Math.abs(forward.x * right + forward.y * up + forward.z * front);
+      const light = Math.round((LIGHTS - 1) * Math.min(1, Math.max(0, 0.1 + 0.7 * facing + 0.2 * up)));
+      const colour = Math.round((COLOURS - 1) * (0.5 + 0.5 * Math.min(1, Math.max(-1, turns[vertex] / most))));
+      const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
+      this.#layer.flat(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#turnShades[LIGHTS * colour + light]);
+    }
   }
 
-  #waterSphere(x, y, depth, colour, spacing = this.#scene.fluidRestDistance, table = this.#waterShades) {
-    const radius = WATER_RADIUS * spacing / depth * this.#projector.pixels;
+  #waterSphere(x, y, depth, colour) {
+    const radius = WATER_RADIUS * this.#scene.fluidRestDistance / depth * this.#projector.pixels;
     if (isOn(this.#layerCanvas, x, y, radius)) {
       const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
-      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, table, colour * LIGHTS);
+      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#waterShades, colour * LIGHTS);
     }
   }
 
@@ -280,8 +304,9 @@ export class PlainPicture {
       return;
     }
     const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
-    this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#bodyShades, cluster * LIGHTS,
-        this.#joints[particle] === 1);
+    const {isKnown, shares} = this.#pressure;
+    this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, isKnown ? this.#pressureShades : this.#bodyShades,
+        LIGHTS * (isKnown ? Math.round((COLOURS - 1) * (0.5 + 0.5 * shares[particle])) : cluster), this.#joints[particle] === 1);
     if (blocks) {
       const small = this.#discs.of(this.#surfaceShare * radius, 0.5, 0.5);
       this.#surface.block(small, Math.floor(this.#surfaceShare * x) - small.half, Math.floor(this.#surfaceShare * y) - small.half);

@@ -1,11 +1,18 @@
 /** The mesh that a body was made of, on a 2-d canvas: translucent triangles, the farthest first. */
 
-import {clusterColours} from './colours.js';
+import {SCALES, clusterColours, colourAt} from './colours.js';
 import {NEAREST} from './projector.js';
 import {SkinMotion} from './skin.js';
 
 const OPACITY = 0.6;
 const LIGHTS = 16;
+const PRESSURES = 33;
+
+/** A colour as CSS for each light. */
+function lights(colour) {
+  return Array.from({length: LIGHTS + 1}, (_, light) =>
+    `rgb(${colour.map(value => Math.round(255 * value * (0.5 + 0.5 * light / LIGHTS))).join(' ')})`);
+}
 
 /** Nothing for bodies without a mesh. */
 export class PlainSkin {
@@ -13,6 +20,7 @@ export class PlainSkin {
   #scene = null;
   #motion = null;
   #colours = [];
+  #pressures = Array.from({length: PRESSURES}, (_, i) => lights(colourAt(SCALES.diverging, i / (PRESSURES - 1))));
   #projected = new Float32Array(0);
 
   /**
@@ -25,12 +33,12 @@ export class PlainSkin {
     this.#motion = scene.skin ? new SkinMotion(scene) : null;
     if (this.#motion !== null) {
       this.#projected = new Float32Array(this.#motion.places.length);
-      this.#colours = clusterColours(scene.clusters.length).map(colour => Array.from({length: LIGHTS + 1}, (_, light) =>
-        `rgb(${colour.map(value => Math.round(255 * value * (0.5 + 0.5 * light / LIGHTS))).join(' ')})`));
+      this.#colours = clusterColours(scene.clusters.length).map(lights);
     }
   }
 
-  draw(frame, context, projector) {
+  /** Coloured by a `SkinPressure` where that is known. */
+  draw(frame, context, projector, pressure) {
     if (this.#motion === null) {
       return;
     }
@@ -52,7 +60,9 @@ export class PlainSkin {
     shown.sort((one, other) => other.depth - one.depth);
     context.globalAlpha = OPACITY;
     for (const {a, b, c, cluster} of shown) {
-      context.fillStyle = this.#colours[cluster][Math.round(LIGHTS * this.#light(a, b, c, projector.forward))];
+      const {light, normal} = this.#facing(a, b, c, projector.forward);
+      const colours = pressure.isKnown ? this.#pressures[this.#pressed(a, normal, pressure)] : this.#colours[cluster];
+      context.fillStyle = colours[Math.round(LIGHTS * light)];
       context.beginPath();
       context.moveTo(at[a], at[a + 1]);
       context.lineTo(at[b], at[b + 1]);
@@ -62,12 +72,17 @@ export class PlainSkin {
     context.globalAlpha = 1;
   }
 
-  /** 1 for a triangle that faces the eye, 0 for one that is seen edge-on. */
-  #light(a, b, c, forward) {
+  #pressed(a, normal, pressure) {
+    return Math.round((PRESSURES - 1) * (0.5 + 0.5 * pressure.share(Array.from(this.#motion.places.subarray(a, a + 3)), normal)));
+  }
+
+  /** Outwards; and 1 for a triangle that faces the eye, 0 for one that is seen edge-on. */
+  #facing(a, b, c, forward) {
     const {places} = this.#motion;
     const [ux, uy, uz] = [0, 1, 2].map(axis => places[b + axis] - places[a + axis]);
     const [vx, vy, vz] = [0, 1, 2].map(axis => places[c + axis] - places[a + axis]);
     const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    return Math.abs(x * forward.x + y * forward.y + z * forward.z) / (Math.hypot(x, y, z) || 1);
+    const normal = [x, y, z].map(one => one / (Math.hypot(x, y, z) || 1));
+    return {light: Math.abs(normal[0] * forward.x + normal[1] * forward.y + normal[2] * forward.z), normal};
   }
 }

@@ -72,6 +72,23 @@ export class SphereLayer {
     }
   }
 
+  /** The same of one colour all over. */
+  flat(disc, x, y, colour) {
+    const {size, start, end} = disc;
+    const last = Math.min(size, this.#height - y);
+    for (let row = Math.max(0, -y); row < last; row++) {
+      const to = Math.min(end[row], this.#width - x);
+      const line = (y + row) * this.#width + x;
+      const tiles = (y + row >> TILE_BITS) * this.#tilesAcross;
+      for (let column = Math.max(start[row], -x); column < to; column++) {
+        if (this.#pixels[line + column] === 0) {
+          this.#pixels[line + column] = colour;
+          this.#empty[tiles + (x + column >> TILE_BITS)]--;
+        }
+      }
+    }
+  }
+
   /** The same for a body's disc, which shows through water; a spot in its middle is white where `isJoint`. */
   body(disc, x, y, table, base, isJoint) {
     const {size, start, end, light, height} = disc;

@@ -12,6 +12,7 @@ export function figures(page) {
     drawing: () => page.views[which]?.stage.drawing ?? '',
     share: () => page.views[which]?.stage.share ?? 0,
     hasWake: () => page.views[which]?.stage.hasWake ?? false,
+    forces: () => page.views[which]?.stage.forces ?? [],
     samples: () => page.views[which]?.stage.samples ?? 0,
     scene: () => page.views[which]?.scene ?? null,
     connected: () => page.views[which]?.isConnected ?? false,

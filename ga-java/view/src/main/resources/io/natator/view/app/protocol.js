@@ -4,7 +4,7 @@
 const HEAD_BYTES = 72;
 
 /** Numbers that each field has per particle. */
-const WIDTHS = {position: 3, velocity: 3, density: 1};
+const WIDTHS = {position: 3, velocity: 3, density: 1, force: 3};
 
 const RUNNING = 1;
 const TOUCHING = 2;
@@ -33,7 +33,7 @@ export function decodeFrame(buffer, scene) {
   }
   const view = new DataView(buffer);
   const flags = view.getUint32(12, true);
-  const fields = {position: null, velocity: null, density: null};
+  const fields = {position: null, velocity: null, density: null, force: null};
   let offset = HEAD_BYTES + 4 * scene.actuators;
   for (const field of scene.fields) {
     fields[field] = new Float32Array(buffer, offset, WIDTHS[field] * particles);
@@ -57,6 +57,7 @@ export function decodeFrame(buffer, scene) {
     position: fields.position,
     velocities: fields.velocity,
     density: fields.density,
+    force: fields.force,
   };
 }
 
@@ -89,6 +90,7 @@ export function decodeWater(buffer) {
     corner: [40, 48, 56].map(at => view.getFloat64(at, true)),
     velocity: new Float32Array(buffer, WATER_HEAD_BYTES, 3 * count),
     density: new Float32Array(buffer, WATER_HEAD_BYTES + 12 * count, count),
+    pressure: view.getUint32(20, true) === 1 ? new Float32Array(buffer, WATER_HEAD_BYTES + 16 * count, count) : null,
   };
 }
 

@@ -27,6 +27,32 @@ export function axis(low, high, count = 4) {
   return {low: first * step, high: last * step, step, marks};
 }
 
+/** The end of a scale that keeps to round numbers, and does not change for little. */
+export class RoundEnd {
+  #least;
+
+  /** Of the scale; 0 before it is known. */
+  value = 0;
+
+  /** @param {number} least of the end */
+  constructor(least) {
+    this.#least = least;
+  }
+
+  /** Whether it changes for the greatest of what is shown. */
+  follow(greatest) {
+    if (greatest <= this.value && greatest > 0.5 * this.value) {
+      return false;
+    }
+    const wanted = Math.max(greatest, this.#least);
+    const step = niceStep(wanted / 4);
+    const end = Math.ceil(wanted / step - 1e-6) * step;
+    const isOther = end !== this.value;
+    this.value = end;
+    return isOther;
+  }
+}
+
 /** A number with as many digits as an axis with this step needs. */
 export function axisText(value, step) {
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));

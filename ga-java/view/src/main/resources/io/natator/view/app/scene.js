@@ -152,6 +152,16 @@ export function bodySpacing(scene) {
 }
 
 /**
+ * How far what is around a body reaches, length: as far as that is long; without a body half the tank.
+ *
+ * @param {Scene} scene
+ * @param {number} tank how long that is
+ */
+export function bodiesReach(scene, tank) {
+  return scene.bodyLength > 0 ? scene.bodyLength : tank / 2;
+}
+
+/**
  * All particles that are no water: of the body, of companions, of obstacles.
  *
  * @param {Scene} scene
@@ -198,20 +208,25 @@ export function isParticles(water) {
   return water === 'spheres' || water === 'surface';
 }
 
+/** Whether water is shown on a plane through it. */
+export function isPlane(water) {
+  return water === 'vorticity' || water === 'velocity' || water === 'pressure';
+}
+
 /** The ways to show water, of what `contents` tells: on a lattice there are no particles, in plane flow no vortices in space. */
-export function watersOf({water, wake, vortices}) {
-  const has = {spheres: water, surface: water, vorticity: wake, vortices, none: true};
+export function watersOf({water, wake, vortices, forces}) {
+  const has = {spheres: water, surface: water, vorticity: wake, velocity: wake, pressure: wake && forces, vortices, none: true};
   return Object.keys(has).filter(name => has[name]);
 }
 
-/** What is shown where a look asks for a way to show water: vorticity if that is not there. */
+/** What is shown where a look asks for a way to show water that is not there: the vortices, in plane flow its vorticity. */
 export function waterShown(water, has) {
-  return watersOf(has).includes(water) ? water : has.wake ? 'vorticity' : 'none';
+  return watersOf(has).includes(water) ? water : has.vortices ? 'vortices' : has.wake ? 'vorticity' : 'none';
 }
 
 /**
  * What there is to be seen in some scenes: water of particles, water on a lattice, a wake (in any water), vortices in space,
- * muscles, bodies, others (companions and obstacles). Of recordings a wake is known where their definition has `fluid`.
+ * forces of the water and its pressure, muscles, bodies, others (companions and obstacles). Of recordings a wake is known where their definition has `fluid`.
  *
  * @param {Scene[]} scenes
  */
@@ -222,6 +237,7 @@ export function contents(scenes) {
     lattice: scenes.some(hasLattice),
     wake: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid),
     vortices: scenes.some(scene => isWet(scene) && !!scene.definition?.fluid && !(hasLattice(scene) && lattice(scene).count[1] === 1)),
+    forces: scenes.some(({fields}) => fields?.includes('force') ?? false),
     muscles: scenes.some(({muscles}) => muscles.length > 0),
     bodies: scenes.some(({body}) => body.length > 0),
     others: scenes.some(({particles, fluid, body}) => particles > fluid[1] + body.length),

@@ -4,20 +4,24 @@ import * as THREE from 'three';
 import {CameraRig} from './cameras.js';
 import {Dye} from './dye.js';
 import {FieldValues} from './fields.js';
+import {Forces} from './forces.js';
 import {GlPicture} from './gl-picture.js';
 import {hasGraphicsCard} from './graphics-card.js';
 import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
 import {boundsAround, centreOf, contents, hasOpenAxes, movedBounds, tankBounds, waterShown} from './scene.js';
+import {SkinPressure} from './skin-pressure.js';
 import {SpineTrace} from './trace.js';
 import {Wake} from './wake.js';
 
 /**
- * What can be chosen: water spheres, surface, vorticity, vortices or none; body skin or particles; colour speed, density, mass or none; drawing
+ * What can be chosen: water spheres, surface, vorticity, velocity, pressure, vortices or none; plane level, along or across, and its
+ * place, −1 to 1; body skin or particles, with its pressure and forces; colour speed, density, mass or none; drawing
  * auto, webgl or plain.
  */
 const DEFAULT_LOOK = {
-  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, dye: false, quality: 'auto',
+  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, dye: false, pressure: false, forces: false,
+  plane: 'level', place: 0, quality: 'auto',
   drawing: 'auto',
 };
 
@@ -36,6 +40,9 @@ export function firstLook(remembered = {}) {
 /** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
 const REST = 10;
 
+/** Where a wake is shown the camera looks so far behind the body, in its lengths: bodies begin along x. */
+const BEHIND = 0.35;
+
 /** What counts as the time of drawing where the graphics card is not done when the next drawing begins. */
 const LATE_MS = 100;
 
@@ -48,6 +55,8 @@ export class Stage {
   #field = new FieldValues();
   #wake = new Wake();
   #dye = new Dye();
+  #forces = new Forces();
+  #pressure = new SkinPressure();
   /** @type {Scene|null} */
   #scene = null;
   /** @type {Frame|null} */
@@ -76,6 +85,8 @@ export class Stage {
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
     this.#wake.onRange = range => this.onTurning(range);
+    this.#forces.onRange = range => this.onForce(range);
+    this.#pressure.onRange = range => this.onPressure(range);
     new ResizeObserver(() => {
       this.#isNew = true;
     }).observe(host);
@@ -96,6 +107,15 @@ export class Stage {
    */
   onTurning = () => {};
 
+  /**
+   * Called with 0 and the force of an arrow of a certain length; with the ends of the scale of pressure on the body.
+   *
+   * @type {(range: number[]) => void}
+   */
+  onForce = () => {};
+  /** @type {(range: number[]) => void} */
+  onPressure = () => {};
+
   /** Ends of the colour scale that hold instead of this picture's own; null for its own. */
   shareRange(range) {
     this.#field.shared = range;
@@ -105,6 +125,17 @@ export class Stage {
   /** Likewise of vorticity. */
   shareTurning(range) {
     this.#wake.shared = range;
+    this.#isNew = true;
+  }
+
+  /** Likewise of forces and of pressure. */
+  shareForce(range) {
+    this.#forces.shared = range;
+    this.#isNew = true;
+  }
+
+  sharePressure(range) {
+    this.#pressure.shared = range;
     this.#isNew = true;
   }
 
@@ -133,6 +164,8 @@ export class Stage {
     this.#scene = scene;
     this.#wake.setScene(scene);
     this.#dye.setScene(scene);
+    this.#forces.setScene(scene);
+    this.#pressure.setScene(scene);
     this.#frame = scene.restarted ? null : this.#frame;
     this.#trace.setScene(scene);
     this.#picture?.setScene(scene);
@@ -162,6 +195,7 @@ export class Stage {
     if (this.#hasDye) {
       this.#dye.update(frame, this.#wake.water);
     }
+    this.#forces.update(frame);
     this.#isNew = true;
   }
 
@@ -177,6 +211,11 @@ export class Stage {
     this.#isNew = true;
   }
 
+  /** The force on each part of bodies, mass length/s²; empty where it is not shown. */
+  get forces() {
+    return this.#look.forces ? this.#forces.forces : [];
+  }
+
   /** Whether something of the wake is drawn: a slice, or vortices. */
   get hasWake() {
     return this.#wake.slice !== null || this.#wake.vortices !== null;
@@ -184,7 +223,7 @@ export class Stage {
 
   /** Whether it is to be given water on a grid. */
   get wantsWater() {
-    return this.#wake.isShown || this.#hasDye;
+    return this.#wake.isShown || this.#hasDye || this.#pressure.isShown;
   }
 
   get #hasDye() {
@@ -200,14 +239,21 @@ export class Stage {
     const {body} = this.#scene;
     const {min, max} = this.#bounds;
     this.#wake.setWater(water, body.length > 0 ? centreOf(body, this.#frame.position, [0, 0, 0])
-      : min.map((low, axis) => (low + max[axis]) / 2));
+      : min.map((low, axis) => (low + max[axis]) / 2), this.#frame.position);
+    this.#pressure.setWater(water, this.#frame.position);
     this.#isNew = true;
   }
 
   /** What of the look can be shown of the scene. */
   #showLook() {
-    const water = this.#scene === null ? this.#look.water : waterShown(this.#look.water, contents([this.#scene]));
-    this.#wake.show(water);
+    const has = this.#scene === null ? null : contents([this.#scene]);
+    const water = has === null ? this.#look.water : waterShown(this.#look.water, has);
+    this.#wake.show(water, this.#look.plane, this.#look.place);
+    this.#pressure.isShown = this.#look.pressure && (has?.forces ?? false);
+    this.#forces.isShown = this.#look.forces;
+    if (this.#frame !== null) {
+      this.#forces.update(this.#frame);
+    }
     this.#picture?.setLook({...this.#look, water});
   }
 
@@ -232,7 +278,11 @@ export class Stage {
       return false;
     }
     const {body} = this.#scene;
-    this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
+    const centre = body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null;
+    if (centre !== null && this.#wake.isShown) {
+      centre[0] -= BEHIND * this.#scene.bodyLength;
+    }
+    this.rig.setBody(centre);
     this.rig.update(seconds, this.#host.clientWidth / this.#host.clientHeight);
     const isChanged = this.#isNew || this.rig.hasMoved;
     this.#rested = isChanged ? 0 : this.#rested + 1;
@@ -327,7 +377,8 @@ export class Stage {
     const canvas = document.createElement('canvas');
     this.#host.replaceChildren(canvas);
     const Picture = way === 'plain' ? PlainPicture : GlPicture;
-    return new Picture(canvas, this.#trace, this.#field, this.#wake, this.#dye);
+    return new Picture(canvas,
+        {trace: this.#trace, field: this.#field, wake: this.#wake, dye: this.#dye, forces: this.#forces, pressure: this.#pressure});
   }
 
   /** Gives the canvas the size and detail that hold now. */

@@ -79,3 +79,71 @@ function faces({values, size}, vertexOf) {
   }
   return Uint32Array.from(triangles);
 }
+
+/**
+ * A surface without those of its parts that have fewer than this share of the vertices of the largest.
+ *
+ * @param {{vertices: Float32Array, triangles: Uint32Array}} surface see `surfaceNet`
+ * @param {number} least 0 to 1
+ * @returns {{vertices: Float32Array, triangles: Uint32Array}}
+ */
+export function largeParts({vertices, triangles}, least) {
+  const first = Uint32Array.from({length: vertices.length / 3}, (_, i) => i);
+  const partOf = vertex => {
+    let at = vertex;
+    while (first[at] !== at) {
+      first[at] = first[first[at]];
+      at = first[at];
+    }
+    return at;
+  };
+  for (let i = 0; i < triangles.length; i += 3) {
+    const part = partOf(triangles[i]);
+    first[partOf(triangles[i + 1])] = part;
+    first[partOf(triangles[i + 2])] = part;
+  }
+  const sizes = new Uint32Array(first.length);
+  for (let i = 0; i < first.length; i++) {
+    sizes[partOf(i)]++;
+  }
+  const enough = least * sizes.reduce((most, size) => Math.max(most, size), 0);
+  const kept = [...first.keys()].filter(i => sizes[partOf(i)] >= enough);
+  const now = new Uint32Array(first.length);
+  kept.forEach((vertex, i) => now[vertex] = i);
+  return {
+    vertices: Float32Array.from({length: 3 * kept.length}, (_, i) => vertices[3 * kept[Math.floor(i / 3)] + i % 3]),
+    triangles: triangles.filter((_, i) => sizes[partOf(triangles[i - i % 3])] >= enough).map(vertex => now[vertex]),
+  };
+}
+
+/**
+ * Directions outwards at the vertices of a surface, of length 1.
+ *
+ * @param {{vertices: Float32Array, triangles: Uint32Array}} surface see `surfaceNet`
+ * @returns {Float32Array} three numbers for each vertex
+ */
+export function normalsOf({vertices, triangles}) {
+  const normals = new Float32Array(vertices.length);
+  const [u, v] = [[0, 0, 0], [0, 0, 0]];
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
+    for (let axis = 0; axis < 3; axis++) {
+      u[axis] = vertices[b + axis] - vertices[a + axis];
+      v[axis] = vertices[c + axis] - vertices[a + axis];
+    }
+    for (let axis = 0; axis < 3; axis++) {
+      const [p, q] = [(axis + 1) % 3, (axis + 2) % 3];
+      const part = u[p] * v[q] - u[q] * v[p];
+      normals[a + axis] += part;
+      normals[b + axis] += part;
+      normals[c + axis] += part;
+    }
+  }
+  for (let i = 0; i < normals.length; i += 3) {
+    const length = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
+    for (let axis = 0; axis < 3; axis++) {
+      normals[i + axis] /= length;
+    }
+  }
+  return normals;
+}

@@ -7,6 +7,7 @@ import {Meter} from './meter.js';
 import {isSameGait, waveGait} from './gait.js';
 import {MovingTank} from './moving-tank.js';
 import {decodeFrame, sceneNumber, stopText} from './protocol.js';
+import {contents} from './scene.js';
 import {Stage} from './stage.js';
 
 const VACUUM = '-vacuum';
@@ -33,7 +34,7 @@ function serverSocket() {
 }
 
 /**
- * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends), turning(ends); `again` is what a button does
+ * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends), turning(ends), force(ends), pressure(ends); `again` is what a button does
  * that starts anew, where that is left to the user.
  */
 export class View {
@@ -85,6 +86,8 @@ export class View {
     this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
     this.stage.onTurning = range => handlers.turning(range);
+    this.stage.onForce = range => handlers.force(range);
+    this.stage.onPressure = range => handlers.pressure(range);
     this.#connection = new Connection(openSocket, () => this.#start(), {
       status: (state, text) => this.#status(state, text),
       scene: scene => this.#scene(scene),
@@ -183,7 +186,7 @@ export class View {
       return;
     }
     this.#isAsking = true;
-    const error = await this.#connection.send({do: 'water'});
+    const error = await this.#connection.send({do: 'water', ...(contents([this.scene]).forces ? {pressure: true} : {})});
     this.#isAsking = false;
     this.#nextWater = Math.max(this.#nextWater, error === null ? 0 : now + REFUSED_MS);
   }

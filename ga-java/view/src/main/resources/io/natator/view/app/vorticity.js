@@ -21,31 +21,106 @@ function derive({velocity, density, cell}, at, place, count, step, out) {
   }
 }
 
+/** What can be read off the cells of a plane: functions of the water, an axis and its plane's, that give one of a cell and its place. */
+/** @type {Record<string, (water: Water, axis: number) => (at: number, place: number[]) => number>} */
+const ON_PLANE = {
+  /** About the axis, 1/s, above 0 anticlockwise as seen from where it points: of y ∂u/∂z − ∂w/∂x. */
+  vorticity: (water, axis) => {
+    const [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
+    const [alongB, alongC] = [new Float32Array(3), new Float32Array(3)];
+    const {cells} = water;
+    const steps = [1, cells[0], cells[0] * cells[1]];
+    return (at, place) => {
+      derive(water, at, place[b], cells[b], steps[b], alongB);
+      derive(water, at, place[c], cells[c], steps[c], alongC);
+      return alongB[c] - alongC[b];
+    };
+  },
+  velocity: ({velocity}) => at => Math.hypot(velocity[3 * at], velocity[3 * at + 1], velocity[3 * at + 2]),
+  pressure: water => {
+    const pressure = excessPressure(water);
+    return at => pressure[at];
+  },
+};
+
 /**
- * Vorticity about the vertical at a height, 1/s: ∂u/∂z − ∂w/∂x, above 0 anticlockwise as seen from above.
+ * What water is like on a plane across an axis.
  *
  * @param {Water} water
- * @param {number} height in its grid's coordinates, length; between layers of cells it is interpolated
- * @returns {Float32Array} X × Z numbers, x varies fastest
+ * @param {'vorticity'|'velocity'|'pressure'} what about the axis, 1/s; speed, length/s; see `excessPressure`
+ * @param {number} axis 0, 1, 2
+ * @param {number} height along it in the grid's coordinates, length; between layers of cells it is interpolated
+ * @returns {Float32Array} a number for each cell of the plane; of its axes the lower varies fastest
  */
-export function vorticityAt(water, height) {
-  const {cells: [across, up, along], cell, corner} = water;
-  const layer = Math.min(up - 1, Math.max(0, (height - corner[1]) / cell - 0.5));
-  const low = Math.floor(layer);
-  const turns = new Float32Array(across * along);
-  const [alongX, alongZ] = [new Float32Array(3), new Float32Array(3)];
-  for (let y = low; y <= Math.ceil(layer); y++) {
-    const share = 1 - Math.abs(layer - y);
-    for (let z = 0, to = 0; z < along; z++) {
-      for (let x = 0; x < across; x++, to++) {
-        const at = x + across * (y + up * z);
-        derive(water, at, x, across, 1, alongX);
-        derive(water, at, z, along, across * up, alongZ);
-        turns[to] += share * (alongZ[0] - alongX[2]);
+export function planeOf(water, what, axis, height) {
+  const {cells, cell, corner} = water;
+  const [first, second] = [0, 1, 2].filter(one => one !== axis);
+  const steps = [1, cells[0], cells[0] * cells[1]];
+  const layer = Math.min(cells[axis] - 1, Math.max(0, (height - corner[axis]) / cell - 0.5));
+  const values = new Float32Array(cells[first] * cells[second]);
+  const read = ON_PLANE[what](water, axis);
+  const place = [0, 0, 0];
+  for (place[axis] = Math.floor(layer); place[axis] <= Math.ceil(layer); place[axis]++) {
+    const share = 1 - Math.abs(layer - place[axis]);
+    let to = 0;
+    for (place[second] = 0; place[second] < cells[second]; place[second]++) {
+      for (place[first] = 0; place[first] < cells[first]; place[first]++, to++) {
+        values[to] += share * read(place[0] + place[1] * steps[1] + place[2] * steps[2], place);
       }
     }
   }
-  return turns;
+  return values;
+}
+
+/**
+ * Pressure less the mean of the water at the same height, mass/(length s²): without what gravity adds; 0 where it is not known.
+ *
+ * @param {Water} water
+ * @returns {Float32Array} a number for each cell
+ */
+export function excessPressure({pressure, density, cells: [across, up]}) {
+  const isKnown = at => density[at] >= LEAST_DENSITY && !Number.isNaN(pressure[at]);
+  const height = at => Math.floor(at / across) % up;
+  const [sum, count] = [new Float64Array(up), new Float64Array(up)];
+  pressure.forEach((value, at) => {
+    if (isKnown(at)) {
+      sum[height(at)] += value;
+      count[height(at)]++;
+    }
+  });
+  return pressure.map((value, at) => isKnown(at) ? value - sum[height(at)] / count[height(at)] : 0);
+}
+
+/**
+ * The same water with each velocity a mean over its neighbours, by 1, 2, 1 along each axis: what changes from cell to cell is gone.
+ *
+ * @param {Water} water
+ * @returns {Water}
+ */
+export function smoothed(water) {
+  const {cells, density} = water;
+  let from = water.velocity;
+  [1, cells[0], cells[0] * cells[1]].forEach((step, axis) => {
+    const to = new Float32Array(from.length);
+    for (let at = 0; at < density.length; at++) {
+      const place = Math.floor(at / step) % cells[axis];
+      let all = 0;
+      for (const [side, share] of [[-1, 1], [0, 2], [1, 1]]) {
+        const next = at + side * step;
+        if (place + side >= 0 && place + side < cells[axis] && (side === 0 || density[next] >= LEAST_DENSITY)) {
+          all += share;
+          for (let i = 0; i < 3; i++) {
+            to[3 * at + i] += share * from[3 * next + i];
+          }
+        }
+      }
+      for (let i = 0; i < 3; i++) {
+        to[3 * at + i] /= all;
+      }
+    }
+    from = to;
+  });
+  return {...water, velocity: from};
 }
 
 /**
@@ -95,7 +170,12 @@ export function quantile(numbers, share, of = one => one) {
  * @param {number[]} place in its grid's coordinates, length
  * @param {boolean[]} wraps along which axes the grid closes up with itself
  */
-export function velocityAt({cells, cell, corner, velocity}, place, wraps, out) {
+export function velocityAt(water, place, wraps, out) {
+  return valueAt(water, water.velocity, place, wraps, out);
+}
+
+/** The same of other numbers of its cells, as many for each as `out` has. */
+export function valueAt({cells, cell, corner}, values, place, wraps, out) {
   out.fill(0);
   const [low, share] = [[0, 0, 0], [0, 0, 0]];
   for (let axis = 0; axis < 3; axis++) {
@@ -116,8 +196,8 @@ export function velocityAt({cells, cell, corner, velocity}, place, wraps, out) {
       const count = cells[axis];
       index = index * count + (wraps[axis] ? (to % count + count) % count : Math.min(count - 1, Math.max(0, to)));
     }
-    for (let i = 0; i < 3; i++) {
-      out[i] += weight * velocity[3 * index + i];
+    for (let i = 0; i < out.length; i++) {
+      out[i] += weight * values[out.length * index + i];
     }
   }
   return out;
