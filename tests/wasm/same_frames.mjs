@@ -53,7 +53,7 @@ function message(bytes) {
 
 function native(program) {
   const {status, stdout, stderr} = spawnSync(program, ['stream', SCENE, '--gait', JSON.stringify(GAIT), '--fields',
-    'position,velocity', '--paused', '--no-cache'], {
+    'position,velocity,force', '--paused', '--no-cache'], {
     input: COMMANDS.map(command => `${JSON.stringify(command)}\n`).join(''), maxBuffer: 1 << 30,
     env: {...process.env, NATATOR_ISA: 'portable'},
   });

@@ -43,7 +43,8 @@ class PagePictures extends BrowserTest {
             "evolved-eel, endless/evolved-eel, evolved-eel, 90, surface, follow",
             "hoop, company/hoop, fish-like, 90, surface, follow",
             "school, company/school, fish-like, 90, surface, follow",
-            "loach, plane/loach, loach, 240, vorticity, top"})
+            "loach, plane/loach, loach, 240, vorticity, top",
+            "vortices, lake/creature-2, fish-like, 60, vortices, follow"})
     void aCreatureSwims(String name, String scene, String gait, int frames, String shown, String camera)
             throws Exception {
         ObjectNode keys = (ObjectNode) Json.read(GAITS.resolve(gait + ".json"), JsonNode.class, "gait");
