@@ -1,5 +1,6 @@
 #include "regions.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
