@@ -195,7 +195,7 @@ TEST_P(RegionsTest, GoNowhereWithoutWater) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RegionsTest, testing::Values("jellyfish", "torus", "turtle"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& one) { return std::string(one.param); });
 
 Scene with_points(const std::string& scene, const json& points, const std::string& bend = "vertical") {
     return load_scene(scene, json{{"creature", {{"mesh", {{"points", points}}}, {"bend", bend}}}});
@@ -254,7 +254,7 @@ TEST(Regions, AreOfABodyInOnePiece) {
         for (const auto& face :
              {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
             out << 'f';
-            for (const int corner : face) out << ' ' << first + corner;
+            for (const int vertex : face) out << ' ' << first + vertex;
             out << '\n';
         }
     out.close();

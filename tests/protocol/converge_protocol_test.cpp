@@ -17,7 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-const json swim = {{"id", 5}, {"scene", "thesis/creature-1-vacuum"}, {"gait", json::parse(gait)}, {"duration", 0.1}};
+const json one_swim = {
+    {"id", 5}, {"scene", "thesis/creature-1-vacuum"}, {"gait", json::parse(gait)}, {"duration", 0.1}};
 
 class ConvergeTest : public testing::Test {
 protected:
@@ -44,7 +45,7 @@ private:
 };
 
 TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
-    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2"}, swim.dump());
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2"}, one_swim.dump());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(lines(outcome.out), 1);
     const json result = json::parse(outcome.out);
@@ -77,25 +78,26 @@ TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
 TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
     const std::vector<std::string> command = {"converge", "-",      "--starts", "2",
                                               "--levels", "time/2", "--output", record};
-    const Outcome first = run_simulator(command, swim.dump());
+    const Outcome first = run_simulator(command, one_swim.dump());
     ASSERT_EQ(first.exit_code, 0) << first.err;
     const std::string all = recorded();
     ASSERT_EQ(lines(all), 4);
     // Interrupted while the third line was written: it and the fourth are done again.
     const std::size_t second_end = all.find('\n', all.find('\n') + 1) + 1;
     std::ofstream(record, std::ios::trunc) << all.substr(0, second_end + 30);
-    const Outcome second = run_simulator(command, swim.dump());
+    const Outcome second = run_simulator(command, one_swim.dump());
     EXPECT_EQ(second.exit_code, 0) << second.err;
     EXPECT_EQ(second.out, first.out);
     EXPECT_NE(second.err.find("base: 2 runs are recorded"), std::string::npos) << second.err;
     EXPECT_EQ(second.err.find("base: run"), std::string::npos) << second.err;
     EXPECT_EQ(recorded(), all);
     // More starts use what is there; another gait does not.
-    json other = swim;
+    json other = one_swim;
     other["gait"]["frequency"] = 1.2;
-    EXPECT_EQ(run_simulator({"converge", "-", "--starts", "3", "--levels", "time/2", "--output", record}, swim.dump())
-                  .exit_code,
-              0);
+    EXPECT_EQ(
+        run_simulator({"converge", "-", "--starts", "3", "--levels", "time/2", "--output", record}, one_swim.dump())
+            .exit_code,
+        0);
     EXPECT_EQ(lines(recorded()), 6);
     EXPECT_EQ(run_simulator(command, other.dump()).exit_code, 0);
     EXPECT_EQ(lines(recorded()), 10);
@@ -103,7 +105,7 @@ TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
 
 TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
     ASSERT_EQ(
-        run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, swim.dump())
+        run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, one_swim.dump())
             .exit_code,
         0);
     std::istringstream text(recorded());
@@ -116,7 +118,7 @@ TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
 
 TEST_F(ConvergeTest, PlainWritesTheTable) {
     const Outcome outcome =
-        run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, swim.dump());
+        run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, one_swim.dump());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("level ", 0), 0u) << outcome.out;
     EXPECT_EQ(lines(outcome.out), 4);
@@ -126,7 +128,7 @@ TEST_F(ConvergeTest, PlainWritesTheTable) {
 
 /// A body at rest: its speed is nothing but scatter, of which no share can be told.
 TEST_F(ConvergeTest, AChangeOfASpeedThatMayBeNoneIsNoShareOfIt) {
-    json resting = swim;
+    json resting = one_swim;
     resting["scene"] = "thesis/creature-1";
     resting["duration"] = 0.02;
     resting["gait"]["amplitude"] = {0, 0};
@@ -142,7 +144,7 @@ TEST_F(ConvergeTest, AChangeOfASpeedThatMayBeNoneIsNoShareOfIt) {
 }
 
 TEST_F(ConvergeTest, APerturbationNeedsNoSeed) {
-    json perturbed = swim;
+    json perturbed = one_swim;
     perturbed["perturbation"] = {{"amplitude", 2e-4}};
     const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2"}, perturbed.dump());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -157,34 +159,34 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
         EXPECT_EQ(outcome.out, "");
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
-    refused({"converge", "-", "--levels", "time/3"}, swim.dump(), "time/3");
-    refused({"converge", "-", "--levels", "time/2,time/2"}, swim.dump(),
+    refused({"converge", "-", "--levels", "time/3"}, one_swim.dump(), "time/3");
+    refused({"converge", "-", "--levels", "time/2,time/2"}, one_swim.dump(),
             "--levels: time/2 is given twice; must be given once");
-    refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, swim.dump(),
+    refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, one_swim.dump(),
             "--levels: time/2 is given twice");
     const std::vector<double> eight(8, 0.1);
     const json beside_pillars = {
         {"id", 1}, {"scene", "company/pillars"}, {"gait", {{"frequency", 1}, {"amplitude", eight}, {"phase", eight}}}};
     refused({"converge", "-"}, beside_pillars.dump(), "half the spacing is not known of companions and obstacles");
-    refused({"converge", "-", "--starts", "1"}, swim.dump(), "--starts");
+    refused({"converge", "-", "--starts", "1"}, one_swim.dump(), "--starts");
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
     refused({"converge", "-"}, "[]", "request");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/tank"})", "creature");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/creature-1","start":3})", "start: must not be given");
-    json beyond = swim;
+    json beyond = one_swim;
     beyond["overrides"] = {{"creature", {{"refinement", 5}}}};
     refused({"converge", "-"}, beyond.dump(), "refinement = 10");
     beyond["overrides"] = {{"solver", {{"substeps", 600}}}};
     refused({"converge", "-"}, beyond.dump(), "substeps = 1200");
     std::ofstream(record) << "not a run\n";
-    refused({"converge", "-", "--output", record}, swim.dump(), "line 1");
+    refused({"converge", "-", "--output", record}, one_swim.dump(), "line 1");
     EXPECT_EQ(recorded(), "not a run\n");
 }
 
 TEST_F(ConvergeTest, ARecordedLineThatIsNoRunIsRefused) {
     const std::vector<std::string> command = {"converge", "-",      "--starts", "2",
                                               "--levels", "time/2", "--output", record};
-    ASSERT_EQ(run_simulator(command, swim.dump()).exit_code, 0);
+    ASSERT_EQ(run_simulator(command, one_swim.dump()).exit_code, 0);
     const std::string all = recorded(), second = all.substr(all.find('\n') + 1);
     json first = json::parse(all.substr(0, all.find('\n')));
     const std::vector<std::pair<json::json_pointer, json>> faults{{"/result"_json_pointer, "x"},
@@ -198,7 +200,7 @@ TEST_F(ConvergeTest, ARecordedLineThatIsNoRunIsRefused) {
         json line = first;
         line[where] = value;
         std::ofstream(record, std::ios::trunc) << first.dump() << "\n" << line.dump() << "\n" << second;
-        const Outcome outcome = run_simulator(command, swim.dump());
+        const Outcome outcome = run_simulator(command, one_swim.dump());
         EXPECT_EQ(outcome.exit_code, 2) << where << outcome.err;
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
         EXPECT_NE(outcome.err.find("line 2 is no run of natator-sim converge"), std::string::npos)
@@ -212,25 +214,25 @@ TEST_F(ConvergeTest, AFileThatAnotherHasIsRefused) {
                                               "--levels", "time/2", "--output", record};
     const int other = ::open(record.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
-    const Outcome refused = run_simulator(command, swim.dump());
+    const Outcome refused = run_simulator(command, one_swim.dump());
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_EQ(lines(refused.err), 1) << refused.err;
     EXPECT_NE(refused.err.find(record + "\": is in use by another natator-sim converge"), std::string::npos)
         << refused.err;
     EXPECT_EQ(recorded(), "");
     ::close(other);
-    EXPECT_EQ(run_simulator(command, swim.dump()).exit_code, 0);
+    EXPECT_EQ(run_simulator(command, one_swim.dump()).exit_code, 0);
     EXPECT_EQ(lines(recorded()), 4);
 }
 
 TEST_F(ConvergeTest, AFileThatCannotBeMadeIsAFailureBeforeAnyRun) {
-    const Outcome outcome = run_simulator({"converge", "-", "--output", "/no-such-folder/runs.jsonl"}, swim.dump());
+    const Outcome outcome = run_simulator({"converge", "-", "--output", "/no-such-folder/runs.jsonl"}, one_swim.dump());
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
 }
 
 TEST_F(ConvergeTest, UnstableRunsAreLeftOutAndToldByTheExitCode) {
-    json wild = swim;
+    json wild = one_swim;
     wild["scene"] = "thesis/creature-1";
     wild["overrides"] = {{"solver", {{"relaxationMode", "global"}}}};
     const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2"}, wild.dump());
