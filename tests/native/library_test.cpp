@@ -210,7 +210,10 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
         {[](Model& model) { model.periodic = {{.axis = 7, .low = -1, .high = 1}}; },
          "model: periodic[0].axis = 7: must be one of 3"},
         {[](Model& model) { model.body.slices = {{0}, {2}}; }, "model: body.slices[1][0] = 2: must be one of 2"},
-        {[](Model& model) { model.companions.emplace_back().body.particles = {2}; },
+        {[](Model& model) {
+             model.companions.emplace_back().first_actuator = 1;
+             model.companions.back().body.particles = {2};
+         },
          "model: companions[0].body.particles[0] = 2: must be"},
         {[](Model& model) { model.companions.emplace_back().gait.amplitude = {1}; },
          "model: companions[0].gait.phase has length 0"},
@@ -218,6 +221,13 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
              model.companions.emplace_back().gait = {.amplitude = {1}, .phase = {0}, .offset = {0, 0}};
          },
          "model: companions[0].gait.offset has length 2"},
+        {[](Model& model) { model.companions.emplace_back(); },
+         "model: companions[0].first_actuator = 0: must be 1, the number of actuators before"},
+        {[](Model& model) {
+             model.companions.emplace_back().first_actuator = 1;
+             model.companions.back().first_spring = 2;
+         },
+         "model: companions[0].first_spring = 2: must be in [0, 1]"},
         {[](Model& model) { model.actuators = 0; }, "model: muscles[0].actuator = 0: must be one of 0"},
         {[](Model& model) { model.parameters.conserving.kernel_support = 1e6; },
          "model: parameters.kernelSupport = 1e+06: must be a number in [2, 4] (rest distances of the fluid)"},
