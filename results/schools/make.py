@@ -14,6 +14,7 @@ LENGTH, SPEED = 0.98, 1.0
 WAVE = SPEED / GAIT["frequency"]  # of the swimmer's path, from one beat to the next
 NAMES = {(1, 1): "", (1, 2): ", half the step", (2, 1): ", half the cells and step"}
 ASIDE = 0.6  # of a body length, beyond which a follower has left the wake
+SHOWN = ("0.5", "1", "2", "4", "6", "8", "10")  # of the places behind a tail
 
 
 def rows(kind):
@@ -45,9 +46,7 @@ def streets():
     for (n, steps, diameter, behind), own in groups.items():
         held = [row for row in own if "power" in row and "unstable" not in row]
         name = (f"{diameter} wide, {behind} behind" if diameter else "none") + NAMES[n, steps]
-        lost = str(len(own) - len(held))
         if not held:
-            made.append([name, str(len(own)), lost, "", "", "", "", ""])
             continue
         power, error = mean([row["power"] for row in held])
         base, base_error = free[n, steps]
@@ -55,10 +54,10 @@ def streets():
         spread = ratio * ((error / power) ** 2 + (np.nan_to_num(base_error) / base) ** 2) ** 0.5
         if (diameter, behind, n) == (0.3, 1.5, 1):
             saved[steps] = percent(1 - ratio, spread)
-        made.append([name, str(len(own)), lost, f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}" if error == error else study.fixed(power, 0),
+        made.append([name, str(len(held)), f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}" if error == error else study.fixed(power, 0),
                      percent(ratio - 1, spread) if diameter and error == error else "", study.fixed(statistics.fmean(row["scale"] for row in held), 2),
-                     study.fixed(statistics.fmean(row["sd_x"] for row in held), 2), study.fixed(statistics.fmean(row["sd_z"] for row in held), 2)])
-    return study.table(["cylinder", "swims", "lost", "work/s", "against none", "amplitudes", "s.d. along", "across"], made), saved
+                     study.fixed(statistics.fmean(row["sd_z"] for row in held), 2)])
+    return study.table(["cylinder", "swims", "work/s", "against none", "amplitudes", "s.d. across"], made), saved
 
 
 def pairs():
@@ -75,10 +74,11 @@ def pairs():
             locked.append((turn, (row["n"], row["steps"])))
         speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
         change = np.mean(powers) / (SPEED + speeds.mean()) / solo - 1
-        where = study.with_error(gap.mean(), gap.std(), 2) if gap.mean() > -LENGTH else "left behind"
-        made.append([f"{row['gap']}, {row['phase']}{NAMES[row['n'], row['steps']]}", where, study.fixed(aside, 2), study.fixed(turn, 2) if stayed else "",
+        if aside >= ASIDE:
+            continue
+        made.append([f"{row['gap']}, {row['phase']}{NAMES[row['n'], row['steps']]}", study.with_error(gap.mean(), gap.std(), 2), study.fixed(turn, 2) if stayed else "",
                      study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 2), percent(change, np.std(powers / (SPEED + speeds), ddof=1) / len(speeds) ** 0.5 / solo)])
-    return study.table(["gap at the start, phase", "gap at the end", "aside", "gap/λ + phase", "speed over ground", "its cost of transport"], made), [turn for turn, _ in locked]
+    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), [turn for turn, _ in locked]
 
 
 def sides():
@@ -91,12 +91,6 @@ def sides():
         speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
         made.append([f"{row['width']}, {row['kind']}", study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 3),
                      percent(powers.mean() / (SPEED + speeds.mean()) / solo - 1, powers.std(ddof=1) / len(powers) ** 0.5 / solo)])
-    for row in sorted(rows("pair"), key=lambda row: (row["aside"], row["phase"])):
-        if row["role"] != "beside" or "speeds" not in row:
-            continue
-        speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
-        made.append([f"two, {row['aside']} apart, phase {row['phase']}", study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 3),
-                     percent(powers.mean() / (SPEED + speeds.mean()) / solo - 1, powers.std(ddof=1) / len(powers) ** 0.5 / solo)])
     return study.table(["distance, beat of neighbours", "speed over ground", "cost of transport"], made)
 
 
@@ -104,14 +98,15 @@ def wakes():
     own = [row for row in rows("wake") if "behind" in row]
     if not own:
         return "", None
-    base = {key: statistics.fmean(row["behind"]["1"][key] for row in own) for key in ("curl", "across", "peak")}
+    base = {key: statistics.fmean(row["behind"]["1"][key] for row in own) for key in ("curl", "across")}
     made, left = [], None
     for place in own[0]["behind"]:
         values = {key: statistics.fmean(row["behind"][place][key] for row in own) for key in base}
-        made.append([place, *(study.fixed(values[key], decimals) for key, decimals in (("curl", 2), ("across", 3), ("peak", 1))), study.fixed(values["curl"] / base["curl"], 2)])
+        if place in SHOWN:
+            made.append([place, *(study.fixed(values[key], decimals) for key, decimals in (("curl", 2), ("across", 3))), study.fixed(values["curl"] / base["curl"], 2)])
         if place == "10":
             left = values["curl"] / base["curl"], values["across"]
-    return study.table(["body lengths behind the tail", "vorticity, 1/s", "velocity across", "strongest vortex, 1/s", "vorticity over that at 1"], made), left
+    return study.table(["body lengths behind the tail", "vorticity, 1/s", "velocity across", "vorticity over that at 1"], made), left
 
 
 def frames():

@@ -161,6 +161,11 @@ def why(case, quantity, cells):
     return f"[{reason.replace('-', ' ')}](#{'what-it-cant-do' if reason == 'noise' else reason})"
 
 
+def linked(name, reason):
+    """The name with the link of a reason, where there is one."""
+    return f"[{name}]{reason[reason.index('('):]}" if reason else name
+
+
 def of_cases(rows):
     yield "| case, resolution | figure | exact | target | 2 × 4 | smaller steps | reason |"
     yield "|---|---|---:|---|---:|---|---|"
@@ -185,10 +190,11 @@ def of_cases(rows):
 
 def of_figures(rows):
     """Of each figure what it is at resolution 20, by 2 x 4, and at the finest resolution, by the finest steps there."""
-    yield "| case | figure | exact | target | 20: 2 × 4 | finest | reason |"
-    yield "|---|---|---:|---|---:|---|---|"
+    yield "| case, finest setting | figure | exact | target | 20: 2 × 4 | finest |"
+    yield "|---|---|---:|---|---:|---:|"
     for case, figures, resolutions in CASES:
-        for k, (quantity, name) in enumerate(figures.items()):
+        before = None
+        for quantity, name in figures.items():
             measured, finest = pick(rows, case=case, quantity=quantity, scheme="conserving"), str(max(resolutions))
             coarse = pick(measured, resolution="20", setting="2x4")
             coarse = pick(coarse, backend="cpu") or pick(coarse, backend="cuda")
@@ -199,9 +205,11 @@ def of_figures(rows):
                 speeds = pick(rows, case=case, quantity=quantity.replace("Strouhal", "Reynolds"), scheme="conserving", setting="2x4")
                 name += " at Re " + ", ".join(f"{statistics.mean(float(row['value']) for row in pick(speeds, resolution=at)):.0f}"
                                               for at in ("20", finest))
-            cells = [cell(coarse), f"{cell(fine)} ({finest}; {in_words(steps)})"]
-            yield (f"| {case.replace('-', ' ') if k == 0 else ''} | {name} | " + " | ".join(", ".join(dict.fromkeys(both)) for both in labels)
-                   + " | " + " | ".join(cells) + f" | {why(case, quantity, [cell(coarse), cell(fine)])} |")
+            cells = [cell(coarse), cell(fine)]
+            label = f"{case.replace('-', ' ')}, {finest}: {in_words(steps)}"
+            yield (f"| {label if label != before else ''} | {linked(name, why(case, quantity, cells))} | "
+                   + " | ".join(", ".join(dict.fromkeys(both)) for both in labels) + " | " + " | ".join(cells) + " |")
+            before = label
 
 
 def of_answer(rows):
