@@ -278,7 +278,7 @@ def tables(rows):
             "losses": of_losses(rows, ("2x4", "1x8", "1x6", "1x4", *modified)),
             "cases": of_cases(rows),
             "deep": of_depths(rows, [f"{count}x4" for count in substeps], (40, 48, 60, 80, 100)),
-            "modified-deep": of_depths(rows, modified, (20, 28, 40, 60, 80, 100)),
+            "modified-deep": of_depths(rows, modified, (28, 40, 60, 80, 100)),
             "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4")),
             "modified": of_settings(rows, ("2x4", *modified))}
 
