@@ -16,6 +16,7 @@ using nlohmann::json;
 
 constexpr double largest_input = 1000;  // of what is sensed, as in natator.gym
 constexpr double largest_offset = 0.5;  // of a gait, as there
+constexpr double largest_drive = 2;     // of an actuator
 constexpr double largest = 1e6;         // of weights and places
 
 /// Rows of equally many numbers.
@@ -85,7 +86,17 @@ Policy::Policy(const std::string& path) {
 
 void Policy::check(const Model& model) const {
     check_sensing(sensing_, model);
-    if (gait_) check_gait(*gait_, model.actuators);
+    if (gait_) {
+        check_gait(*gait_, model.actuators);
+        for (std::size_t i = 0; i < gait_->amplitude.size(); ++i) {
+            const double driven = gait_->amplitude[i] + (gait_->offset.empty() ? 0 : std::abs(gait_->offset[i]));
+            if (driven > largest_drive - largest_offset)
+                throw InputError("--policy: gait.amplitude[" + std::to_string(i) + "] and the size of its offset are " +
+                                 number_text(driven) + " together; must be at most " +
+                                 number_text(largest_drive - largest_offset) + ", as actions add up to " +
+                                 number_text(largest_offset));
+        }
+    }
     const auto inputs = static_cast<Eigen::Index>(9 + 2 * model.actuators + 3 * sensing_.flow.size() +
                                                   2 * gait_.has_value() + 4 * sensing_.target.has_value());
     const Eigen::Index outputs = model.actuators * (gait_ ? 2 : 1), has = layers_.front().weights.cols(),

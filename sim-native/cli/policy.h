@@ -22,9 +22,9 @@ public:
     /// Throws InputError unless it has inputs and outputs for this body.
     void check(const Model& model) const;
 
-    /// That it steers; none where it drives the actuators by itself.
+    /// The gait that it scales and bends; none where it drives the actuators by itself.
     const std::optional<Gait>& gait() const { return gait_; }
-    /// Where it begins to go to, if it was learned with targets: the middle of their box.
+    /// The place that it goes to at first, if it was learned with targets: the middle of their box.
     const std::optional<Eigen::Vector3d>& target() const { return sensing_.target; }
     /// Begins anew, with muscles at rest.
     void restart();

@@ -98,6 +98,8 @@ int stream_scene(StreamOptions& options) {
         throw InputError("--rate = " + number_text(options.settings.rate) + ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
     options.settings.paused |= options.swims > 1;
+    if (!options.policy.empty() && !options.gait.empty())
+        throw InputError("--gait: must be left out with --policy, which drives in its place");
     if (!options.policy.empty()) options.settings.policy.emplace(options.policy);
     refuse_gpu_options_for_cpu(options.backend);
     precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options)

@@ -148,7 +148,12 @@ void StreamSession<Real>::apply(const stream::Pause&) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Step& step) {
     begin_step(step);
-    while (steer_next_frame()) simulate();
+    try {
+        while (steer_next_frame()) simulate();
+    } catch (...) {
+        under_way_ = {};
+        throw;
+    }
     end_step();
     if (step.sense) answer_["senses"] = senses();
 }
@@ -174,6 +179,20 @@ bool StreamSession<Real>::steer_next_frame() {
     if (step->steer.size() > 1) apply(steered_by(step->steer[frames]));
     drive_by_policy();
     return true;
+}
+
+/// After another body or moment; a policy that does not fit it goes.
+template <class Real>
+void StreamSession<Real>::restart_policy() {
+    if (!policy_) return;
+    try {
+        policy_->check(simulation_.model());
+        if (policy_->gait()) simulation_.set_gait(*policy_->gait());
+        if (!sensing_.front().target) sensing_.front().target = policy_->target();
+        policy_->restart();
+    } catch (const InputError&) {
+        policy_.reset();
+    }
 }
 
 template <class Real>
@@ -291,8 +310,10 @@ void StreamSession<Real>::apply(const stream::Restore& restore) {
     if (!held_ || held_->empty()) throw InputError("restore: there is no state; must come behind a STAT, or a save");
     if (held_->size() > stream::max_message) throw InputError("state: is larger than 1 GiB");
     if (restore.sense) check_sensing(sensing_.front(), simulation_.model());
-    if (simulation_.restore(*held_)) scene_changed(false);
+    const bool changed = simulation_.restore(*held_);
     if (!senses_fit()) forget_senses();
+    restart_policy();
+    if (changed) scene_changed(false);
     pace_.restart();
     due_ = true;
     offer_frame();
@@ -325,14 +346,7 @@ template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
     const bool restarted = simulation_.merge_overrides(overrides.patch.dump());
     if (restarted) forget_senses();
-    if (restarted && policy_) {
-        try {
-            policy_->check(simulation_.model());
-            sensing_.front().target = policy_->target();
-        } catch (const InputError&) {
-            policy_.reset();  // another body
-        }
-    }
+    if (restarted) restart_policy();
     scene_changed(restarted);
 }
 

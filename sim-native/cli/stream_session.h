@@ -31,7 +31,10 @@ public:
     StreamSession(const SimulationSetup& setup, const Execution& execution, const StreamSettings& settings);
 
     /// Goes to a saved moment, before it begins. Throws InputError.
-    void restore(const std::string& saved) { simulation_.restore(saved); }
+    void restore(const std::string& saved) {
+        simulation_.restore(saved);
+        restart_policy();
+    }
     /// Says what scene it is.
     void begin() { scene_changed(true); }
     /// A command, and its answer.
@@ -87,6 +90,7 @@ private:
     void check(const stream::Step& step) const;
     void begin_step(const stream::Step& step);
     bool steer_next_frame();
+    void restart_policy();
     void drive_by_policy();
     bool end_frame(bool stable, double wall_seconds);
     void end_step();

@@ -209,6 +209,8 @@ TEST(Regions, AreSampledFarFromEachOther) {
     EXPECT_EQ(count(4), 4u);
     EXPECT_EQ(count(8), 8u);
     EXPECT_EQ(load_scene("pool/torus").creature->actuators(), 4);
+    expect_refused("pool/jellyfish", {{"creature", {{"mesh", {{"points", 2}}}}}},
+                   "creature.mesh.points: ", {"one point in the middle", "must be 3 or more"});
 }
 
 /// Two actuators: around the rim, and from the top to it.

@@ -64,6 +64,7 @@ SCENES = {
         "base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "joints": [0.3, 0.5]}}},
     "a mesh around points": {
         "base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "points": [[-5, 0, 0], [-20, 0, 0]]}, "bend": "contract"}},
+    "a mesh around sampled points": {"base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "points": 4}}},
     "nothing": {"base": "pool/eel", "fluid": None, "creature": None, "movingTank": None, "periodic": None},
 }
 

@@ -79,12 +79,40 @@ class PolicyTest(unittest.TestCase):
         np.testing.assert_array_equal(drives, stepped.drive)
         self.assertGreater(np.ptp(stepped.drive), 0.05)
 
+    def test_it_begins_anew_at_a_saved_moment(self):
+        with SwimmerEnv(**SCENE, **KINDS[1]) as env:
+            self.save(SCENE | KINDS[1], env.observation_space.shape[0], 4)
+        with natator.Stream(SCENE["scene"], overrides=SCENE["overrides"]) as stream:
+            stream.set_gait(GAIT | {"frequency": 1})
+            stream.step(6)
+            state = stream.save()
+            alone = stream.step(6).drive.tolist()
+        with natator.Stream(SCENE["scene"], overrides=SCENE["overrides"], arguments=["--policy", str(self.file)]) as stream:
+            stream.step(2)  # in the middle of an action
+            swims = []
+            for _ in range(2):
+                stream.restore(state)
+                swims.append([stream.step(2).drive.tolist() for _ in range(3)])
+            self.assertEqual(stream.scene["gait"]["frequency"], GAIT["frequency"])
+        self.assertEqual(*swims)
+        self.assertNotEqual(swims[0][-1], alone)
+
+    def test_a_gait_beside_it_is_refused(self):
+        with SwimmerEnv(**SCENE, **KINDS[0]) as env:
+            self.save(SCENE | KINDS[0], env.observation_space.shape[0], 2)
+        with self.assertRaisesRegex(natator.InputError, "gait: must be left out with a policy"):
+            natator.swim(SCENE["scene"], gait=GAIT, policy=self.file)
+        with self.assertRaisesRegex(natator.InputError, "--gait: must be left out with --policy"):
+            natator.Stream(SCENE["scene"], gait=GAIT, arguments=["--policy", str(self.file)])
+
     def test_what_is_no_policy_is_refused_in_a_line(self):
         good = {"environment": SCENE | KINDS[0], "layers": [{"weights": [[0, 0]] * 19, "bias": [0, 0]}]}
         for change, why in (({"layers": []}, "layers: must be one layer at least"),
                             ({"layers": [{"weights": [[0, 0]] * 19, "bias": [0]}]}, "layers[0].bias: must have a number for each column of weights"),
                             ({"layers": [{"weights": [[0, 0]] * 18, "bias": [0, 0]}]},
                              "--policy: has 18 inputs and 2 outputs; must have 19 and 2 for this body"),
+                            ({"environment": SCENE | KINDS[1] | {"target": None, "gait": GAIT | {"amplitude": [0.6, 1.6]}}},
+                             "--policy: gait.amplitude[1] and the size of its offset are 1.6 together; must be at most 1.5"),
                             ({"environment": good["environment"] | {"flow": 3}}, "environment.flow = 3: must be a list of slices and sides"),
                             ({"environment": good["environment"] | {"actions": "swim"}}, "environment.actions = \"swim\": must be \"drive\" or \"gait\"")):
             with self.subTest(why):

@@ -127,6 +127,7 @@ private:
     std::unique_ptr<Run> make_run(const SimulationSetup& setup) const;
     void follow(MovingFrame& follower);
     void check_swimmer(int swimmer) const;
+    void watch_company();
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
     bool end_step(std::optional<Instability> found);

@@ -182,9 +182,9 @@ class BatchStream(Stream):
         if drive is not None:
             kind, values = DRIVE, np.atleast_2d(rows("drive", drive))
         elif scale is not None or offset is not None:
-            width = np.shape(offset if scale is None else scale)[-1:]
-            given = [np.atleast_2d(np.full(width, rest) if one is None else rows(name, one))
-                     for name, one, rest in (("scale", scale, 1.0), ("offset", offset, 0.0))]
+            given = [None if one is None else np.atleast_2d(rows(name, one)) for name, one in (("scale", scale), ("offset", offset))]
+            width = given[scale is None].shape[-1]
+            given = [np.full((1, width), rest) if one is None else one for one, rest in zip(given, (1.0, 0.0))]
             length = max(len(one) for one in given)
             if any(len(one) not in (1, length) for one in given):
                 raise InputError(f"scale has {len(given[0])} rows, offset {len(given[1])}: must have as many, or one for all frames")

@@ -235,12 +235,17 @@ def _spacing(swim):
 
 def _smooth(water):
     """The same water with each velocity a mean over its neighbours, by 1, 2, 1 along each axis."""
-    velocity = water.velocity.astype(float)
+    wet = (water.density >= 0.5)[..., None].astype(float)
+    velocity = wet * water.velocity
     for axis in range(3):
-        padded = np.concatenate([velocity.take([0], axis), velocity, velocity.take([-1], axis)], axis)
-        inner = [padded.take(range(first, first + velocity.shape[axis]), axis) for first in range(3)]
-        velocity = (inner[0] + 2 * inner[1] + inner[2]) / 4
-    return dataclasses.replace(water, velocity=velocity)
+        velocity, wet = _three_means(velocity, axis), _three_means(wet, axis)
+    return dataclasses.replace(water, velocity=np.divide(velocity, wet, out=np.zeros_like(velocity), where=wet > 0))
+
+
+def _three_means(values, axis):
+    padded = np.concatenate([values.take([0], axis), values, values.take([-1], axis)], axis)
+    inner = [padded.take(range(first, first + values.shape[axis]), axis) for first in range(3)]
+    return (inner[0] + 2 * inner[1] + inner[2]) / 4
 
 
 def _without_bodies(water, q, swim, frame):
@@ -302,6 +307,8 @@ def _draw(pyvista, plotter, swim, frame, tank, axes, water, pressed):
 
         found = _pressed(pressed, swim, frame)
         known = ~np.isnan(found)
+        if not known.any():
+            raise InputError("pressure: the scene has no body in its water to read it at")
         most = float(np.quantile(np.abs(found[known]), 0.9)) or 1.0
         colours[known] = 255 * matplotlib.colormaps["coolwarm"](0.5 + 0.5 * found[known] / most)[:, :3]
         legend.append(f"Body: pressure, less the mean at its height, ±{most:.2g} mass/(length s^2).")

@@ -30,7 +30,7 @@ class Policy:
         for weights, bias in self.layers[:-1]:
             observations = np.tanh(observations @ weights + bias)
         weights, bias = self.layers[-1]
-        return observations @ weights + bias
+        return np.clip(observations @ weights + bias, -1, 1)
 
     def swims(self, starts, seeds, overrides=None, backend="auto", act=None):
         """Episodes from these starts, to targets drawn by these seeds, without noise. overrides: more of them, on the scene's. act:

@@ -34,6 +34,8 @@ def swim(creature_or_scene, duration=2.0, gait=None, policy=None, **options):
     """
     scene = scene_of(creature_or_scene)
     if policy is not None:
+        if gait is not None:
+            raise InputError("gait: must be left out with a policy, which drives in its place")
         options["arguments"] = [*options.get("arguments", ()), "--policy", os.fspath(policy)]
     with Stream(scene, fields=("position",), **options) as stream:
         if not stream.actuators:

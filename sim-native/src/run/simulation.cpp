@@ -152,6 +152,7 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
         start(std::move(run));
     }
     company_ = std::move(company);
+    watch_company();
     setup_ = std::move(next);
     return !goes_on;
 }
@@ -159,6 +160,7 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
 template <class Real>
 void Simulation<Real>::reset() {
     start(nullptr);
+    watch_company();
 }
 
 template <class Real>
@@ -167,7 +169,14 @@ void Simulation<Real>::reset(int start_number) {
     SimulationSetup next = setup_;
     next.start = start_number;
     start(make_run(next));
+    watch_company();
     setup_ = std::move(next);
+}
+
+/// A companion may have another gait than its scene's, which a new watch over the laws does not know.
+template <class Real>
+void Simulation<Real>::watch_company() {
+    if (company_ != gaits_of_companions(model())) run_->laws.drive_freely();
 }
 
 /// What drives the muscles of all swimmers in the frame that begins now.
@@ -260,9 +269,10 @@ double Simulation<Real>::distance(int swimmer) const {
 template <class Real>
 WaterField Simulation<Real>::water() const {
     if (model().water_box) return run_->solver.lattice_water();
-    const bool known = updated_ && !restored_densities_;
-    WaterField field = water_field(model(), state_, known ? run_->solver.pressures() : std::vector<Real>{});
-    if (!known && model().scheme == Scheme::conserving)
+    std::vector<Real> pressures;
+    if (updated_ && !restored_densities_) pressures = run_->solver.pressures();
+    WaterField field = water_field(model(), state_, pressures);
+    if (pressures.empty() && model().scheme == Scheme::conserving)  // a GPU that is shared does not keep them
         field.pressure.assign(field.density.size(), std::numeric_limits<float>::quiet_NaN());
     return field;
 }
@@ -271,7 +281,7 @@ template <class Real>
 std::vector<Vector3<Real>> Simulation<Real>::forces() const {
     if (!execution_.forces || model().scheme == Scheme::flex) return {};
     std::vector<Vector3<Real>> forces;
-    if (updated_) forces = run_->solver.forces();
+    if (updated_ && !restored_densities_) forces = run_->solver.forces();
     forces.resize(model().particles(), Vector3<Real>::Zero());
     return forces;
 }

@@ -141,6 +141,8 @@ std::vector<Particles> sampled_points(const BodyLattice& body, int count) {
         next = static_cast<int>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
         away = nearest[next];
     }
+    if (static_cast<int>(points.size()) < min_control_points)
+        throw InputError("one point in the middle, and the next ones are a pair; must be 3 or more");
     return points;
 }
 

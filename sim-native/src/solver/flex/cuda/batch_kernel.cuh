@@ -13,7 +13,6 @@ struct Progress {
     int bad_particle = 0;  ///< of an unstable one: device number
     double bad_time = 0;   ///< start of the substep that made it; of a broken law the end of the frame
     physics::Law broken = physics::Law::finite;  ///< by an unstable one
-    double muscle_work = 0;                      ///< see Solver::muscle_work; none in scheme flex
 };
 
 /// The gaits of a batch, row by row; without frequencies the muscles stay as they are.

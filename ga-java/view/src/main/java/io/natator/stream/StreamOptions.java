@@ -66,7 +66,7 @@ public record StreamOptions(String scene, JsonNode overrides, JsonNode gait, Sch
     List<String> arguments() {
         List<String> arguments = new ArrayList<>(List.of("stream", scene));
         add(arguments, "--overrides", overrides);
-        add(arguments, "--gait", gait);
+        add(arguments, "--gait", policy == null ? gait : null);
         add(arguments, "--policy", policy);
         add(arguments, "--scheme", scheme == null ? null : Json.name(scheme));
         add(arguments, "--precision", precision);

@@ -6,6 +6,7 @@ import io.natator.stream.StreamOptions;
 import io.natator.stream.StreamProcess;
 import io.natator.stream.StreamScene;
 import java.nio.file.Path;
+import java.util.stream.Stream;
 
 /**
  * What a simulator was told to do: all that another one must be told that takes its place. Not for several threads at
@@ -41,10 +42,16 @@ final class SessionState {
             case "run" -> paused = false;
             case "pause", "step" -> paused = true;
             case "rate" -> rate = command.content();
-            case "gait", "scene", "drive", "steer" -> options = options.withPolicy(null);
+            case "scene" -> options = options.withPolicy(null);
             default -> {
                 // What changes the scene is told by the simulator, if it accepts it.
             }
+        }
+        JsonNode content = command.content();
+        boolean drives = Stream.of("gait", "drive", "scale", "offset").anyMatch(content::has)
+                || command.what().equals("steer");
+        if (drives && content.path("swimmer").asInt(0) == 0) {
+            options = options.withPolicy(null);
         }
     }
 

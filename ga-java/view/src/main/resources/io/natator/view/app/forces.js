@@ -79,7 +79,10 @@ function partsOf(scene) {
   const {of} = solidKinds(scene);
   for (const particle of solids(scene)) {
     const part = clusters.get(particle) ?? -1 - of[particle];
-    parts.set(part, [...parts.get(part) ?? [], particle]);
+    if (!parts.has(part)) {
+      parts.set(part, []);
+    }
+    parts.get(part).push(particle);
   }
   return [...parts.values()];
 }

@@ -1,5 +1,6 @@
 /** What water on a grid shows of a wake: a plane through it, or vortices; for all ways of drawing. */
 
+import {NO_ARROWS} from './arrows.js';
 import {RoundEnd} from './scaling.js';
 import {bodiesReach, bodySpacing, solids} from './scene.js';
 import {largeParts, normalsOf, surfaceNet} from './surface-net.js';
@@ -164,7 +165,7 @@ export class Wake {
     }
     this.slice = {values, columns: cells[sides[0]], rows: cells[sides[1]], cell, low, axis, sides, height,
       from: ends.map(([from]) => from), to: ends.map(([, to]) => to)};
-    this.slice.arrows = this.#kind === 'velocity' ? this.#arrows() : {from: new Float32Array(0), to: new Float32Array(0)};
+    this.slice.arrows = this.#kind === 'velocity' ? this.#arrows() : NO_ARROWS;
   }
 
   /** Along the plane, from the middles of some cells on. */
