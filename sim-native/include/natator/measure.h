@@ -98,7 +98,7 @@ Momentum measure_momentum(const Model& model, const State<Real>& state);
 /// length, f = the gait's frequency, A = peak-to-peak amplitude of the tail, nu = kinematic_viscosity.
 struct SwimmingNumbers {
     double tail_amplitude = 0;              ///< A, length: mean over the last beats, three at most
-    std::optional<double> strouhal;         ///< f A / U; none at rest
+    std::optional<double> strouhal;         ///< f A / U, with the U of the same beats; none at rest
     std::optional<double> reynolds;         ///< U L / nu; none where nu is 0
     std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola and others 2014); none where nu is 0
     double across = 0;                      ///< water_across of the body
@@ -134,10 +134,10 @@ template <class Real>
 std::optional<double> cavities(const Model& model, const State<Real>& state, const std::vector<Real>& densities);
 
 /// Dimensionless numbers of a run that got `distance` (length) in `simulated` (s), with its tail at `tail` (tail_z for
-/// each frame, length, the start first). None unless a body with muscles swims in water of scheme `conserving` or
-/// `lattice`, or if the tail did not beat once; see peak_to_peak.
+/// each frame, length, the start first) and its body at `path` (mean_x through the water, likewise). None unless a body
+/// with muscles swims in water of scheme `conserving` or `lattice`, or if the tail did not beat once; see peak_to_peak.
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
-                                                const std::vector<double>& tail);
+                                                const std::vector<double>& tail, const std::vector<double>& path);
 
 /// The water's particles on a grid with cells as wide as they are apart at rest, over the box that holds them. The
 /// velocity is Shepard's mean of those within two cells (Shepard 1968), weighted by Wendland's kernel C2; the density

@@ -67,8 +67,11 @@ Evaluation EvaluationRun::finish(const State<Real>& begin, const State<Real>& en
         result_.stopped = StopReason::unstable;
         return result_;
     }
+    std::vector<double> path = record_.path();
+    for (std::size_t k = 0; k < path.size(); ++k)
+        path[k] = scene_.through_water(path[k], static_cast<double>(k) * scene_.time_step);
     result_.swimming = swimming_numbers(model_, gait_, scene_.through_water(result_.distance, result_.simulated),
-                                        result_.simulated, record_.tail());
+                                        result_.simulated, record_.tail(), path);
     if (result_.swimming) result_.swimming->cavities = cavities(model_, end, densities);
     if (has_muscle_work(model_)) result_.work = work_;
     if (!model_.body.particles.empty()) result_.course = course_of(model_, model_.body, end, result_.distance);

@@ -32,6 +32,13 @@ double range_between(const std::vector<double>& path, double begin, double end) 
     return high - low;
 }
 
+/// How many of the last periods, `steps` long each, are looked at on a path.
+int last_periods(const std::vector<double>& path, double steps) {
+    constexpr double rounding = 1e-9;
+    const double all = static_cast<double>(path.size()) - 1;
+    return std::min(max_periods, static_cast<int>(std::min(all / steps + rounding, 1e6)));
+}
+
 }  // namespace
 
 double water_across(const Model& model) {
@@ -69,8 +76,7 @@ double tail_z(const Body& body, const State<Real>& state) {
 
 std::optional<double> peak_to_peak(const std::vector<double>& path, double time_step, double period) {
     const double steps = period / time_step, all = static_cast<double>(path.size()) - 1;
-    constexpr double rounding = 1e-9;
-    const int periods = std::min(max_periods, static_cast<int>(std::min(all / steps + rounding, 1e6)));
+    const int periods = last_periods(path, steps);
     if (periods < 1 || steps < min_steps) return std::nullopt;
     double sum = 0;
     for (int k = 0; k < periods; ++k) sum += range_between(path, std::max(all - (k + 1) * steps, 0.0), all - k * steps);
@@ -78,7 +84,7 @@ std::optional<double> peak_to_peak(const std::vector<double>& path, double time_
 }
 
 std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
-                                                const std::vector<double>& tail) {
+                                                const std::vector<double>& tail, const std::vector<double>& path) {
     if (model.actuators == 0 || !(make_plan(model).water || model.water_box)) return std::nullopt;
     const std::optional<double> amplitude = peak_to_peak(tail, model.time_step, 1 / gait.frequency);
     if (!amplitude) return std::nullopt;
@@ -87,7 +93,10 @@ std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& 
     numbers.across = water_across(model);
     const double speed = std::abs(distance) / simulated, length = model.body.length;
     const double viscosity = model.parameters.conserving.kinematic_viscosity;
-    if (speed > 0) numbers.strouhal = gait.frequency * *amplitude / speed;
+    const double steps = 1 / gait.frequency / model.time_step, beats = last_periods(path, steps) * steps;
+    const double end = static_cast<double>(path.size()) - 1;
+    const double last = std::abs(path.back() - value_at(path, end - beats)) / (beats * model.time_step);
+    if (last > 0) numbers.strouhal = gait.frequency * *amplitude / last;
     if (viscosity > 0) {
         numbers.reynolds = speed * length / viscosity;
         numbers.swimming_number = 2 * std::numbers::pi * gait.frequency * *amplitude * length / viscosity;

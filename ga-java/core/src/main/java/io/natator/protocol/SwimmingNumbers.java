@@ -7,7 +7,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
  * Dimensionless numbers of a swim in water with a viscosity, as {@code swimming} of a result has them.
  *
  * @param tailAmplitude  peak to peak, in scene units
- * @param strouhal       frequency times tail amplitude by speed; null at rest
+ * @param strouhal       frequency times tail amplitude by the speed of the same beats; null at rest
  * @param reynolds       speed times body length by kinematic viscosity; null where that is 0
  * @param swimmingNumber angular frequency times tail amplitude times body length by kinematic viscosity; null likewise
  * @param cavities       water that does not follow the body, in volumes of the body; null without gravity
