@@ -6,6 +6,7 @@
 
 #include "base/field.h"
 #include "base/strict_json.h"
+#include "base/text.h"
 #include "natator/error.h"
 #include "scene/gait_json.h"
 
