@@ -8,6 +8,7 @@
 #include "base/strict_json.h"
 #include "base/text.h"
 #include "natator/error.h"
+#include "protocol/stream.h"
 #include "scene/gait_json.h"
 
 namespace natator::cli {
@@ -35,12 +36,6 @@ Eigen::MatrixXd read_matrix(const json& value, const fields::Place& place) {
     return matrix;
 }
 
-SkinPlace::Side read_side(const json& value, const fields::Place& place) {
-    using enum SkinPlace::Side;
-    return fields::read_choice<SkinPlace::Side>(value, place,
-                                                {{"left", left}, {"right", right}, {"above", above}, {"below", below}});
-}
-
 }  // namespace
 
 Policy::Policy(const std::string& path) {
@@ -59,7 +54,7 @@ Policy::Policy(const std::string& path) {
         if (!flow[i].is_array() || flow[i].size() != 2) fields::refuse(at, flow[i], "a slice and a side");
         sensing_.flow.emplace_back();
         fields::read(flow[i][0], at.item(0), {0, largest}, sensing_.flow.back().slice);
-        sensing_.flow.back().side = read_side(flow[i][1], at.item(1));
+        sensing_.flow.back().side = read_skin_side(flow[i][1], at.item(1));
     }
     if (fields::has(environment, "target")) {
         const Eigen::MatrixXd box = read_matrix(environment["target"], place.key("target"));

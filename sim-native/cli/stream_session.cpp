@@ -43,10 +43,7 @@ StreamSession<Real>::StreamSession(const SimulationSetup& setup, const Execution
       running_(!settings.paused),
       policy_(settings.policy) {
     forget_senses();
-    if (!policy_) return;
-    policy_->check(simulation_.model());
-    sensing_.front().target = policy_->target();
-    if (policy_->gait()) simulation_.set_gait(*policy_->gait());
+    if (policy_) begin_policy();
 }
 
 template <class Real>
@@ -162,23 +159,32 @@ template <class Real>
 void StreamSession<Real>::begin_step(const stream::Step& step) {
     refuse_if_unstable();
     refuse_if(at_end());
-    check(step);
+    std::vector<std::vector<Steered>> rows = checked(step);
     offer_frame();
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
     if (due_) drop_frame();
     running_ = false;
-    if (step.steer.size() == 1) apply(steered_by(step.steer.front()));
-    under_way_ = {.step = &step};
+    if (rows.size() == 1) apply(rows.front());
+    under_way_ = {.step = &step, .rows = std::move(rows)};
 }
 
 /// False when there is no frame left.
 template <class Real>
 bool StreamSession<Real>::steer_next_frame() {
-    const auto& [step, frames, stable] = under_way_;
+    const auto& [step, frames, stable, rows] = under_way_;
     if (!step || !stable || frames == static_cast<std::size_t>(step->frames) || at_end()) return false;
-    if (step->steer.size() > 1) apply(steered_by(step->steer[frames]));
+    if (rows.size() > 1) apply(rows[frames]);
     drive_by_policy();
     return true;
+}
+
+/// Throws InputError where it does not fit the body.
+template <class Real>
+void StreamSession<Real>::begin_policy() {
+    policy_->check(simulation_.model());
+    if (policy_->gait()) simulation_.set_gait(*policy_->gait());
+    if (!sensing_.front().target) sensing_.front().target = policy_->target();
+    policy_->restart();
 }
 
 /// After another body or moment; a policy that does not fit it goes.
@@ -186,10 +192,7 @@ template <class Real>
 void StreamSession<Real>::restart_policy() {
     if (!policy_) return;
     try {
-        policy_->check(simulation_.model());
-        if (policy_->gait()) simulation_.set_gait(*policy_->gait());
-        if (!sensing_.front().target) sensing_.front().target = policy_->target();
-        policy_->restart();
+        begin_policy();
     } catch (const InputError&) {
         policy_.reset();
     }
@@ -208,60 +211,68 @@ void StreamSession<Real>::end_step() {
     if (stable) end_if_reached();
 }
 
-/// Nothing is simulated with commands of which one can't be used.
+/// What a step asks of swimmers, by row: nothing is simulated with commands of which one can't be used.
 template <class Real>
-void StreamSession<Real>::check(const stream::Step& step) const {
+auto StreamSession<Real>::checked(const stream::Step& step) const -> std::vector<std::vector<Steered>> {
+    std::vector<std::vector<Steered>> rows;
     for (std::size_t i = 0; i < step.steer.size(); ++i)
-        steered_by(step.steer[i], step.steer.size() > 1 ? "[" + std::to_string(i) + "]" : "");
+        rows.push_back(steered_by(step.steer[i], step.steer.size() > 1 ? "[" + std::to_string(i) + "]" : ""));
     if (step.sense) check_sensing(sensing_.front(), simulation_.model());
+    return rows;
 }
 
-/// All of it can be done.
+/// A command as those for each swimmer that its values are for: one, or all, one after the other.
+template <class Real>
+std::vector<stream::Steer> StreamSession<Real>::by_swimmer(const stream::Steer& steer, const std::string& row) const {
+    const Model& model = simulation_.model();
+    if (steer.swimmer || model.swimmers() == 1) return {steer};
+    using Values = std::optional<std::vector<double>>;
+    constexpr std::pair<const char*, Values stream::Steer::*> lists[] = {
+        {"drive", &stream::Steer::drive}, {"scale", &stream::Steer::scale}, {"offset", &stream::Steer::offset}};
+    const int own = model.actuators, all = model.first_actuator_of(model.swimmers());
+    const bool for_all = all != own && std::any_of(std::begin(lists), std::end(lists), [&](const auto& one) {
+                             const Values& values = steer.*one.second;
+                             return values && values->size() == static_cast<std::size_t>(all);
+                         });
+    for (const auto& [name, list] : lists) {
+        const Values& values = steer.*list;
+        if (!values) continue;
+        if (for_all)
+            check_length(name, values->size(), all);
+        else if (values->size() != static_cast<std::size_t>(own))
+            throw InputError(name + row + " has length " + std::to_string(values->size()) + ": must have length " +
+                             std::to_string(own) + ", one value per actuator of the creature, or " +
+                             std::to_string(all) + ", of all swimmers");
+    }
+    if (!for_all) return {steer};
+    std::vector<stream::Steer> parts(static_cast<std::size_t>(model.swimmers()));
+    for (int k = 0; k < model.swimmers(); ++k) {
+        parts[k].swimmer = k;
+        for (const auto& [name, list] : lists)
+            if (const Values& values = steer.*list) parts[k].*list = part_of(*values, model, k);
+    }
+    return parts;
+}
+
+/// What a command asks of swimmers. Throws InputError where one can't do it.
 template <class Real>
 auto StreamSession<Real>::steered_by(const stream::Steer& steer, const std::string& row) const -> std::vector<Steered> {
-    const Model& model = simulation_.model();
-    const auto all_actuators = static_cast<std::size_t>(model.first_actuator_of(model.swimmers()));
-    bool all = false;
-    if (!steer.swimmer && model.swimmers() > 1)
-        for (const auto* list : {&steer.drive, &steer.scale, &steer.offset})
-            all |=
-                *list && (*list)->size() == all_actuators && all_actuators != static_cast<std::size_t>(model.actuators);
     std::vector<Steered> steered;
-    const auto add = [&](int swimmer, const std::vector<double>* drive, const std::vector<double>* scale,
-                         const std::vector<double>* offset) {
+    for (const stream::Steer& part : by_swimmer(steer, row)) {
+        const int swimmer = part.swimmer.value_or(0);
         const Gait& gait = simulation_.gait(swimmer);
-        const int actuators = model.actuators_of(swimmer);
-        Steering steering = no_steering(actuators);
-        if (drive) check_drive(*drive, actuators, ("drive" + row).c_str()), steering = steering_of_drive(*drive);
-        if (scale) steering.scale = *scale;
-        if (offset) steering.offset = *offset;
-        check_steering(steering, gait, actuators);
-        steered.push_back({swimmer, std::move(steering)});
-    };
-    const auto given = [](const std::optional<std::vector<double>>& list) { return list ? &*list : nullptr; };
-    if (!all) {
-        const int swimmer = steer.swimmer.value_or(0);
-        if (!steer.swimmer && model.swimmers() > 1)
-            for (const auto& [name, list] :
-                 {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
-                if (*list && (*list)->size() != static_cast<std::size_t>(model.actuators))
-                    throw InputError(std::string(name) + row + " has length " + std::to_string((*list)->size()) +
-                                     ": must have length " + std::to_string(model.actuators) +
-                                     ", one value per actuator of the creature, or " + std::to_string(all_actuators) +
-                                     ", of all swimmers");
-        simulation_.gait(swimmer);  // it is there
-        for_swimmer(swimmer, steer.swimmer.has_value(),
-                    [&] { add(swimmer, given(steer.drive), given(steer.scale), given(steer.offset)); });
-        return steered;
-    }
-    for (const auto& [name, list] : {std::pair{"scale", &steer.scale}, {"offset", &steer.offset}})
-        if (*list) check_length(name, (*list)->size(), static_cast<int>(all_actuators));
-    for (int k = 0; k < model.swimmers(); ++k) {
-        std::optional<std::vector<double>> drive, scale, offset;
-        if (steer.drive) drive = part_of(*steer.drive, model, k);
-        if (steer.scale) scale = part_of(*steer.scale, model, k);
-        if (steer.offset) offset = part_of(*steer.offset, model, k);
-        for_swimmer(k, true, [&] { add(k, given(drive), given(scale), given(offset)); });
+        const int actuators = simulation_.model().actuators_of(swimmer);
+        for_swimmer(swimmer, part.swimmer.has_value(), [&] {
+            Steering steering = no_steering(actuators);
+            if (part.drive) {
+                check_drive(*part.drive, actuators, ("drive" + row).c_str());
+                steering = steering_of_drive(*part.drive);
+            }
+            if (part.scale) steering.scale = *part.scale;
+            if (part.offset) steering.offset = *part.offset;
+            check_steering(steering, gait, actuators);
+            steered.push_back({swimmer, std::move(steering)});
+        });
     }
     return steered;
 }

@@ -85,11 +85,13 @@ private:
         int swimmer = 0;
         Steering steering;
     };
+    std::vector<stream::Steer> by_swimmer(const stream::Steer& steer, const std::string& row) const;
     std::vector<Steered> steered_by(const stream::Steer& steer, const std::string& row = {}) const;
     void apply(const std::vector<Steered>& all);
-    void check(const stream::Step& step) const;
+    std::vector<std::vector<Steered>> checked(const stream::Step& step) const;
     void begin_step(const stream::Step& step);
     bool steer_next_frame();
+    void begin_policy();
     void restart_policy();
     void drive_by_policy();
     bool end_frame(bool stable, double wall_seconds);
@@ -133,6 +135,7 @@ private:
         const stream::Step* step = nullptr;
         std::size_t frames = 0;  ///< that are done
         bool stable = true;
+        std::vector<std::vector<Steered>> rows;  ///< what is asked of swimmers: nothing, once, or before each frame
     } under_way_;
     stream::Outcome outcome_;  ///< of the action that is under way
 };

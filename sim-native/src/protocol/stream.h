@@ -7,6 +7,7 @@
 #include <string_view>
 #include <variant>
 
+#include "base/field.h"
 #include "natator/measure.h"
 #include "natator/simulation.h"
 
@@ -128,6 +129,8 @@ using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, s
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
 StreamCommand parse_stream_command(const nlohmann::json& value);
+/// "left", "right", "above" or "below". Throws InputError.
+SkinPlace::Side read_skin_side(const nlohmann::json& value, const fields::Place& place);
 
 /// A message with JSON in it, as bytes. `letters` are its four letters.
 std::string stream_message(std::string_view letters, const nlohmann::ordered_json& body);

@@ -100,13 +100,10 @@ stream::Step read_step(const json& value) {
 }
 
 SkinPlace read_skin_place(const json& value, const Place& at) {
-    using Side = SkinPlace::Side;
     fields::check_keys(value, at, {"slice", "side"});
     SkinPlace skin;
     fields::read(fields::required(value, at, "slice"), at.key("slice"), {0, 1e9}, skin.slice);
-    skin.side = fields::read_choice<Side>(
-        fields::required(value, at, "side"), at.key("side"),
-        {{"left", Side::left}, {"right", Side::right}, {"above", Side::above}, {"below", Side::below}});
+    skin.side = read_skin_side(fields::required(value, at, "side"), at.key("side"));
     return skin;
 }
 
@@ -157,6 +154,12 @@ SimulationSetup read_setup(const json& value) {
 
 bool stream::is_rate(double value) {
     return value == 0 || (value >= 1e-3 && value <= 1e3);
+}
+
+SkinPlace::Side read_skin_side(const json& value, const Place& place) {
+    using enum SkinPlace::Side;
+    return fields::read_choice<SkinPlace::Side>(value, place,
+                                                {{"left", left}, {"right", right}, {"above", above}, {"below", below}});
 }
 
 StreamCommand parse_stream_command(const json& value) {

@@ -152,7 +152,7 @@ public:
         if (coupling_) coupling_->shift(by);
     }
     WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
-    const std::vector<double>& muscle_work() const { return muscle_work_; }
+    const std::vector<double>& muscle_works() const { return muscle_work_; }
     void clear_muscle_work() { std::fill(muscle_work_.begin(), muscle_work_.end(), 0); }
 
     std::string save() const {
@@ -344,7 +344,7 @@ double Solver<Real>::muscle_work() const {
 
 template <class Real>
 const std::vector<double>& Solver<Real>::muscle_works() const {
-    return gpu_ ? gpu_->muscle_works() : implementation_->muscle_work();
+    return gpu_ ? gpu_->muscle_works() : implementation_->muscle_works();
 }
 
 template <class Real>
