@@ -5,6 +5,8 @@ its outside and, THICK further in, its inside; a half circle joins them at the r
 """
 from math import cos, pi, sin
 
+from rings import print_faces
+
 HEIGHT, RADIUS, THICK = 18.0, 15.0, 5.4
 AROUND, ALONG, RIM = 32, 10, 5
 
@@ -25,15 +27,7 @@ def main():
         for k in range(AROUND):
             print(f"v {x:.4f} {radius * sin(2 * pi * k / AROUND):.4f} {radius * cos(2 * pi * k / AROUND):.4f}")
     print(f"v {hollow:.4f} 0 0")
-
-    def corner(ring, k):
-        return 2 + ring * AROUND + k % AROUND
-
-    for k in range(AROUND):
-        print(f"f 1 {corner(0, k + 1)} {corner(0, k)}")
-        for ring in range(len(rings) - 1):
-            print(f"f {corner(ring, k)} {corner(ring, k + 1)} {corner(ring + 1, k + 1)} {corner(ring + 1, k)}")
-        print(f"f {corner(len(rings), 0)} {corner(len(rings) - 1, k)} {corner(len(rings) - 1, k + 1)}")
+    print_faces(len(rings), AROUND)
 
 
 main()

@@ -5,6 +5,8 @@ centimetre. The shell is domed above and flatter below.
 """
 from math import cos, exp, hypot, pi, radians, sin, sqrt
 
+from rings import print_faces
+
 LONG, WIDE, HIGH, DEEP = 11.0, 8.5, 6.0, 4.5  # half axes of the shell
 LIMBS = [(0, 7, 16), (62, 13, 17), (145, 9, 17)]  # degrees from the head, length beyond the shell, half width in degrees
 THICK = 3.2  # half of the limbs
@@ -41,15 +43,7 @@ def main():
             away, y = part * edge(angle), height(part, angle, abs(most)) * (most > 0 or -1) if most else 0
             print(f"v {away * cos(angle):.4f} {y:.4f} {away * sin(angle):.4f}")
     print(f"v 0 {-DEEP:.4f} 0")
-
-    def corner(ring, k):
-        return 2 + ring * AROUND + k % AROUND
-
-    for k in range(AROUND):
-        print(f"f 1 {corner(0, k + 1)} {corner(0, k)}")
-        for ring in range(len(rings) - 1):
-            print(f"f {corner(ring, k)} {corner(ring, k + 1)} {corner(ring + 1, k + 1)} {corner(ring + 1, k)}")
-        print(f"f {corner(len(rings), 0)} {corner(len(rings) - 1, k)} {corner(len(rings) - 1, k + 1)}")
+    print_faces(len(rings), AROUND)
 
 
 main()

@@ -14,6 +14,7 @@ from natator.export.water import WaterSurface
 from natator.script import package
 from natator.stream import Stream
 from natator.trajectory import frames
+from natator.water import LEAST_DENSITY
 
 VIEWS = {"side": (0, 0), "top": (0, 90), "front": (90, 0), "three-quarter": (32, 24)}  #: degrees: from the side to the front; up
 LEAST, MOST, WIDTH = 64, 4096, 1600  # pixels each way
@@ -235,7 +236,7 @@ def _spacing(swim):
 
 def _smooth(water):
     """The same water with each velocity a mean over its neighbours, by 1, 2, 1 along each axis."""
-    wet = (water.density >= 0.5)[..., None].astype(float)
+    wet = (water.density >= LEAST_DENSITY)[..., None].astype(float)
     velocity = wet * water.velocity
     for axis in range(3):
         velocity, wet = _three_means(velocity, axis), _three_means(wet, axis)

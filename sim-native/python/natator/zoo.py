@@ -1,5 +1,6 @@
 """A PettingZoo environment of several swimmers of one water: the scene's creature and its companions."""
 
+import inspect
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -65,7 +66,7 @@ class SwimmersEnv(ParallelEnv):
         for agent in value:
             if agent not in self.possible_agents:
                 raise InputError(f"{name}: {agent!r} is no agent; must be one of {', '.join(self.possible_agents)}")
-        rest = {"actions": "drive", "flow": 3, "reached": 0.25, "work_cost": 0.0}.get(name)
+        rest = inspect.signature(SwimmerEnv).parameters[name].default
         return [value.get(agent, rest) for agent in self.possible_agents]
 
     def _leader_of(self, k, goal):
