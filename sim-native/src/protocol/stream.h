@@ -130,7 +130,7 @@ using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, s
 /// used is for the simulation to see.
 StreamCommand parse_stream_command(const nlohmann::json& value);
 /// "left", "right", "above" or "below". Throws InputError.
-SkinPlace::Side read_skin_side(const nlohmann::json& value, const fields::Place& place);
+SkinPlace::Side read_skin_side(const nlohmann::json& value, const fields::Place& at);
 
 /// A message with JSON in it, as bytes. `letters` are its four letters.
 std::string stream_message(std::string_view letters, const nlohmann::ordered_json& body);

@@ -156,9 +156,9 @@ bool stream::is_rate(double value) {
     return value == 0 || (value >= 1e-3 && value <= 1e3);
 }
 
-SkinPlace::Side read_skin_side(const json& value, const Place& place) {
+SkinPlace::Side read_skin_side(const json& value, const Place& at) {
     using enum SkinPlace::Side;
-    return fields::read_choice<SkinPlace::Side>(value, place,
+    return fields::read_choice<SkinPlace::Side>(value, at,
                                                 {{"left", left}, {"right", right}, {"above", above}, {"below", below}});
 }
 
