@@ -214,7 +214,7 @@ void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vect
 }
 
 /// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to
-/// the water beside them.
+/// the body and the water beside them.
 void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
     for (const BodyCell& held : held_) {
         const long at = held.cell;
@@ -229,7 +229,7 @@ void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& 
     }
 }
 
-/// Gives a covered cell's surplus to the water beside it, or to the body where there is none.
+/// Shares a covered cell's surplus between the body and the water beside it; the body gets all where there is none.
 void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
     const int here[3] = {held.x, held.y, held.z};
     long takers[physics::lattice_populations];
@@ -240,10 +240,11 @@ void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>
         if (takers[i] >= 0 && chosen_[takers[i]] >= 0) takers[i] = -1;
         if (takers[i] >= 0) sum += neighbour_weight(i);
     }
-    if (sum == 0) add(held, surplus[0], surplus[1], surplus[2], pushes);
+    const float to_body = sum == 0 ? 1 : covered_share, to_water = sum == 0 ? 0 : (1 - covered_share) / sum;
+    add(held, to_body * surplus[0], to_body * surplus[1], to_body * surplus[2], pushes);
     for (int i = 0; i < physics::lattice_populations; ++i)
         for (int a = 0; a < 3 && takers[i] >= 0; ++a)
-            now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] / sum);
+            now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] * to_water);
 }
 
 /// Cells that a body has left keep what they have more than it, which it was given.

@@ -58,6 +58,12 @@ NATATOR_HD float neighbour_weight(int i) {
     return shared == 2 ? 4.0f : shared == 1 ? 2.0f : 1.0f;
 }
 
+/// The body's share of what the water of a cell that it comes to cover has more than it; the rest goes to the water
+/// beside. The surface then goes through the cell's centre: half of its water is still outside. With no share less
+/// friction acts where bodies cross cells, with all of it more, and their speed depends on the current
+/// (results/schools).
+constexpr float covered_share = 0.5f;
+
 /// Not fused on a GPU, which so finds the same cells in the same cubes as the CPU.
 NATATOR_HD float scalar_product(const float* a, const float (&b)[3]) {
 #if defined(__CUDA_ARCH__)

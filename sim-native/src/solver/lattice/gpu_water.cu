@@ -48,7 +48,7 @@ struct Lattice {
     }
 };
 
-/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives its surplus to its
+/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives of its surplus to its
 /// neighbours, so much by weight; it takes from such.
 struct Handover {
     enum { none, gives, takes } role;
@@ -123,7 +123,7 @@ __device__ void load_moments(const float* populations, long count, unsigned at, 
     moments_of(f, m);
 }
 
-/// What cells that bodies come to cover have more than those is to go to the water beside them.
+/// Of what cells that bodies come to cover have more than those, the water's part is to go to the cells beside them.
 __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count,
                       const Owners* owners) {
     const int p = cube_of_warp(count);
@@ -147,10 +147,10 @@ __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ popu
         float m[lattice_moments];
         load_moments(populations, lattice.count, at, m);
         const Velocity3 told = velocity_in(cube, place_in(cube, x, y, z).xi);
-        const float density = 1 + m[0] + divergence_of(cube);
+        const float density = 1 + m[0] + divergence_of(cube), part = (1 - covered_share) / sum;
         keys.handover(key) = {
             Handover::gives,
-            {(m[1] - density * told.x) / sum, (m[2] - density * told.y) / sum, (m[3] - density * told.z) / sum}};
+            {(m[1] - density * told.x) * part, (m[2] - density * told.y) * part, (m[3] - density * told.z) * part}};
     });
 }
 
@@ -291,11 +291,13 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
                 for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out, static_cast<float>(c[a]), u[a]);
             }
         }
-        if ((comes && !handed) || leaves) {
+        if (comes || leaves) {
             float m[lattice_moments];
             load_moments(before, lattice.count, at, m);
-            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0), sign = comes ? 1 : -1;
-            for (int a = 0; a < 3; ++a) j[a] += sign * (m[1 + a] - density * u[a]);
+            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0), part = leaves   ? -1
+                                                                                       : handed ? covered_share
+                                                                                                : 1;
+            for (int a = 0; a < 3; ++a) j[a] += part * (m[1 + a] - density * u[a]);
         }
         for (int a = 0; a < 3; ++a) {
             sums[a] += j[a];

@@ -32,9 +32,10 @@ void equilibrium(const Cell& cell, float (&to)[17]);
 /// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's
 /// velocity. What streams in and out between its cells and the others pushes the body, which keeps its own mass and
 /// momentum (by velocities against the body's: Wen, Zhang, Tu, Wang, Fang 2014). What a cell has more than the body
-/// when it comes to lie in it goes to the water beside it; cells that the body leaves go on as water with its velocity:
-/// there are no fresh cells. No cell can give more than it holds, so a body needs no implicit coupling, whatever its
-/// density. (Direct forcing in the whole volume: Fadlun, Verzicco, Orlandi, Mohd-Yusof 2000; Uhlmann 2005.)
+/// when it comes to lie in it goes to the body and to the water beside it, half each; cells that the body leaves go on
+/// as water with its velocity: there are no fresh cells. No cell can give more than it holds, so a body needs no
+/// implicit coupling, whatever its density. (Direct forcing in the whole volume: Fadlun, Verzicco, Orlandi, Mohd-Yusof
+/// 2000; Uhlmann 2005.)
 ///
 /// A body may widen as it bends, which the water in it must not resist: the divergence of its motion is added to the
 /// density of its cells (Gazzola, Chatelain, van Rees, Koumoutsakos 2011, section 2).
