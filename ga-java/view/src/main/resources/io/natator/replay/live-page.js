@@ -18,6 +18,8 @@ import {Theme} from './theme.js';
 import {View} from './view.js';
 
 const SLOW_MS = 200;
+/** So many beats after a change who listens to the page is told the speed. */
+const TOLD_BEATS = 2;
 const USUAL = {stiffness: 1, viscosity: 1};
 const WATERS = ['surface', 'vorticity', 'velocity', 'pressure', 'vortices', 'none'];
 
@@ -42,6 +44,8 @@ class LivePage {
   #look = {...firstLook(), opacity: 0.25, trace: false};
   #theme;
   #lastSlow = 0;
+  /** Simulated time of the last change that nobody was told of; null for none. */
+  #changed = null;
 
   constructor(openSocket) {
     this.#theme = new Theme('auto', () => this.#themeChanged());
@@ -97,6 +101,7 @@ class LivePage {
   }
 
   #send(id) {
+    this.#changed = this.#view.frame?.time ?? 0;
     if (WAVE.includes(id)) {
       return this.#view.setGait(this.#gait);
     }
@@ -121,6 +126,7 @@ class LivePage {
     this.#swimmer = SWIMMERS.find(one => one.title === title);
     this.#settings = {...this.#settings, ...this.#swimmer.wave, stiffness: 1};
     this.#own = null;
+    this.#changed = this.#view.frame?.time ?? 0;
     const overrides = {creature: this.#swimmer.creature, ...this.#patch('viscosity')};
     this.#report(await this.#view.setScene(this.#swimmer.scene, overrides, this.#gait));
     this.#show();
@@ -204,9 +210,23 @@ class LivePage {
       return;
     }
     const speed = history.last('beatSpeed');
-    byId('swim-speed').textContent = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
+    const text = Number.isNaN(speed) ? '–' : speed.toFixed(2).replace('-', '−');
+    byId('swim-speed').textContent = text;
+    this.#tell(text, frame.time);
     byId('swum').textContent = (frame.distance / scene.bodyLength).toFixed(1).replace('-', '−');
     this.#chart.draw([history]);
+  }
+
+  /** Says the speed once for each change, to screen readers: numbers that never rest say nothing. */
+  #tell(speed, time) {
+    if (this.#changed === null) {
+      return;
+    }
+    this.#changed = Math.min(this.#changed, time);  // it may have begun anew
+    if (time - this.#changed > TOLD_BEATS / this.#settings.frequency) {
+      this.#changed = null;
+      byId('told').textContent = `Speed ${speed} body lengths per second`;
+    }
   }
 
   #toggleRun() {

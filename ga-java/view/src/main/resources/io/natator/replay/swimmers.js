@@ -7,13 +7,13 @@ const POOL = {scene: 'endless/small', viscosity: 0.002};
  * begins with: see `waveGait`.
  */
 export const SWIMMERS = [
+  {scene: 'plane/loach', viscosity: 0.0004, title: 'Loach', creature: {name: 'loach'},
+    actuators: 5, wave: {frequency: 2, head: 0.4, tail: 0.2, waves: 0.5}},
   {...POOL, title: 'Eel', creature: {name: 'eel'}, actuators: 8, wave: {frequency: 1.5, head: 0.25, tail: 0.8, waves: 1}},
   {...POOL, title: 'Plank', creature: {name: 'creature-2', particleMass: 0.421875, clusterStiffness: 0.6, springStiffness: 0.4},
     actuators: 8, wave: {frequency: 1.5, head: 0.2, tail: 0.6, waves: 0.6}},
   {...POOL, title: 'Tadpole', creature: {name: 'tadpole'}, actuators: 5, wave: {frequency: 1.5, head: 0.6, tail: 1, waves: 0.6}},
   {...POOL, title: 'Tuna', creature: {name: 'tuna'}, actuators: 4, wave: {frequency: 2.5, head: 0.7, tail: 1.2, waves: 0.6}},
-  {scene: 'plane/loach', viscosity: 0.0004, title: 'Loach', creature: {name: 'loach'},
-    actuators: 5, wave: {frequency: 2, head: 0.4, tail: 0.2, waves: 0.5}},
 ];
 
 /** The settings that make a wave. */

@@ -11,8 +11,10 @@ import com.microsoft.playwright.assertions.PlaywrightAssertions;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
+import java.io.InputStream;
 import java.io.UncheckedIOException;
 import java.net.URI;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -36,6 +38,7 @@ abstract class BrowserTest {
     /** Small, since the processor draws all pixels. */
     static final int WIDTH = 800;
     static final int HEIGHT = 480;
+    private static final String AXE = "/META-INF/resources/webjars/axe-core/4.6.3/axe.min.js";
     private static final Path SCREENSHOTS = Path.of("target", "screenshots");
     /** Much is drawn by one processor that also simulates, and does other work besides: only failures wait so long. */
     private static final double PATIENCE_MILLISECONDS = 600_000;
@@ -127,6 +130,34 @@ abstract class BrowserTest {
                   whole.remove();
                   return isCut;
                 }).map(one => one.id)""");
+    }
+
+    /** What axe-core finds on the page that keeps out who does not see it or has no mouse: rule and element. */
+    List<?> barriers() throws IOException {
+        try (InputStream script = getClass().getResourceAsStream(AXE)) {
+            page.evaluate(new String(script.readAllBytes(), StandardCharsets.UTF_8));
+        }
+        return (List<?>) page.evaluate("""
+                async () => (await axe.run()).violations
+                    .flatMap(({id, nodes}) => nodes.map(({html}) => `${id}: ${html}`))""");
+    }
+
+    /** What a screen reader says of itself while the page is drawn so many times: it must not go on and on. */
+    List<?> said(int drawings) {
+        page.evaluate("""
+                () => {
+                  window.said = [];
+                  const live = 'output, [role=status], [role=alert], [role=log], [aria-live]';
+                  new MutationObserver(changes => changes.forEach(({target}) => {
+                    const element = target.nodeType === Node.TEXT_NODE ? target.parentElement : target;
+                    const region = element.closest(live);
+                    if (region !== null && region.ariaLive !== 'off') {
+                      said.push(region.textContent);
+                    }
+                  })).observe(document.body, {subtree: true, childList: true, characterData: true});
+                }""");
+        awaitDrawings(drawings);
+        return (List<?>) page.evaluate("() => said");
     }
 
     /** What an element looks like when it has come to rest. */

@@ -89,6 +89,16 @@ class ViewPageTest extends ViewBrowserTest {
         fits(1920, 1080);
     }
 
+    /** While it swims; what changes all the time is not said. */
+    @Test
+    void aScreenReaderCanTellWhatIsThere() throws IOException {
+        open(vacuum);
+        assertThat(said(30)).isEmpty();
+        assertThat(barriers()).isEmpty();
+        get("about-open").click();
+        assertThat(barriers()).isEmpty();
+    }
+
     private void fits(int width, int height) {
         page.setViewportSize(width, height);
         awaitDrawings(3);

@@ -160,7 +160,8 @@ export class GaitControls {
     }
     const error = make('output', {className: 'error', role: 'alert', 'data-testid': 'actuator-error'});
     const rows = Array.from({length: actuators}, (_, i) => this.#actuatorRow(i, actuators, error));
-    const head = make('tr', {}, ...['', 'Amplitude', 'Phase'].map(text => make('th', {scope: 'col', textContent: text})));
+    const head = make('tr', {}, ...['Actuator', 'Amplitude', 'Phase'].map((text, i) =>
+      make('th', {scope: 'col'}, make('span', {className: i === 0 ? 'hidden' : '', textContent: text}))));
     this.#place.replaceChildren(...settings, make('table', {className: 'actuators'},
         make('caption', {className: 'hidden', textContent: 'Actuators from head to tail'}),
         make('thead', {}, head), make('tbody', {}, ...rows)), error);

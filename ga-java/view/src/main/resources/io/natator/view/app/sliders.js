@@ -20,11 +20,11 @@ export class Slider {
    * the setting is changed or shown anew.
    */
   constructor(setting, error, onChange) {
-    const {id, label, min, max, step, unit, accepts = [min, max]} = setting;
+    const {id, label, title = '', min, max, step, unit, accepts = [min, max]} = setting;
     this.#label = label;
     const [low, high] = accepts;
     this.#expected = {low, high, text: `${low} to ${high}${unit === undefined ? '' : ` ${unit}`}`};
-    const shared = {min, max, step, 'aria-label': label};
+    const shared = {min, max, step, title, 'aria-label': label};
     this.#range = make('input', {type: 'range', ...shared, 'data-testid': id});
     this.#number = make('input', {type: 'number', ...shared, step: 'any', id, 'data-testid': `${id}-number`});
     this.#error = error;
