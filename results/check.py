@@ -2,7 +2,7 @@
 """Checks what results/ holds: python3 results/check.py [--prune]
 
 Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, every page must
-name at its head the commit that made its rows, README.md must have every page's answer, all JSON must be whole, and all of it
+name at its head the commit that made its rows and have an answer, README.md must have each answer, all JSON must be whole, and all of it
 must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything is wrong
 that --prune did not mend.
 """
@@ -61,6 +61,8 @@ def main():
         if page.parent.name != "pictures" and not MADE.search(page.read_text(encoding="utf-8")[:HEAD]):
             wrong.append(f"{page.relative_to(ROOT)}: names no program; expected in its first {HEAD} characters: commit, and 8 digits or more")
         answer = ANSWER.search(page.read_text(encoding="utf-8"))
+        if page.parent.name != "pictures" and not answer:
+            wrong.append(f"{page.relative_to(ROOT)}: has no answer; expected, by its make.py, <!-- answer --> and a bold sentence")
         if answer and answer[1] not in index:
             wrong.append(f"results/README.md: does not have the answer of {page.parent.name}; expected: {answer[1]}")
     for file in files:

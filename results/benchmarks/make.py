@@ -1,4 +1,4 @@
-"""Draws the rooflines, how near the solver's stages come to what the processor can do, and throughput over the size of a scene.
+"""Makes the answer and the table of peers, draws the rooflines, how near the solver's stages come to what the processor can do, and throughput over the size of a scene.
 
 Rooflines: operations per second over operations per byte, under the measured roofs (Williams, Waterman, Patterson: Roofline, 2009). Throughput: a line for
 each size of a batch; rings are scenes that have blocks of threads of their own, discs those of the whole GPU, with lists.
@@ -26,7 +26,23 @@ def throughput(table, scheme, file):
     chart.save(file)
 
 
+def peers():
+    """Means over the rounds, and how many times the seconds of the same round's first program, both ± standard error."""
+    rounds = pandas.read_csv(HERE / "peers.csv").pivot(index="round", columns="program", values="seconds")
+    names = list(dict.fromkeys(pandas.read_csv(HERE / "peers.csv").program))
+    errors = pandas.read_csv(HERE / "peers.csv").groupby("program").density_error.mean()
+    def known(values, digits):
+        return study.with_error(values.mean(), values.sem(), digits)
+    flex, conserving, _, taichi, dfsph = names
+    answer = (f"**For the thesis' tank a plain position based fluid in Taichi takes {known(rounds[taichi] / rounds[flex], 1)} times the time of `flex`, SPlisHSPlasH's DFSPH "
+              f"{known(rounds[dfsph] / rounds[conserving], 1)} times that of `conserving` 2 × 4, with {errors[dfsph] / errors[conserving]:.1f} of its error.**\n")
+    return answer, study.table(["program", "seconds", "times the first's", "density error, mean"], [
+        [name, known(rounds[name], 1), known(rounds[name] / rounds[names[0]], 1) if name != names[0] else "", f"{100 * errors[name]:.2g} %"] for name in names])
+
+
 def make(folder):
+    answer, table = peers()
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, peers=table), encoding="utf-8")
     table = pandas.read_csv(HERE / "throughput.csv")
     for scheme in ("flex", "conserving"):
         throughput(table, scheme, folder / f"throughput-{scheme}.png")

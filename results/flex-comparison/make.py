@@ -132,6 +132,14 @@ def summary(table):
     return text
 
 
+def answer(table):
+    told = []
+    for medium, own in table.groupby("medium"):
+        off = own.difference_in_spreads.abs()
+        told.append(f"{(off <= 1).sum()} of {len(own)} speeds in {medium} lie within one spread of Flex', {(off <= 2).sum()} within two, {(off <= 3).sum()} within three")
+    return f"**{'; '.join(told)}.**\n"
+
+
 def draw(table, medium, file):
     """Our speeds against those of Flex, with one standard deviation to each side; equal speeds lie on the diagonal."""
     chart = study.Chart(f"Speed in {medium}", "NVIDIA Flex 1.2.0 (units/s)", "Natator (units/s)", size=(7.6, 7.6))
@@ -147,7 +155,7 @@ def make(folder):
     table = compared()
     own = {medium: table[table.medium == medium] for medium in ("fluid", "vacuum")}
     (folder / "comparison.csv").write_text(csv(table.drop(columns="scene")), encoding="utf-8")
-    (folder / PAGE.name).write_text(study.filled(PAGE, summary=summary(table)), encoding="utf-8")
+    (folder / PAGE.name).write_text(study.filled(PAGE, answer=answer(table), summary=summary(table)), encoding="utf-8")
     for medium, rows in own.items():
         draw(rows, medium, folder / f"comparison-{medium}.png")
 

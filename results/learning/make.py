@@ -145,8 +145,8 @@ def make(folder):
         return "{:.2f} ({:.2f} at half the time step)".format(*(statistics.fmean(of(task, name, level, key)) / part for level in LEVELS))
     rest, gait = statistics.fmean(of("station", "rest", "scene", "away")), statistics.fmean(of("ahead", "evolved", "scene", "return")) / 4
     answer = (f"**In about a minute PPO learns to reach {there('turn-1', 'scene')} of 16 targets ({there('turn-1', 'step')} at half the time step) and to "
-              f"stay within {both('station', 'station-1', 'away')} body lengths of a station in a current, where a resting body is {rest:.2f} away; "
-              f"but a rule that bends the evolved gait reaches {there('steered-0.4', 'scene')}, sooner, and ahead that gait makes {gait:.2f} body "
+              f"stay on average {both('station', 'station-1', 'away')} body lengths from a station in a current, where a resting body is {rest:.2f} away; "
+              f"but a rule that bends the evolved gait reaches {there('steered-0.4', 'scene')}, and ahead that gait makes {gait:.2f} body "
               f"lengths/s, what is learned {both('ahead', 'ahead-1', 'return', 4)}.**\n")
     curves(folder)
     paths(folder)

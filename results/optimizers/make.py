@@ -140,6 +140,16 @@ def tests_table(found):
     return study.table(["first", "second", "difference of medians", "p", "A"], rows, "<<>>>") if rows else "nothing to compare\n"
 
 
+def answer(tables):
+    """What the tests at the end say, by evaluations."""
+    def told(row):
+        if row.verdict.startswith("no difference"):
+            return f"between {row['first']} and {row['second']} no difference is seen (p {study.chance(row.p_holm)})"
+        return f"{row.verdict.split(' (')[0].replace(' further than', ' gets further than')} (p {study.chance(row.p_holm)})"
+    return "**" + "; ".join(f"with {scene.name} " + ", ".join(told(row) for _, row in found[found.equal == TOLD].iterrows())
+                            for scene, _, _, found in tables).replace("with", "With", 1) + ".**\n"
+
+
 def choice_table(scene):
     def cells(name, runs):
         losses = [loss for run in runs if (loss := scene.loss(run)) is not None]
@@ -192,6 +202,8 @@ def make(folder, data):
     page, sections = data / "README.md", {scene.name: section(scene, again, differences) for scene, _, again, differences in tables}
     if not page.exists():
         page.write_text("# Optimizers side by side\n" + "".join(f"\n<!-- {name} -->\n<!-- /{name} -->\n" for name in sections), encoding="utf-8")
+    if data == study.ROOT / "results/optimizers":
+        sections["answer"] = answer(tables)
     (folder / page.name).write_text(study.filled(page, **sections), encoding="utf-8")
     for scene in scenes:
         draw(scene, folder / f"{scene.name}.png")

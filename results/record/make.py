@@ -61,7 +61,7 @@ def make(folder):
         row("as it evolved: spacing 0.1, 4 substeps, 3 fresh starts", base, base_interval),
         row("half the time step, 6 fresh starts", half, half_interval),
         row("half the spacing, the 2 starts that chose it", levels["spacing/2"], student * pooled["half_spacing"]),
-        row("estimate for time step and spacing 0, by fresh starts", estimate, error),
+        row("estimate for time step and spacing 0, fresh starts at the scene's spacing", estimate, error),
         row("… by the starts that chose it", best["estimate_bl_s"], best["estimate_se"]),
         ["… mean of the twelve candidates", study.with_error(mean, sum(weights)**-0.5, 3), ""],
         ["with muscles at rest", study.fixed(statistics.fmean(ways["rest"]), 3), ""]])
@@ -72,7 +72,7 @@ def make(folder):
     work = statistics.fmean(one["work"] / one["distance"] for one in runs["base"])
     speed = base * length
     answer = f"**An evolved eel swims {study.fixed(base, 2)} body lengths/s at a spacing of 0.1 and {study.fixed(levels['spacing/2'], 2)} at half of it; " \
-             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)} by fresh starts.** It was chosen from twelve, of which eleven do " \
+             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)}.** It was chosen from twelve, of which eleven do " \
              f"not differ (χ² = {chi:.1f}, {len(alike) - 1} degrees of freedom, p = {stats.chi2.sf(chi, len(alike) - 1):.2f}); their mean estimate is " \
              f"{study.with_error(mean, sum(weights)**-0.5, 2)}, as one has that was not selected.\n"
     does = f"- frequency: {frequency:.2f} beats/s\n" \

@@ -86,7 +86,7 @@ def sides():
     made = []
     for row in sorted(rows("row"), key=lambda row: (row["kind"], row["width"])):
         if "speeds" not in row:
-            made.append([f"{row['width']}, {row['kind']}", "turns round", ""])
+            made.append([f"{row['width']}, {row['kind']}", "breaks a law", ""])
             continue
         speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
         made.append([f"{row['width']}, {row['kind']}", study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 3),
@@ -138,9 +138,10 @@ def make(folder):
     pair, turns = pairs()
     wake, left = wakes()
     turn, error = mean(turns)
+    swum = sum(row["role"] == "follower" for row in rows("pair"))
     answer = (f"**Whether a swimmer holds station behind a cylinder with less work than in free water is open: {saved[1]} less at the scene's time step, {saved[2]} at half of it. A follower that stays "
-              f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish. Ten body lengths behind, "
-              f"{study.fixed(100 * left[0], 0)} % of the wake's vorticity are there.**\n")
+              f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish ({len(turns)} of {swum} swims). Ten body lengths behind, "
+              f"{study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).**\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
     for file in sorted(HERE.glob("*.npz")):
         drawn(folder, file.stem)

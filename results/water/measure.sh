@@ -8,6 +8,7 @@ output=${1:-results/water/water.csv}
 
 natator-sim bench water --scheme flex --resolution 20 --output "$output"
 natator-sim bench water --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 5 --output "$output"
+natator-sim bench water --scheme conserving --setting 2x4 --resolution 20 --start 6 7 8 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity still-water column couette poiseuille neutral-sphere added-mass spinning-sphere --output "$output"
 natator-sim bench water --scheme conserving --setting 1x4 1x6 1x8 --resolution 20 --start 1 2 3 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity still-water column couette poiseuille neutral-sphere added-mass heavier-sphere lighter-sphere spinning-sphere slow-sphere towed-sphere --output "$output"
 natator-sim bench water --scheme conserving --setting 1x4 --resolution 20 --start 1 2 3 --case towed-cylinder --output "$output"
 natator-sim bench water --scheme conserving --setting 1x6 1x8 --resolution 20 --case towed-cylinder --output "$output"

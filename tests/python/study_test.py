@@ -92,6 +92,22 @@ class Check(unittest.TestCase):
             self.assertEqual(1, code, page)
             self.assertRegex(errors, rf"^\S*README.md: is not what make.py makes of the data; run: results/redo.sh {page}\n$")
 
+    def test_tells_of_rows_that_the_program_does_not_give(self):
+        def again(folder):
+            return subprocess.run([sys.executable, folder / "again.py", "cluster", "--seed", "1"], capture_output=True, text=True, encoding="utf-8")
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for file in ("again.py", "study.py"):
+                shutil.copy(ROOT / "results" / file, folder)
+            shutil.copytree(ROOT / "results/cluster", folder / "cluster")
+            before, table = again(folder), folder / "cluster/efficiency.csv"
+            self.assertEqual((0, ""), (before.returncode, before.stderr))
+            lines = [line.split(",") for line in table.read_text(encoding="utf-8").splitlines()]
+            table.write_text("".join(",".join([*line[:-4], line[-4].replace("0.", "0.1"), *line[-3:]]) + "\n" for line in lines), encoding="utf-8")
+            after = again(folder)
+            self.assertIn("DIFFERS", after.stdout)
+            self.assertEqual(1, after.returncode, after.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
