@@ -9,7 +9,7 @@ from matplotlib import pyplot
 from scipy import stats
 
 HERE = pathlib.Path(__file__).parent
-GAIT = json.loads((HERE.parent / "quick-evolution/loach-seed-3/best.json").read_text())["gait"]
+GAIT = json.loads((HERE / "gait.json").read_text())
 LENGTH, SPEED = 0.98, 1.0
 WAVE = SPEED / GAIT["frequency"]  # of the swimmer's path, from one beat to the next
 NAMES = {(1, 1): "", (1, 2): ", half the step", (2, 1): ", half the cells and step"}
@@ -26,6 +26,13 @@ def mean(values):
     """Mean and its 95 % by Student's t."""
     half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else float("nan")
     return statistics.fmean(values), half
+
+
+def mean_turn(turns):
+    """Mean of parts of a turn, which go on from 1 to 0, and its 95 %, of their distances from their direction's mean."""
+    middle = np.angle(np.mean(np.exp(2j * np.pi * np.array(turns)))) / (2 * np.pi)
+    value, error = mean([middle + (turn - middle + 0.5) % 1 - 0.5 for turn in turns])
+    return value, error
 
 
 def percent(value, error):
@@ -53,7 +60,8 @@ def streets():
         ratio = power / base
         spread = ratio * ((error / power) ** 2 + (np.nan_to_num(base_error) / base) ** 2) ** 0.5
         if (diameter, behind, n) == (0.3, 1.5, 1):
-            saved[steps] = percent(1 - ratio, spread)
+            saved[steps] = percent(1 - ratio, spread) if error == error else f"{study.fixed(100 * (1 - ratio), 0)} %"
+            saved[steps] += f" less ({len(held)} of {len(own)} swims)"
         made.append([name, str(len(held)), f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}" if error == error else study.fixed(power, 0),
                      percent(ratio - 1, spread) if diameter and error == error else "", study.fixed(statistics.fmean(row["scale"] for row in held), 2),
                      study.fixed(statistics.fmean(row["sd_z"] for row in held), 2)])
@@ -84,13 +92,14 @@ def pairs():
 def sides():
     solo = statistics.fmean(row["power"] / (SPEED + row["speed"]) for row in rows("street") if row["diameter"] == 0 and (row["n"], row["steps"]) == (1, 1))
     made = []
-    for row in sorted(rows("row"), key=lambda row: (row["kind"], row["width"])):
-        if "speeds" not in row:
-            made.append([f"{row['width']}, {row['kind']}", "breaks a law", ""])
+    for (kind, width), own in grouped(rows("row"), "kind", "width").items():
+        swum = [row for row in own if "speeds" in row]
+        if not swum:
+            made.append([f"{width}, {kind}", "all break a law", ""])
             continue
-        speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
-        made.append([f"{row['width']}, {row['kind']}", study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 3),
-                     percent(powers.mean() / (SPEED + speeds.mean()) / solo - 1, powers.std(ddof=1) / len(powers) ** 0.5 / solo)])
+        speeds = np.array([np.mean(row["speeds"]) for row in swum])
+        costs = np.array([np.mean(row["powers"]) for row in swum]) / (SPEED + speeds) / solo - 1
+        made.append([f"{width}, {kind}", study.with_error(speeds.mean(), np.ptp(speeds) / 2, 3), percent(costs.mean(), np.ptp(costs) / 2)])
     return study.table(["distance, beat of neighbours", "speed over ground", "cost of transport"], made)
 
 
@@ -137,9 +146,9 @@ def make(folder):
     street, saved = streets()
     pair, turns = pairs()
     wake, left = wakes()
-    turn, error = mean(turns)
+    turn, error = mean_turn(turns)
     swum = sum(row["role"] == "follower" for row in rows("pair"))
-    answer = (f"**Whether a swimmer holds station behind a cylinder with less work than in free water is open: {saved[1]} less at the scene's time step, {saved[2]} at half of it. A follower that stays "
+    answer = (f"**Whether a swimmer holds station behind a cylinder with less work than in free water is open: {saved[1]} at the scene's time step, {saved[2]} at half of it. A follower that stays "
               f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish ({len(turns)} of {swum} swims). Ten body lengths behind, "
               f"{study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).**\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
