@@ -99,10 +99,11 @@ TEST_P(GpuLatticeCompany, SwimsAndIsPushedAsOnTheCpu) {
     std::cout << "measured: " << GetParam().name << ": of places " << apart / moved << ", of forces "
               << difference / force << ", of the water " << beside / speed << '\n';
     EXPECT_GT(moved, 0.01);
-    // Rounding of the water's floats, whose order of sums differs: 1.5e-7, 9e-7 and 5e-7 on an H200, and room.
-    EXPECT_LT(apart, 1e-6 * moved);
-    EXPECT_LT(difference, 1e-5 * force);
-    EXPECT_LT(beside, 5e-6 * speed);
+    // Rounding of the water's floats, whose order of sums differs: 2e-6, 1.3e-5 and 6e-6 on an H200 (a pair, in which it
+    // grows fastest), and room.
+    EXPECT_LT(apart, 1e-5 * moved);
+    EXPECT_LT(difference, 1e-4 * force);
+    EXPECT_LT(beside, 5e-5 * speed);
 }
 
 TEST_P(GpuLatticeCompany, HasTheSameBitsInAnyPlaceOfABatch) {
