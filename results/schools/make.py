@@ -9,7 +9,7 @@ from matplotlib import pyplot
 from scipy import stats
 
 HERE = pathlib.Path(__file__).parent
-GAIT = json.loads((HERE.parent / "quick-evolution/loach-seed-3/best.json").read_text())["gait"]
+GAIT = json.loads((HERE / "gait.json").read_text())
 LENGTH, SPEED = 0.98, 1.0
 WAVE = SPEED / GAIT["frequency"]  # of the swimmer's path, from one beat to the next
 NAMES = {(1, 1): "", (1, 2): ", half the step", (2, 1): ", half the cells and step"}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Swims of loaches in streets, rows and pairs: `measure.py KIND... [--jobs N] [--backend B]` appends a row a swim to KIND.jsonl in this folder. Kinds: street, pair, row, wake, frame; with
-"-step" half the time step, with "-cells" half the cells and half the step. All swim in plane flow in a current of -x with the head to +x, by the gait of seed 3 of ../quick-evolution."""
+"-step" half the time step, with "-cells" half the cells and half the step. All swim in plane flow in a current of -x with the head to +x, by gait.json."""
 import argparse
 import concurrent.futures
 import json
@@ -12,7 +12,7 @@ import natator
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-GAIT = json.loads((HERE.parent / "quick-evolution/loach-seed-3/best.json").read_text())["gait"]
+GAIT = json.loads((HERE / "gait.json").read_text())
 BEAT, LENGTH, CELL = 1 / GAIT["frequency"], 0.98, 0.02
 FRAMES = 3  # between two commands of the pilot, 1/60 s each
 GAIN = (0.2, 0.15, 0.1, 0.1)

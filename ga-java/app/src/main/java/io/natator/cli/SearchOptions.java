@@ -92,8 +92,8 @@ final class SearchOptions {
     private boolean vacuumCheck;
 
     @Option(names = "--encoding", paramLabel = "KIND",
-            description = "Genes: dense or sparse, or either with an offset to steer by, dense-steered or sparse-steered. Default: the "
-                    + "creature's (2 is sparse, the others dense); of goals/… sparse-steered.")
+            description = "Genes: dense, sparse or wave; dense or sparse with an offset to steer by, dense-steered or sparse-steered. "
+                    + "Default: the creature's (2 is sparse, the others dense); of plane/… wave, of goals/… sparse-steered.")
     private EncodingKind encoding;
 
     /** What is meant where no other option says otherwise. */

@@ -78,7 +78,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
     void withoutOptionsItIsTheQuickPreset() {
         ok(natator("evolve", "--dry-run", "--output-dir", path("run")))
                 .startsWith("plane/loach, jgap (corrected operators), population 16, 3 generations,")
-                .contains(", sparse", ", backend cpu\n", "evaluations about 98\n");
+                .contains(", wave genes", ", backend cpu\n", "evaluations about 98\n");
         ok(natator("evolve", "--dry-run", "--creature", "1"))
                 .startsWith("pool/creature-1, ").contains(", backend cpu, 2.0 s\n");
 
