@@ -42,7 +42,7 @@ def swimmers(task):
     """Of each its name, a Policy with the environment, and what acts in place of it."""
     from natator.policy import Policy
     evolved = Policy(HERE / f"{task}-1/policy.json")
-    evolved.environment["gait"] = json.loads((HERE / "../quick-evolution/loach-seed-3/best.json").read_text(encoding="utf-8"))["gait"]
+    evolved.environment["gait"] = json.loads((HERE / "../schools/gait.json").read_text(encoding="utf-8"))
     gaits = {"turn": [(f"steered-{largest}", steered(largest)) for largest in BENDS],
              "station": [("rest", constant(REST)), ("evolved", constant(STRAIGHT))], "ahead": [("evolved", constant(STRAIGHT))]}[task]
     return [(f"{task}-1", Policy(HERE / f"{task}-1/policy.json"), None)] + [(name, evolved, act) for name, act in gaits]

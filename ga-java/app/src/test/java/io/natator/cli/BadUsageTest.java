@@ -95,7 +95,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "--duration -1|duration is -1.0",
             "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
             "--operators magic|expected corrected or stock",
-            "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
+            "--encoding magic|expected dense, sparse, wave, dense-steered or sparse-steered",
             "--preset quik|expected quick or thesis but was 'quik'",
             "--scene no/such|expected a named scene or a file",
             "--scene no/such.json|expected a named scene or an existing file",

@@ -5,6 +5,7 @@ import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.SparseEncoding;
 import io.natator.encoding.SteeredEncoding;
+import io.natator.encoding.WaveEncoding;
 
 /** How genes stand for a gait. */
 public enum EncodingKind {
@@ -14,6 +15,9 @@ public enum EncodingKind {
     /** Frequency, first and last amplitude, phase difference. */
     @JsonProperty("sparse")
     SPARSE,
+    /** Frequency, first and last amplitude, waves from head to tail. */
+    @JsonProperty("wave")
+    WAVE,
     /** The dense genes and an offset to one side. */
     @JsonProperty("dense-steered")
     DENSE_STEERED,
@@ -31,19 +35,23 @@ public enum EncodingKind {
         return switch (this) {
             case DENSE -> new DenseEncoding(actuators);
             case SPARSE -> new SparseEncoding(actuators);
+            case WAVE -> new WaveEncoding(actuators);
             case DENSE_STEERED -> new SteeredEncoding(new DenseEncoding(actuators));
             case SPARSE_STEERED -> new SteeredEncoding(new SparseEncoding(actuators));
         };
     }
 
     /**
-     * The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. It is sparse in
-     * plane flow, too; scenes whose goals are to one side have an offset.
+     * The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. It is a wave in
+     * plane flow; scenes whose goals are to one side have an offset.
      */
     public static EncodingKind usualFor(String scene) {
         if (scene.startsWith("goals/")) {
             return SPARSE_STEERED;
         }
-        return scene.matches("[a-z-]+/creature-2(-vacuum)?|plane/[a-z-]+") ? SPARSE : DENSE;
+        if (scene.startsWith("plane/")) {
+            return WAVE;
+        }
+        return scene.matches("[a-z-]+/creature-2(-vacuum)?") ? SPARSE : DENSE;
     }
 }

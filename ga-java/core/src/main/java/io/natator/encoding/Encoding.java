@@ -6,7 +6,8 @@ import java.util.List;
  * Translates the genes of a chromosome into a gait (thesis 2.6). The order of the genes matters: single-point
  * crossover swaps a gene and all after it, so neighbouring genes are inherited together.
  */
-public sealed interface Encoding permits DenseEncoding, SparseEncoding, SteeredEncoding {
+public sealed interface Encoding permits DenseEncoding, SparseEncoding, WaveEncoding,
+        SteeredEncoding {
 
     /** Names and ranges of the genes, in chromosome order. */
     List<GeneRange> genes();

@@ -57,6 +57,21 @@ class EncodingTest {
         assertThat(new SparseEncoding(2).decode(genes)).isEqualTo(new DenseEncoding(2).decode(genes));
     }
 
+    /** As the slider of the live page has it. */
+    @Test
+    void aWaveReachesEachActuatorLaterThanTheOneBeforeIt() {
+        Gait gait = new WaveEncoding(5).decode(List.of(2.0, 0.4, 0.2, 0.5));
+
+        assertThat(gait.amplitude()).usingElementComparator(EncodingTest::nearly)
+                .containsExactly(0.4, 0.35, 0.3, 0.25, 0.2);
+        assertThat(gait.phase()).usingElementComparator(EncodingTest::nearly)
+                .containsExactly(0.0, 0.9, 0.8, 0.7, 0.6);
+    }
+
+    private static int nearly(double one, double other) {
+        return Math.abs(one - other) < 1e-12 ? 0 : Double.compare(one, other);
+    }
+
     @ParameterizedTest
     @CsvSource({"0.49, 0.5, frequency", "2.01, 0.5, frequency", "NaN, 0.5, frequency", "1, -0.1, amplitude 1",
             "1, 1.1, amplitude 1", "1, Infinity, amplitude 1"})
@@ -88,7 +103,11 @@ class EncodingTest {
     void everyGenomeGivesAGaitWithinTheThesisRanges(RepetitionInfo seed) {
         SplittableRandom random = new SplittableRandom(seed.getCurrentRepetition());
         int actuators = random.nextInt(2, 13);
-        Encoding encoding = random.nextBoolean() ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
+        Encoding encoding = switch (random.nextInt(3)) {
+            case 0 -> new DenseEncoding(actuators);
+            case 1 -> new SparseEncoding(actuators);
+            default -> new WaveEncoding(actuators);
+        };
 
         Gait gait = encoding.decode(Bodies.random(encoding.genes(), random));
 

@@ -50,7 +50,7 @@ class LivePage {
   constructor(openSocket) {
     this.#theme = new Theme('auto', () => this.#themeChanged());
     const {scene} = this.#swimmer;
-    const first = {scene, overrides: null, gait: this.#gait};
+    const first = {scene, overrides: this.#overrides, gait: this.#gait};
     this.#view = new View(document.querySelector('.picture'), first, null, SWIMMERS.map(one => one.scene), {
       scene: () => this.#sceneChanged(),
       status: (state, text) => showStatus(state, state === 'open' ? 'computed here' : text),
@@ -112,6 +112,11 @@ class LivePage {
     return waveGait(this.#settings, this.#swimmer.actuators);
   }
 
+  /** What the scene is changed to for a swimmer from its start. */
+  get #overrides() {
+    return {...this.#swimmer.tank, creature: this.#swimmer.creature, ...this.#patch('viscosity')};
+  }
+
   /** What a slider changes in the scene. */
   #patch(id) {
     if (id === 'viscosity') {
@@ -127,8 +132,7 @@ class LivePage {
     this.#settings = {...this.#settings, ...this.#swimmer.wave, stiffness: 1};
     this.#own = null;
     this.#changed = this.#view.frame?.time ?? 0;
-    const overrides = {creature: this.#swimmer.creature, ...this.#patch('viscosity')};
-    this.#report(await this.#view.setScene(this.#swimmer.scene, overrides, this.#gait));
+    this.#report(await this.#view.setScene(this.#swimmer.scene, this.#overrides, this.#gait));
     this.#show();
   }
 
