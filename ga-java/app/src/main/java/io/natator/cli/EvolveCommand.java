@@ -151,11 +151,11 @@ final class EvolveCommand implements Callable<Integer> {
         EncodingKind encoding = searchOptions.encoding(sceneName);
         int actuators = SceneInfo.toEvolve(sceneName, encoding, sceneOptions.overrides(), execution.simulator())
                 .actuators();
-        return searchOptions.in(EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend()),
-                sceneOptions.overrides(), execution.simulator())
+        EvolutionSettings swim = EvolutionSettings.of(sceneName, encoding, actuators).withBackend(execution.backend())
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(sceneName),
                         sceneOptions.overrides());
+        return searchOptions.in(swim, sceneOptions.overrides(), execution.simulator());
     }
 
     /** A new folder that is this command's, though others that begin now look for one too. */

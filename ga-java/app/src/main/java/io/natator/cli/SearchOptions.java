@@ -13,9 +13,12 @@ import io.natator.config.FitnessKind;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
+import io.natator.config.Problem;
+import io.natator.config.Scheme;
 import io.natator.config.WeightedObjective;
 import io.natator.process.SceneInfo;
 import java.nio.file.Path;
+import java.util.List;
 import picocli.CommandLine.Option;
 
 /** Options that say what is looked for, how, and how much is simulated for it. */
@@ -24,8 +27,8 @@ final class SearchOptions {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 3 generations of 4 s in plane/loach or 2 s in pool/creature-N, 1 start) or "
-                    + "thesis (150, 100, as thesis/creature-N has it, 4 starts). Other options change parts of it. "
+            description = "quick (population 20, 3 generations of 4 s in plane/loach, for distance less 0.00005 of the work; 16 of 2 s "
+                    + "in pool/creature-N; 1 start) or thesis (150, 100, as thesis/creature-N has it, 4 starts). Other options change parts of it. "
                     + "Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
@@ -78,8 +81,8 @@ final class SearchOptions {
             description = "Genetic operators: corrected, or stock (as JGAP ships them). Default: ${DEFAULT-VALUE}.")
     private OperatorSet operators;
 
-    @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
-            + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--fitness", paramLabel = "KIND", description = "What is rewarded: "
+            + "distance, or net: less what the gait drifts forwards in vacuum. Default: the preset's, else distance.")
     private FitnessKind fitness;
 
     @Option(names = "--objectives", paramLabel = "NAME[=WEIGHT],...",
@@ -119,13 +122,24 @@ final class SearchOptions {
     EvolutionSettings in(EvolutionSettings settings, JsonNode overrides, Path simulator) throws InterruptedException {
         // With a number of evaluations alone, that is what ends the run.
         int last = generations != null ? generations : evaluations != null ? Budget.NO_LIMIT : preset.generations();
-        return settings.withSize(population != null ? population : preset.population(), last)
+        String scene = settings.problem().scene();
+        return settings.withSize(population != null ? population : preset.population(scene), last)
                 .withEvaluations(evaluations)
                 .withStarts(starts != null ? starts : preset.starts(), judge).withSeed(seed)
                 .withOptimizer(settings.search().optimizer(), operators, settings.search().gaussianDeviation())
-                .withFitness(fitness, vacuumCheck)
-                .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
-                .withEvolve(body(settings.problem().scene(), overrides, simulator));
+                .withFitness(fitness != null ? fitness : FitnessKind.DISTANCE, vacuumCheck)
+                .withObjectives(optimizer, objectives(settings.problem()))
+                .withEvolve(body(scene, overrides, simulator));
+    }
+
+    /** What is rewarded instead of the fitness; null for nothing else. */
+    private List<WeightedObjective> objectives(Problem problem) {
+        if (objectives != null) {
+            return WeightedObjective.parse(objectives);
+        }
+        boolean isOtherwise = fitness != null || optimizer.takesSeveralObjectives() || optimizer.mapsKinds()
+                || optimizer.isOutside() || problem.scheme() == Scheme.FLEX;
+        return isOtherwise ? null : preset.objectives(problem.scene());
     }
 
     /** What to change of the body; null for nothing. */

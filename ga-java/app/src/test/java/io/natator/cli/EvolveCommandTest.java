@@ -77,10 +77,14 @@ class EvolveCommandTest extends FakeSimulatorTest {
     @Test
     void withoutOptionsItIsTheQuickPreset() {
         ok(natator("evolve", "--dry-run", "--output-dir", path("run")))
-                .startsWith("plane/loach, jgap (corrected operators), population 16, 3 generations,")
-                .contains(", wave genes", ", backend cpu\n", "evaluations about 98\n");
+                .startsWith("plane/loach, jgap (corrected operators), population 20, 3 generations,")
+                .contains(", wave genes, objectives distance=1.0,work=5.0E-5, backend cpu\n",
+                        "evaluations about 122\n");
         ok(natator("evolve", "--dry-run", "--creature", "1"))
-                .startsWith("pool/creature-1, ").contains(", backend cpu, 2.0 s\n");
+                .startsWith("pool/creature-1, jgap (corrected operators), population 16, ")
+                .contains(", dense genes, backend cpu, 2.0 s\n");
+        ok(natator("evolve", "--dry-run", "--fitness", "distance")).contains(", wave genes, backend cpu\n");
+        ok(natator("evolve", "--dry-run", "--optimizer", "map-elites")).contains(", wave genes, backend cpu\n");
 
         ok(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3"))
                 .contains(", scheme flex, 3.0 s\n");

@@ -79,7 +79,8 @@ public record EvolutionSettings(Problem problem, Search search, Budget budget)
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
         return new EvolutionSettings(
                 ProblemBuilder.builder().scene(scene).encoding(encoding).actuators(actuators).build(),
-                SearchBuilder.builder().population(Preset.THESIS.population()).seed(1).gaussianDeviation(0.05).build(),
+                SearchBuilder.builder().population(Preset.THESIS.population(scene)).seed(1).gaussianDeviation(0.05)
+                        .build(),
                 BudgetBuilder.builder().generations(Preset.THESIS.generations()).build());
     }
 

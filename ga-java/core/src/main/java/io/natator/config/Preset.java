@@ -1,13 +1,29 @@
 package io.natator.config;
 
+import java.util.List;
+
 /** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
     /**
-     * Some 90 evaluations of 4 s in plane flow, or of 2 s in a small pool of water in which only swimming pays: some two
+     * Some 110 evaluations of 4 s in plane flow, or 90 of 2 s in a small pool of water in which only swimming pays: some two
      * minutes on two cores. Each gait swims once, or it would take four times as long; only the winner is run from fresh
      * starts.
      */
-    QUICK(16, 3, "plane/loach", "pool", "pool", 2.0, 1),
+    QUICK(16, 3, "plane/loach", "pool", "pool", 2.0, 1) {
+        @Override
+        public int population(String inScene) {
+            return inScene.equals(scene()) ? 20 : super.population(inScene);
+        }
+
+        /** Work has a price in plane flow: without one, the tail beats far wider than that of fish for little more speed. */
+        @Override
+        public List<WeightedObjective> objectives(String inScene) {
+            return inScene.equals(scene())
+                    ? List.of(new WeightedObjective(Objective.DISTANCE, 1.0),
+                            new WeightedObjective(Objective.WORK, 5e-5))
+                    : null;
+        }
+    },
     /** The thesis' size (2.6): some 22 500 gaits in its tank, as the scene has it (scheme flex, 4 s), four runs each. */
     THESIS(150, 100, "thesis/creature-1", "thesis", "open-water", null, 4);
 
@@ -30,9 +46,14 @@ public enum Preset {
         this.starts = starts;
     }
 
-    /** Chromosomes at the start, and selected in each generation. */
-    public int population() {
+    /** Chromosomes in a scene at the start, and selected in each generation. */
+    public int population(String inScene) {
         return population;
+    }
+
+    /** What is rewarded in a scene, as a weighted sum; null for the distance. */
+    public List<WeightedObjective> objectives(String inScene) {
+        return null;
     }
 
     /** Generations bred after the random one. */

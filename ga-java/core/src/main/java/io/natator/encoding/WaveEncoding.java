@@ -11,7 +11,7 @@ import java.util.List;
 public final class WaveEncoding implements Encoding {
 
     private static final List<GeneRange> GENES = List.of(GeneRange.frequency(), GeneRange.unit("first amplitude"),
-            GeneRange.unit("last amplitude"), new GeneRange("waves", 0.25, 1.75));
+            GeneRange.unit("last amplitude"), new GeneRange("waves", 0.25, 1.25));
 
     private final int actuators;
     private final SparseEncoding sparse;
