@@ -3,7 +3,7 @@
 
 Draws by chance a few rows of each page that take seconds, and compares. They agree where the bits are the same. Else, as swims are chaotic and other
 programs, GPUs and instruction sets round otherwise, within the 99.9 % prediction interval (Student's t) of rows that differ in the start alone; where
-these are fewer than five, within a share of them that stands below with its reason. Four minutes on two idle cores. Exit status 1 if a figure differs.
+these are fewer than five, within a share of them that stands below with its reason. Exit status 1 if a figure differs.
 """
 import argparse
 import collections
@@ -15,6 +15,7 @@ import math
 import os
 import pathlib
 import random
+import resource
 import statistics
 import subprocess
 import sys
@@ -24,8 +25,7 @@ import time
 from scipy import stats
 
 HERE = pathlib.Path(__file__).resolve().parent
-BIN = pathlib.Path(os.environ.get("NATATOR_BIN", HERE.parent / "build/release/bin"))
-os.environ |= {"PATH": f"{BIN}:{os.environ['PATH']}", "NATATOR_SIM": str(BIN / "natator-sim")}
+PROGRAM = os.environ.setdefault("NATATOR_SIM", str(HERE.parent / "build/release/bin/natator-sim"))
 sys.path[:0] = [str(HERE), str(HERE.parent / "sim-native/python")]
 
 
@@ -41,7 +41,7 @@ def table(name):
 
 def simulated(*arguments, given=None, **environment):
     """What natator-sim prints."""
-    done = subprocess.run(["natator-sim", *map(str, arguments)], input=given, capture_output=True, text=True, env={**os.environ, **environment})
+    done = subprocess.run([PROGRAM, *map(str, arguments)], input=given, capture_output=True, text=True, env={**os.environ, **environment})
     if done.returncode:
         sys.exit(f"again.py: natator-sim {arguments[0]} ended with {done.returncode}: {(done.stderr.strip().splitlines() or ['no message'])[-1]}")
     return done.stdout
@@ -113,7 +113,7 @@ def record(chance):  # its fresh starts, within 2 %, too; two minutes
     yield from swims(chance, [row for row in answered("record/fresh.jsonl", "record/fresh-results.jsonl") if "overrides" not in row[0] and any(row[0]["gait"]["amplitude"])], 1, 0.05)
 
 
-def quick_evolution(chance):  # of another processor: of winners' starts the standard deviation is 5 % and 7 %
+def quick_evolution(chance):  # starts of its winners have standard deviations of up to 5 and 7 %
     for kind, scene, seconds, share in (("loach-seed-1", "plane/loach", 4, 0.2), ("loach-seed-3", "plane/loach", 4, 0.2), ("default-seed-1", "pool/creature-1", 2, 0.3)):
         swum = lines(f"quick-evolution/{kind}/evaluations.jsonl")
         yield from swims(chance, starts(({"scene": scene, "duration": seconds, "gait": row["gait"]}, row["result"]) for row in swum[:16] if row["result"].get("distance", 0) > 0.1), 1, share)
@@ -135,7 +135,7 @@ def convergence(chance):
     import bending
     row = chance.choice([row for row in table("convergence/bending.csv") if row["refinement"] == "1" and row["cluster_stiffness"] != "0.2"])
     *case, then = row.values()
-    now = bending.bending("natator-sim", int(case[0]), *map(float, case[1:3]), *map(int, case[3:]))
+    now = bending.bending(PROGRAM, int(case[0]), *map(float, case[1:3]), *map(int, case[3:]))
     yield f"bending {' '.join(case)}", float(then), now, 0.02 * float(then), f"{now:.1f}" == then  # in vacuum nothing is chaotic
 
 
@@ -230,16 +230,18 @@ def main():
     asked = parser.parse_args()
     if unknown := set(asked.pages) - set(PAGES):
         parser.error(f"no page {', '.join(sorted(unknown))}; expected some of {', '.join(PAGES)}")
-    counts = collections.Counter()
+    counts, begun = collections.Counter(), time.monotonic()
     for page in asked.pages or [page for page in PAGES if page not in SLOW]:
-        begin = time.monotonic()
+        begin, before = time.monotonic(), counts.total()
         for name, then, now, allowed, same in PAGES[page](random.Random(f"{asked.seed} {page}")):
             verdict = "the same" if same else "agrees" if abs(now - then) <= allowed else "DIFFERS"
             counts[verdict] += 1
             print(f"{page}: {name}: {then:.4g} ± {allowed:.2g}, now {now:.4g}: {verdict}", flush=True)
+        counts["nothing compared: DIFFERS"] += counts.total() == before
         print(f"{page}: {time.monotonic() - begin:.0f} s", flush=True)
-    print(f"seed {asked.seed}: {counts.total()} figures: " + ", ".join(f"{count} {verdict}" for verdict, count in sorted(counts.items())))
-    return int(counts["DIFFERS"] > 0)
+    used = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    print(f"seed {asked.seed}, {time.monotonic() - begun:.0f} s, of processors {used:.0f} s: {counts.total()} figures: " + ", ".join(f"{count} {verdict}" for verdict, count in sorted(counts.items()) if count))
+    return int(any(count for verdict, count in counts.items() if "DIFFERS" in verdict))
 
 
 if __name__ == "__main__":
