@@ -115,7 +115,7 @@ def record(chance):  # its fresh starts, within 2 %, too; two minutes
 
 
 def quick_evolution(chance):  # starts of its winners have standard deviations of up to 5 and 7 %
-    for kind, scene, seconds, share in (("loach-seed-1", "plane/loach", 4, 0.2), ("loach-seed-3", "plane/loach", 4, 0.2), ("default-seed-1", "pool/creature-1", 2, 0.3)):
+    for kind, scene, seconds, share in (("loach-seed-1", "plane/loach", 4, 0.1), ("loach-seed-3", "plane/loach", 4, 0.1), ("default-seed-1", "pool/creature-1", 2, 0.3)):
         swum = lines(f"quick-evolution/{kind}/evaluations.jsonl")
         yield from swims(chance, starts(({"scene": scene, "duration": seconds, "gait": row["gait"]}, row["result"]) for row in swum[:16] if row["result"].get("distance", 0) > 0.1), 1, share)
 
@@ -146,7 +146,8 @@ def water(chance):
 
     def allowed(then, _):
         others = [float(row["value"]) for row in rows if (row["case"], row["quantity"]) == (then["case"], then["quantity"])]
-        return max(width(others), 0.01 * abs(float(then["value"])))  # where starts hardly differ
+        value = float(then["value"])
+        return max(width(others) + abs(value - statistics.fmean(others)), 0.01 * abs(value))  # where starts hardly differ
     for case in chance.sample(sorted({row["case"] for row in rows if float(row["run_time"]) < 8}), 2):
         yield from bench(["water", "--scheme", "conserving", "--case", case, "--resolution", 20, "--setting", "2x4", "--start", chance.randint(2, 5)], rows,
                          ("case", "start", "quantity"), ["value"], allowed)
@@ -204,7 +205,8 @@ def learning(chance):
     own = [row for row in table("learning/swims.csv") if (row["task"], row["swimmer"], row["level"]) == ("ahead", "ahead-1", "scene")]
     row = chance.choice(own)
     now = float(Policy(HERE / "learning/ahead-1/policy.json").swims([int(row["start"])], [int(row["start"]) - 500], {})["return"][0])
-    yield f"ahead, start {row['start']}", float(row["return"]), now, width([float(one["return"]) for one in own]), f"{now:.4g}" == row["return"]
+    others = [float(one["return"]) for one in own]
+    yield f"ahead, start {row['start']}", statistics.fmean(others), now, width(others), f"{now:.4g}" == row["return"]
 
 
 def cluster(chance):

@@ -48,7 +48,7 @@ def grouped(all_rows, *keys):
 
 def streets():
     groups = grouped(rows("street"), "n", "steps", "diameter", "behind")
-    free = {key[:2]: mean([row["power"] for row in own if "power" in row]) for key, own in groups.items() if key[2] == 0}
+    free = {key[:2]: mean([row["power"] for row in own if "power" in row and "unstable" not in row]) for key, own in groups.items() if key[2] == 0}
     made, saved = [], {}
     for (n, steps, diameter, behind), own in groups.items():
         held = [row for row in own if "power" in row and "unstable" not in row]
@@ -68,8 +68,13 @@ def streets():
     return study.table(["cylinder", "swims", "work/s", "against none", "amplitudes", "s.d. across"], made), saved
 
 
+def cost_alone():
+    """Work for a length of way, in free water."""
+    return statistics.fmean(row["power"] / (SPEED + row["speed"]) for row in rows("street") if row["diameter"] == 0 and (row["n"], row["steps"]) == (1, 1))
+
+
 def pairs():
-    solo = statistics.fmean(row["power"] / (SPEED + row["speed"]) for row in rows("street") if row["diameter"] == 0 and (row["n"], row["steps"]) == (1, 1))
+    solo = cost_alone()
     made, locked = [], []
     for row in sorted(rows("pair"), key=lambda row: (row["n"], row["steps"], row["gap"] or 0, row["phase"])):
         if row["role"] != "follower" or "apart" not in row:
@@ -79,18 +84,18 @@ def pairs():
         stayed = aside < ASIDE and gap.mean() > 0.1
         turn = (gap.mean() / WAVE + row["phase"]) % 1
         if stayed:
-            locked.append((turn, (row["n"], row["steps"])))
+            locked.append((turn, (row["n"], row["steps"]) == (1, 1)))
         speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
         change = np.mean(powers) / (SPEED + speeds.mean()) / solo - 1
         if aside >= ASIDE:
             continue
         made.append([f"{row['gap']}, {row['phase']}{NAMES[row['n'], row['steps']]}", study.with_error(gap.mean(), gap.std(), 2), study.fixed(turn, 2) if stayed else "",
                      study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 2), percent(change, np.std(powers / (SPEED + speeds), ddof=1) / len(speeds) ** 0.5 / solo)])
-    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), [turn for turn, _ in locked]
+    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), [turn for turn, scene in locked if scene], sum(not scene for _, scene in locked)
 
 
 def sides():
-    solo = statistics.fmean(row["power"] / (SPEED + row["speed"]) for row in rows("street") if row["diameter"] == 0 and (row["n"], row["steps"]) == (1, 1))
+    solo = cost_alone()
     made = []
     for (kind, width), own in grouped(rows("row"), "kind", "width").items():
         swum = [row for row in own if "speeds" in row]
@@ -144,12 +149,12 @@ def drawn(folder, name):
 
 def make(folder):
     street, saved = streets()
-    pair, turns = pairs()
+    pair, turns, finer = pairs()
     wake, left = wakes()
     turn, error = mean_turn(turns)
-    swum = sum(row["role"] == "follower" for row in rows("pair"))
+    swum = [(row["n"], row["steps"]) == (1, 1) for row in rows("pair") if row["role"] == "follower"]
     answer = (f"**Whether a swimmer holds station behind a cylinder with less work than in free water is open: {saved[1]} at the scene's time step, {saved[2]} at half of it. A follower that stays "
-              f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish ({len(turns)} of {swum} swims). Ten body lengths behind, "
+              f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish ({len(turns)} of {sum(swum)} swims; {finer} of {len(swum) - sum(swum)} stay at half the time step). Ten body lengths behind, "
               f"{study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).**\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
     for file in sorted(HERE.glob("*.npz")):

@@ -6,8 +6,8 @@ particles, on one thread each. Writes peers.csv, where rows that it holds are ke
     python3 results/water/peers.py --splishsplash ~/splish/bin/python       # and of SPlisHSPlasH
     python3 results/water/peers.py --redo natator --natator build/release/bin
 
-The Python of --splishsplash is one with `pip install pysplishsplash`. Run times are wall times of the measured part, without the
-settling before it: run nothing beside them. "load" is how many programs were running, 1 if nothing else. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
+The Python of --splishsplash is one with `pip install pysplishsplash`. Run times are of the measured part, without the
+settling before it: wall times, of SPlisHSPlasH processor seconds (since commit 2e7b4476); run nothing beside them. "load" is how many programs were running, 1 if nothing else. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
 """
 import argparse
 import csv

@@ -99,8 +99,8 @@ TEST_P(GpuLatticeCompany, SwimsAndIsPushedAsOnTheCpu) {
     std::cout << "measured: " << GetParam().name << ": of places " << apart / moved << ", of forces "
               << difference / force << ", of the water " << beside / speed << '\n';
     EXPECT_GT(moved, 0.01);
-    // Rounding of the water's floats, whose order of sums differs: 2e-6, 1.3e-5 and 6e-6 on an H200 (a pair, in which it
-    // grows fastest), and room.
+    // Rounding of the water's floats, whose order of sums differs: 2e-6, 1.3e-5 and 6e-6 on an H200 (a pair, in which
+    // it grows fastest), and room.
     EXPECT_LT(apart, 1e-5 * moved);
     EXPECT_LT(difference, 1e-4 * force);
     EXPECT_LT(beside, 5e-5 * speed);

@@ -60,8 +60,8 @@ NATATOR_HD float neighbour_weight(int i) {
 
 /// The body's share of what the water of a cell that it comes to cover has more than it; the rest goes to the water
 /// beside. The surface then goes through the cell's centre: half of its water is still outside. With no share less
-/// friction acts where bodies cross cells, with all of it more, and their speed depends on the current
-/// (results/schools).
+/// friction acts where bodies cross cells, with all of it more, so that their speed depends on the current
+/// (tests/native/lattice_water_test.cpp, results/schools).
 constexpr float covered_share = 0.5f;
 
 /// Not fused on a GPU, which so finds the same cells in the same cubes as the CPU.

@@ -123,7 +123,8 @@ __device__ void load_moments(const float* populations, long count, unsigned at, 
     moments_of(f, m);
 }
 
-/// Of what cells that bodies come to cover have more than those, the water's part is to go to the cells beside them.
+/// Where bodies come to cover cells, these have more momentum than the body there. The water's part of that is to go to
+/// the cells beside them.
 __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count,
                       const Owners* owners) {
     const int p = cube_of_warp(count);
@@ -294,9 +295,9 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
         if (comes || leaves) {
             float m[lattice_moments];
             load_moments(before, lattice.count, at, m);
-            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0), part = leaves   ? -1
-                                                                                       : handed ? covered_share
-                                                                                                : 1;
+            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0);
+            float part = -1;  // of a cell that it leaves
+            if (comes) part = handed ? covered_share : 1;
             for (int a = 0; a < 3; ++a) j[a] += part * (m[1 + a] - density * u[a]);
         }
         for (int a = 0; a < 3; ++a) {

@@ -10,9 +10,9 @@
 namespace natator::lattice {
 
 /// Cells by which bodies are larger than their outlines on each side. Water sticks to the centres of their outer cells,
-/// which lie up to a cell inside. A slowly spinning sphere 12 cells across has 0.88, TORQUE, 0.98 and 1.01 of its
+/// which lie up to a cell inside. A slowly spinning sphere 12 cells across has 0.88, 0.92, 0.99 and 1.01 of its
 /// torque with 0, 0.1, 0.2 and 0.4. The thrust of a plate 2 cells thick along which a wave goes is 0.050, 0.034 and
-/// 0.019 with 0, 0.1 and 0.2; at a third of the cells 0.042, 0.036 and 0.032 (tests/native/lattice_water_test.cpp).
+/// 0.019 with 0, 0.1 and 0.2; with cells a third as wide 0.042, 0.036 and 0.032 (tests/native/lattice_water_test.cpp).
 constexpr double surface_offset = 0.1;
 
 /// A particle as the water sees it: a cube of body that moves, turns and is stretched with its neighbours. Lengths in

@@ -49,7 +49,7 @@ public enum EncodingKind {
         if (scene.startsWith("goals/")) {
             return SPARSE_STEERED;
         }
-        if (scene.startsWith("plane/")) {
+        if (scene.matches("plane/[a-z-]+")) {
             return WAVE;
         }
         return scene.matches("[a-z-]+/creature-2(-vacuum)?") ? SPARSE : DENSE;

@@ -15,7 +15,7 @@ public enum Preset {
             return inScene.equals(scene()) ? 20 : super.population(inScene);
         }
 
-        /** Work has a price in plane flow: without one, the tail beats far wider than that of fish for little more speed. */
+        /** Work has a price in plane flow, so that tails do not beat far wider than those of fish. */
         @Override
         public List<WeightedObjective> objectives(String inScene) {
             return inScene.equals(scene())
