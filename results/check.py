@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-KINDS = {".md", ".csv", ".json", ".jsonl", ".gz", ".npz", ".png", ".py", ".sh", ".txt"}
+KINDS = {".md", ".csv", ".json", ".jsonl", ".gz", ".html", ".npz", ".png", ".py", ".sh", ".txt"}
 LIMIT = 25_000_000
 MADE, HEAD = re.compile(r"commits? (up to )?[0-9a-f]{8}"), 1800
 ANSWER = re.compile(r"<!-- answer[^>]*-->\n\*\*(.*?)\*\*")
