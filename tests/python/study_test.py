@@ -82,7 +82,7 @@ class Check(unittest.TestCase):
         before, (code, errors) = self.check("precision", change)
         self.assertEqual((0, ""), before)
         self.assertEqual(1, code)
-        self.assertRegex(errors, r"^\S*precision-hanging-chain.png: is not what make.py makes of the data; run: results/redo.sh precision\n$")
+        self.assertRegex(errors, r"(?m)^\S*precision-hanging-chain.png: is not what make.py makes of the data; run: results/redo.sh precision$")
 
     def test_tells_of_an_answer_that_no_longer_follows(self):
         for page, name, old, new in (("convergence", "gaits.csv", "1.72,1.31,", "1.72,1.70,"), ("stability", "stability.csv", "dt,32,,,ok,,", "dt,32,,,unstable,tank,"),
