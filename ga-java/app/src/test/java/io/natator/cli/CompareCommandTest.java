@@ -129,8 +129,8 @@ class CompareCommandTest extends FakeSimulatorTest {
         for (String seed : List.of("1", "2")) {
             for (String optimizer : List.of("cma-es", "random")) {
                 String run = folder.resolve(optimizer + seed).toString();
-                ok(natator("evolve --population 8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
-                        "--output-dir", run));
+                ok(natator("evolve --population 8 --fitness distance", "--optimizer", optimizer, "--evaluations", "16",
+                        "--seed", seed, "--output-dir", run));
                 arguments.add(run);
             }
         }
