@@ -74,14 +74,18 @@ def swims(chance, rows, count, share=None):
         yield name, middle, math.nan if now.get("distance") is None else now["distance"], share * abs(middle) if share else width(others), same
 
 
-def bench(arguments, rows, keys, figures, allowed):
-    """The same of the rows that natator-sim bench ARGUMENTS makes, beside those of a page with the same keys."""
+def measured(*arguments, **environment):
+    """The rows that natator-sim bench writes."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "rows.csv"
-        simulated("bench", *arguments, "--output", file)
-        made = table(file)
+        simulated("bench", *arguments, "--output", file, **environment)
+        return table(file)
+
+
+def bench(arguments, rows, keys, figures, allowed):
+    """The same as swims, of the rows that natator-sim bench ARGUMENTS writes, beside those of a page with the same keys."""
     known = {tuple(row[key] for key in keys): row for row in rows}
-    for row in made:
+    for row in measured(*arguments):
         then = known.get(tuple(row[key] for key in keys))
         for figure in figures if then else ():
             if then[figure]:
@@ -185,10 +189,8 @@ def benchmarks(chance):
     def ratio(rows):
         seconds = {row["scheme"]: float(row["seconds_least"]) for row in rows if (row["scene"], row["instruction_set"], row["threads"]) == ("creature-1", "avx2", "1")}
         return seconds["conserving"] / seconds["flex"]
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "rows.csv"
-        simulated("bench", "speed", "--scene", "creature-1", "--repeats", 1, "--output", file, NATATOR_ISA="avx2")
-        yield "creature-1, avx2: time of conserving over that of flex", ratio(rows), ratio(table(file)), 0.3 * ratio(rows), False  # machines differ
+    now = ratio(measured("speed", "--scene", "creature-1", "--repeats", 1, NATATOR_ISA="avx2"))
+    yield "creature-1, avx2: time of conserving over that of flex", ratio(rows), now, 0.3 * ratio(rows), False  # machines differ
 
 
 def schools(chance):

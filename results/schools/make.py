@@ -75,7 +75,7 @@ def cost_alone():
 
 def pairs():
     solo = cost_alone()
-    made, locked = [], []
+    made, locked, finer = [], [], 0
     for row in sorted(rows("pair"), key=lambda row: (row["n"], row["steps"], row["gap"] or 0, row["phase"])):
         if row["role"] != "follower" or "apart" not in row:
             continue
@@ -84,14 +84,17 @@ def pairs():
         stayed = aside < ASIDE and gap.mean() > 0.1
         turn = (gap.mean() / WAVE + row["phase"]) % 1
         if stayed:
-            locked.append((turn, (row["n"], row["steps"]) == (1, 1)))
+            if (row["n"], row["steps"]) == (1, 1):
+                locked.append(turn)
+            else:
+                finer += 1
         speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
         change = np.mean(powers) / (SPEED + speeds.mean()) / solo - 1
         if aside >= ASIDE:
             continue
         made.append([f"{row['gap']}, {row['phase']}{NAMES[row['n'], row['steps']]}", study.with_error(gap.mean(), gap.std(), 2), study.fixed(turn, 2) if stayed else "",
                      study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 2), percent(change, np.std(powers / (SPEED + speeds), ddof=1) / len(speeds) ** 0.5 / solo)])
-    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), [turn for turn, scene in locked if scene], sum(not scene for _, scene in locked)
+    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), locked, finer
 
 
 def sides():
