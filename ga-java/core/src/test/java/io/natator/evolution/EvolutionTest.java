@@ -31,7 +31,8 @@ class EvolutionTest {
     private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
             EvolutionListener... listeners) {
         try (Evaluator pool = new FakePool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), new RecordedEvaluations(0, List.of())).run(null);
+            return new Evolution(settings, pool, List.of(listeners), new RecordedEvaluations(0, List.of()), null)
+                    .run(null);
         }
     }
 
@@ -114,9 +115,9 @@ class EvolutionTest {
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
         assertThat(second.subList(0, 50)).allSatisfy(one -> assertThat(firstGenes).contains(one.genes()));
         assertThat(second.subList(50, second.size())).extracting(Individual::age).containsOnly(0);
-        List<Double> tenBest = first.stream().map(one -> one.result().fitness()).sorted(Comparator.reverseOrder())
+        List<Double> tenBest = first.stream().map(Individual::fitness).sorted(Comparator.reverseOrder())
                 .limit(10).toList();
-        assertThat(second.subList(0, 10)).extracting(one -> one.result().fitness()).isEqualTo(tenBest);
+        assertThat(second.subList(0, 10)).extracting(Individual::fitness).isEqualTo(tenBest);
         assertThat(tenBest.get(0)).isPositive();
     }
 

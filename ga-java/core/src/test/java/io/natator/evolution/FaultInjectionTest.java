@@ -49,7 +49,7 @@ class FaultInjectionTest {
                     evaluations.add(evaluation);
                     then.accept(evaluations.size());
                 }
-            }), new RecordedEvaluations(0, List.of())).run(null);
+            }), new RecordedEvaluations(0, List.of()), null).run(null);
         }
         return evaluations;
     }
@@ -89,7 +89,7 @@ class FaultInjectionTest {
                     .isEqualTo(again ? Status.FAILED : Status.OK);
             if (again) {
                 assertThat(result.error()).isNotBlank();
-                assertThat(result.fitness()).isZero();
+                assertThat(result.score()).isZero();
                 failed++;
             } else {
                 assertThat(result.distance()).isCloseTo(distance(evaluation.gait()), within(1e-7));

@@ -161,8 +161,8 @@ class RepeatsTest {
     @Test
     void freshStartsAreThoseOfNoGeneration() {
         for (int number = 0; number < 1000; number++) {
-            assertThat(StartSeeds.fresh(number, number)).isGreaterThanOrEqualTo(1 << 30);
-            assertThat(StartSeeds.of(number, number, number)).isBetween(0, (1 << 30) - 1);
+            assertThat(Seeds.freshStart(number, number)).isGreaterThanOrEqualTo(1 << 30);
+            assertThat(Seeds.start(number, number, number)).isBetween(0, (1 << 30) - 1);
         }
     }
 }

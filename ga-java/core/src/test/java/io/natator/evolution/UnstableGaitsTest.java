@@ -176,10 +176,10 @@ class UnstableGaitsTest {
         assertThat(instability.law()).isNull();
         assertThat(Results.unstable(0, null).whyUnstable()).isEqualTo("unstable at 0.50 s");
         Individual one = new Individual(List.of(1.0), 0, Results.ok(1.0));
-        assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old), List.of())))
+        assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old))))
                 .isEqualTo("refused 2 of 10 evaluations: 2 broke law finite");
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one,
-                List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3)), List.of()))).isNull();
+                List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3))))).isNull();
         assertThat(new EliteMap(List.of(new Individual(List.of(1.0), 0, Results.unstable(1, "tank")),
                 new Individual(List.of(2.0), 0, one.result().withEffort(new Effort(8, 1, 2, 12))))).elites())
                 .hasSize(1);

@@ -41,7 +41,6 @@ class ProcessEvaluatorTest {
         SimulationResult result = evaluate("thesis/creature-1", PATIENCE);
 
         assertThat(result).isEqualTo(Results.ok(7, -1.3925).withScheme("flex").withHash("0000000052ffdd20"));
-        assertThat(result.fitness()).isZero();
         assertThat(result.speed()).isEqualTo(-1.3925 / 4);
     }
 
@@ -59,7 +58,7 @@ class ProcessEvaluatorTest {
 
         assertThat(result.status()).isEqualTo(Status.UNSTABLE);
         assertThat(result.distance()).isNull();
-        assertThat(result.fitness()).isZero();
+        assertThat(result.score()).isZero();
         assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "frame", 0.5, "tank"));
     }
 

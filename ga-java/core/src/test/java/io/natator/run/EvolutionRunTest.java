@@ -207,10 +207,10 @@ class EvolutionRunTest {
             double drift = evaluation.gait().frequency() - 1.0;
             if (result.distance() > 0) {
                 assertThat(result.vacuumDrift()).isEqualTo(drift);
-                assertThat(result.fitness()).isEqualTo(Math.max(result.distance() - Math.max(drift, 0), 0));
+                assertThat(result.score()).isEqualTo(result.distance() - Math.max(drift, 0));
             } else {
                 assertThat(result.vacuumDrift()).isNull();
-                assertThat(result.fitness()).isZero();
+                assertThat(result.score()).isEqualTo(result.distance());
             }
         }
         BestGait cheating = Json.read(folder.resolve("plain/best.json"), BestGait.class, "best");

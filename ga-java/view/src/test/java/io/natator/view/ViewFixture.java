@@ -49,7 +49,7 @@ final class ViewFixture {
         assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
         return new ViewServer(new ViewSettings(SIMULATOR, ViewSettings.LOOPBACK, 0,
                 new InitialScene(scene, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), KNOWN::get,
-                List.of(runs)));
+                List.of(runs), null));
     }
 
     /** Evolves creature 1 for three generations of eight, with another scheme than the scene's and no real simulator. */

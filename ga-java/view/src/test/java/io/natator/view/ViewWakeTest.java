@@ -34,7 +34,7 @@ class ViewWakeTest extends ViewBrowserTest {
     static void startPlane() throws InterruptedException {
         Gait gait = new Gait(2.0, List.of(0.4, 0.35, 0.3, 0.25, 0.2), List.of(0.0, 0.902, 0.804, 0.706, 0.608));
         plane = new ViewServer(new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0,
-                new InitialScene("plane/loach", null, gait), one -> null, List.of()));
+                new InitialScene("plane/loach", null, gait), one -> null, List.of(), null));
     }
 
     @AfterAll
