@@ -36,7 +36,7 @@ class ProgressTest {
         clock.addAndGet(TimeUnit.SECONDS.toNanos(seconds));
         progress.evaluated(
                 new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)),
-                Results.ok(distance), null));
+                        Results.ok(distance), null));
     }
 
     private Progress progress(EvolutionState from, long recorded, PrintStream terminal) {

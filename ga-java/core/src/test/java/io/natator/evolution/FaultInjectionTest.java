@@ -72,7 +72,7 @@ class FaultInjectionTest {
             throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
                 .withSize(100, Budget.NO_LIMIT).withEvaluations(count);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5))
+        ExecutionSettings execution = FakeSimulator.execution(folder)
                 .withMode(mode);
         long filesBefore = openFiles();
 

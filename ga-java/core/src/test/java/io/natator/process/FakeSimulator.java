@@ -1,6 +1,7 @@
 package io.natator.process;
 
 import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
@@ -11,6 +12,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.stream.LongStream;
 
 /** The script {@code fake-simulator.sh}, which speaks the protocol and fails in the ways that its scenes name. */
 public final class FakeSimulator {
@@ -37,8 +39,19 @@ public final class FakeSimulator {
         return new RequestRejectedException(reason, true);
     }
 
+    /** Two at a time, a process for each evaluation, which may take far longer than it can; no cache. */
+    public static ExecutionSettings execution(Path folder) {
+        return execution(folder, 300);
+    }
+
     static ExecutionSettings execution(Path folder, double timeoutSeconds) {
-        return new ExecutionSettings(in(folder), 2, Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
+        return ExecutionSettings.of(in(folder)).withMode(SimulatorMode.PROCESS).withWorkers(2)
+                .withTimeout(Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
+    }
+
+    /** So many requests of a scene, by the ids from 0. */
+    static List<SimulationRequest> requests(int count, String scene) {
+        return LongStream.range(0, count).mapToObj(id -> request(id, scene)).toList();
     }
 
     static SimulationRequest request(long id, String scene) {

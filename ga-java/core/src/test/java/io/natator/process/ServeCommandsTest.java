@@ -17,7 +17,6 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.LongStream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -55,8 +54,7 @@ class ServeCommandsTest {
     private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
             throws InterruptedException {
         try (Evaluator evaluator = Evaluator.open(settings)) {
-            return evaluator.evaluate(LongStream.range(0, requests)
-                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList());
+            return evaluator.evaluate(FakeSimulator.requests(requests, "thesis/creature-1"));
         } finally {
             assertThatNoChildIsLeft();
         }

@@ -33,7 +33,6 @@ import io.natator.protocol.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
@@ -57,7 +56,7 @@ class EvolutionRunTest {
 
     @BeforeEach
     void fake() {
-        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        execution = FakeSimulator.execution(folder);
     }
 
     /** Runs in a folder of this name; gives the number of simulations. */

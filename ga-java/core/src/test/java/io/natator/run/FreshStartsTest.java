@@ -23,7 +23,6 @@ import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -67,7 +66,7 @@ class FreshStartsTest {
     private BestGait best(int starts, Aggregate judge, Recorder simulator) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(12, 3)
                 .withStarts(starts, judge);
-        ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        ExecutionSettings how = FakeSimulator.execution(folder);
         try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
                 Evaluator pool = new FakePool(simulator, 2)) {
             BestGait best = new EvolutionRun(run).run(how, pool).best();

@@ -17,7 +17,6 @@ import io.natator.process.FakeSimulator;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -46,7 +45,7 @@ class LeadersTest {
     void theLastLeaderIsTheWinner(int starts, long seed) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 8)
                 .withStarts(starts, Aggregate.MEAN).withSeed(seed);
-        ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        ExecutionSettings how = FakeSimulator.execution(folder);
         try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
                 Evaluator pool = new FakePool(new Hurried(), 2)) {
             new EvolutionRun(run).run(how, pool);

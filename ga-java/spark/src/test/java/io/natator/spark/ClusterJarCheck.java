@@ -4,6 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.cli.Main;
 import io.natator.process.FakeSimulator;
+import io.natator.process.Processes;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -70,8 +71,8 @@ class ClusterJarCheck {
 
     @AfterEach
     void nothingIsLeft() throws IOException, InterruptedException {
-        TestCluster.await("executors end with their driver", () -> cluster.executors().isEmpty());
-        TestCluster.await("native programs end with their executors", () -> ProcessHandle.allProcesses()
+        Processes.await("executors end with their driver", () -> cluster.executors().isEmpty());
+        Processes.await("native programs end with their executors", () -> ProcessHandle.allProcesses()
                 .noneMatch(process -> process.info().arguments().map(List::of).orElse(List.of())
                         .contains(folder.resolve("fake-simulator.sh").toString())));
     }
@@ -168,7 +169,7 @@ class ClusterJarCheck {
     }
 
     private void awaitEvaluations(Path run, long count) throws IOException, InterruptedException {
-        TestCluster.await(count + " evaluations", () -> {
+        Processes.await(count + " evaluations", () -> {
             if (turns == 0 || Files.exists(folder.resolve("seen-turn-" + (turns - 1)))) {
                 Files.writeString(folder.resolve("turns"), ++turns + "\n");
             }
@@ -178,7 +179,7 @@ class ClusterJarCheck {
 
     private long killAnExecutor(Path run, long after, int which) throws IOException, InterruptedException {
         awaitEvaluations(run, after);
-        TestCluster.await("executors", () -> !cluster.executors().isEmpty());
+        Processes.await("executors", () -> !cluster.executors().isEmpty());
         List<ProcessHandle> executors = cluster.executors();
         assertThat(executors.get(which % executors.size()).destroyForcibly()).isTrue();
         return evaluations(run);
@@ -200,7 +201,7 @@ class ClusterJarCheck {
             assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
             if (kill % 10 == 9) {
                 driver.destroyForcibly().waitFor();
-                TestCluster.await("executors end with their driver", () -> cluster.executors().isEmpty());
+                Processes.await("executors end with their driver", () -> cluster.executors().isEmpty());
                 driver = cluster.submit(log, List.of(), "resume", "--no-cache", "--timeout", "3600", "--simulator-path",
                         fake.toString(), run.toString());
             }
@@ -282,7 +283,7 @@ class ClusterJarCheck {
     void waitingForExecutorsIsToldOf() throws IOException, InterruptedException {
         Process driver = evolve(fake, folder.resolve("run"), List.of("spark.executor.memory=40g"), "--creature", "1");
         try {
-            TestCluster.await("a line about it",
+            Processes.await("a line about it",
                     () -> Files.readString(log).contains("no executor for 30 s; are there workers at "
                             + cluster.master() + " with enough free memory (40g, --executor-memory) and cores?"));
         } finally {

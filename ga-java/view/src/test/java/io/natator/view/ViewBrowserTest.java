@@ -5,6 +5,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
 import io.natator.config.Json;
+import io.natator.process.Processes;
 import java.io.IOException;
 import java.net.URI;
 import java.net.URLEncoder;
@@ -44,7 +45,7 @@ abstract class ViewBrowserTest extends BrowserTest {
 
     @BeforeEach
     void noSimulatorIsLeft() throws InterruptedException {
-        ViewFixture.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+        Processes.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
     }
 
     @Override

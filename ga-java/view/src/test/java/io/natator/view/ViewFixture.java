@@ -22,7 +22,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
-import java.util.function.BooleanSupplier;
 
 /** Servers with the real simulator, and its processes. */
 final class ViewFixture {
@@ -99,14 +98,5 @@ final class ViewFixture {
         List<ProcessHandle> all = simulators(ProcessHandle.current());
         assertThat(all).hasSize(1);
         return all.get(0);
-    }
-
-    /** Waits until something holds. */
-    static void await(String what, BooleanSupplier holds) throws InterruptedException {
-        long end = System.nanoTime() + PATIENCE_SECONDS * 1_000_000_000L;
-        while (!holds.getAsBoolean()) {
-            assertThat(System.nanoTime()).as("%s within %d s", what, PATIENCE_SECONDS).isLessThan(end);
-            Thread.sleep(10);
-        }
     }
 }

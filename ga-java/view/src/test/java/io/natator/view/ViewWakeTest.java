@@ -4,7 +4,6 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.encoding.Gait;
-import java.awt.Color;
 import java.awt.image.BufferedImage;
 import java.util.ArrayList;
 import java.util.List;
@@ -102,16 +101,8 @@ class ViewWakeTest extends ViewBrowserTest {
 
     /** Share of the pixels that differ. */
     private static double changed(BufferedImage one, BufferedImage other) {
-        int found = 0;
-        for (int y = 0; y < one.getHeight(); y++) {
-            for (int x = 0; x < one.getWidth(); x++) {
-                Color was = new Color(one.getRGB(x, y));
-                Color is = new Color(other.getRGB(x, y));
-                found += Math.max(Math.abs(was.getRed() - is.getRed()),
-                        Math.abs(was.getBlue() - is.getBlue())) > STRENGTH ? 1 : 0;
-            }
-        }
-        return found / (double) (one.getWidth() * one.getHeight());
+        return share(one, other, (was, is) -> Math.max(Math.abs(was.getRed() - is.getRed()),
+                Math.abs(was.getBlue() - is.getBlue())) > STRENGTH);
     }
 
     @Test
@@ -137,16 +128,11 @@ class ViewWakeTest extends ViewBrowserTest {
 
     /** Share of the pixels that are as violet or as green as what turns. */
     private static double turning(BufferedImage picture) {
-        int found = 0;
-        for (int y = 0; y < picture.getHeight(); y++) {
-            for (int x = 0; x < picture.getWidth(); x++) {
-                Color colour = new Color(picture.getRGB(x, y));
-                int green = colour.getGreen() - Math.max(colour.getRed(), colour.getBlue());
-                int violet = Math.min(colour.getRed(), colour.getBlue()) - colour.getGreen();
-                found += green > STRENGTH || violet > STRENGTH ? 1 : 0;
-            }
-        }
-        return found / (double) (picture.getWidth() * picture.getHeight());
+        return share(picture, picture, (colour, same) -> {
+            int green = colour.getGreen() - Math.max(colour.getRed(), colour.getBlue());
+            int violet = Math.min(colour.getRed(), colour.getBlue()) - colour.getGreen();
+            return green > STRENGTH || violet > STRENGTH;
+        });
     }
 
     @Test
