@@ -17,7 +17,6 @@ import io.natator.process.SceneInfo;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import java.util.SplittableRandom;
 import java.util.stream.LongStream;
@@ -70,7 +69,7 @@ class RealBodyTest {
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
                 settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random))))
                 .toList();
-        ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
+        ExecutionSettings execution = ExecutionSettings.of(SIMULATOR).withMode(SimulatorMode.PROCESS).withWorkers(2);
 
         List<String> alone = hashes(requests, execution);
 

@@ -19,7 +19,6 @@ import io.natator.protocol.SimulationResult.Status;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -110,8 +109,7 @@ class FaultInjectionTest {
     void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
                 .withSize(20, Budget.NO_LIMIT).withEvaluations(40L);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5))
-                .withMode(mode);
+        ExecutionSettings execution = FakeSimulator.execution(folder, 5).withMode(mode);
 
         assertThat(evolve(settings, execution, done -> {
         })).hasSize(40).allSatisfy(evaluation -> {

@@ -1,5 +1,8 @@
 package io.natator.process;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
@@ -22,16 +25,18 @@ public final class FakeSimulator {
 
     /** Puts the script into a folder of its own, where it may leave marks. */
     public static Path in(Path folder) {
-        Path script = folder.resolve("fake-simulator.sh");
         try (InputStream source = FakeSimulator.class.getResourceAsStream("/fake-simulator.sh")) {
-            Files.copy(source, script);
+            return program(folder.resolve("fake-simulator.sh"), new String(source.readAllBytes(), UTF_8));
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }
-        if (!script.toFile().setExecutable(true)) {
-            throw new IllegalStateException(script + " cannot be made executable");
-        }
-        return script;
+    }
+
+    /** A program of this text, such as a script with its first line. */
+    public static Path program(Path file, String text) throws IOException {
+        Files.writeString(file, text);
+        assertThat(file.toFile().setExecutable(true)).isTrue();
+        return file;
     }
 
     /** What a simulator's refusal of a request is on this side. */
@@ -44,7 +49,8 @@ public final class FakeSimulator {
         return execution(folder, 300);
     }
 
-    static ExecutionSettings execution(Path folder, double timeoutSeconds) {
+    /** The same with another time limit. */
+    public static ExecutionSettings execution(Path folder, double timeoutSeconds) {
         return ExecutionSettings.of(in(folder)).withMode(SimulatorMode.PROCESS).withWorkers(2)
                 .withTimeout(Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
     }

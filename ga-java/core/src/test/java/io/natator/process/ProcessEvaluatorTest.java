@@ -12,7 +12,6 @@ import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulationResult.Status;
 import io.natator.protocol.SwimmingNumbers;
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -65,12 +64,12 @@ class ProcessEvaluatorTest {
     /** A request larger than a pipe holds, to a program that does not read it. */
     @Test
     void aProgramThatDoesNotReadCannotBlockTheCaller() throws InterruptedException, IOException {
-        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
-        assertThat(deaf.toFile().setExecutable(true)).isTrue();
+        Path deaf = FakeSimulator.program(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
         ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
         SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
 
-        try (Evaluator simulator = new ProcessEvaluator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+        try (Evaluator simulator = new ProcessEvaluator(
+                ExecutionSettings.of(deaf).withTimeout(Duration.ofMillis(300)))) {
             assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
         }
         assertThatNoChildIsLeft();
@@ -84,8 +83,7 @@ class ProcessEvaluatorTest {
     /** As on a machine that has other work; nobody holds the pipes open any more. */
     @Test
     void whatIsReadLateIsReadWhole() throws Exception {
-        Path program = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
-        assertThat(program.toFile().setExecutable(true)).isTrue();
+        Path program = FakeSimulator.program(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
         try (NativeProgram late = new NativeProgram(program, Duration.ofMinutes(5))) {
             NativeProgram.Output output = late.call(List.of(), "", line -> sleep(3));
 

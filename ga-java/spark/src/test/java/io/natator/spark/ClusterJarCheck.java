@@ -48,9 +48,8 @@ class ClusterJarCheck {
     static void startCluster() throws IOException, InterruptedException {
         cluster = new TestCluster(shared);
         for (int gpu = 5; gpu <= 6; gpu++) {
-            Path discovery = shared.resolve("gpu-" + gpu);
-            Files.writeString(discovery, "#!/bin/sh\necho '{\"name\":\"gpu\",\"addresses\":[\"" + gpu + "\"]}'\n");
-            assertThat(discovery.toFile().setExecutable(true)).isTrue();
+            Path discovery = FakeSimulator.program(shared.resolve("gpu-" + gpu),
+                    "#!/bin/sh\necho '{\"name\":\"gpu\",\"addresses\":[\"" + gpu + "\"]}'\n");
             cluster.addWorker(Map.of(), List.of("-Dspark.worker.resource.gpu.amount=1",
                     "-Dspark.worker.resource.gpu.discoveryScript=" + discovery), "");
         }
@@ -78,10 +77,8 @@ class ClusterJarCheck {
     }
 
     private Path script(String text) throws IOException {
-        Path script = folder.resolve("simulator");
-        Files.writeString(script, "#!/bin/bash\n" + text.replace("FOLDER", folder.toString()) + "\n");
-        assertThat(script.toFile().setExecutable(true)).isTrue();
-        return script;
+        return FakeSimulator.program(folder.resolve("simulator"),
+                "#!/bin/bash\n" + text.replace("FOLDER", folder.toString()) + "\n");
     }
 
     /** A run on this machine, a process for each evaluation. */

@@ -77,13 +77,14 @@ final class ViewFixture {
                 .withEvolve(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
                         EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
         Path run = folder.resolve("bodies-run");
-        new Natator(new ExecutionSettings(simulator, 2, null))
+        new Natator(ExecutionSettings.of(simulator).withWorkers(2))
                 .evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
         return run;
     }
 
     private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {
-        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, null),
+        new Natator(ExecutionSettings.of(simulator).withWorkers(2)).evolve(
+                settings.withScene(Scheme.CONSERVING, 2.0, null),
                 run);
         return run;
     }
