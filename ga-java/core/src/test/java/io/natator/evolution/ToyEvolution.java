@@ -67,7 +67,7 @@ public final class ToyEvolution {
     /** Keeps all that a run folder keeps. */
     public static final class Recorder implements EvolutionListener {
         public final List<EvolutionState> states = new ArrayList<>();
-        final List<EvaluationRecord> evaluations = new ArrayList<>();
+        public final List<EvaluationRecord> evaluations = new ArrayList<>();
         final List<Integer> announced = new ArrayList<>();
 
         @Override

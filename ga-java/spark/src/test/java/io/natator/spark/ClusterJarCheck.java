@@ -137,12 +137,8 @@ class ClusterJarCheck {
     /** Each is killed while generations are under way; then the driver, which is continued by another. */
     @Test
     void killedExecutorsAndAKilledDriverChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations",
-                "4", "--seed", "3"};
-        alone(fake, folder.resolve("alone"), settings);
-        inTurns();
         Path run = folder.resolve("run");
-        Process driver = evolve(fake, run, List.of(), settings);
+        Process driver = beginInTurns(run, 40, 4);
         long before = 0;
         for (int kill = 0; kill < 2; kill++) {
             before = killAnExecutor(run, before + 10, kill);
@@ -154,15 +150,23 @@ class ClusterJarCheck {
         assertThat(logged).isLessThan(evaluations(folder.resolve("alone")));
         Files.delete(folder.resolve("turns"));
 
-        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(),
-                run.toString()));
+        assertSucceeds(resume(run));
 
         assertSame(run, folder.resolve("alone"));
     }
 
-    /** From here on there are evaluations only while they are waited for: no run gets to its end before it is looked at. */
-    private void inTurns() throws IOException {
+    /** There are evaluations only while they are waited for: no run gets to its end before it is looked at. */
+    private Process beginInTurns(Path run, int population, int generations) throws IOException {
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "" + population,
+                "--generations", "" + generations, "--seed", "3"};
+        alone(fake, folder.resolve("alone"), settings);
         Files.writeString(folder.resolve("turns"), "0\n");
+        return evolve(fake, run, List.of(), settings);
+    }
+
+    private Process resume(Path run) throws IOException {
+        return cluster.submit(log, List.of(), "resume", "--no-cache", "--timeout", "3600", "--simulator-path",
+                fake.toString(), run.toString());
     }
 
     private void awaitEvaluations(Path run, long count) throws IOException, InterruptedException {
@@ -186,12 +190,8 @@ class ClusterJarCheck {
     @Test
     @Tag("nightly")
     void fiftyKillsChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "150", "--generations",
-                "12", "--seed", "3"};
-        alone(fake, folder.resolve("alone"), settings);
-        inTurns();
         Path run = folder.resolve("run");
-        Process driver = evolve(fake, run, List.of(), settings);
+        Process driver = beginInTurns(run, 150, 12);
         long before = 0;
         for (int kill = 0; kill < Integer.getInteger("spark.kills", 50); kill++) {
             before = killAnExecutor(run, before + 10, kill);
@@ -199,8 +199,7 @@ class ClusterJarCheck {
             if (kill % 10 == 9) {
                 driver.destroyForcibly().waitFor();
                 Processes.await("executors end with their driver", () -> cluster.executors().isEmpty());
-                driver = cluster.submit(log, List.of(), "resume", "--no-cache", "--timeout", "3600", "--simulator-path",
-                        fake.toString(), run.toString());
+                driver = resume(run);
             }
         }
         Files.delete(folder.resolve("turns"));

@@ -55,7 +55,8 @@ final class ViewFixture {
     static Path evolve(Path folder) throws InterruptedException {
         return evolve(FakeSimulator.in(folder), folder.resolve("my-run"),
                 EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                        .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05));
+                        .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05),
+                null);
     }
 
     /** Two runs of more than one gait in {@link #SCENE}, likewise: the best of each kind, and by two objectives. */
@@ -64,9 +65,10 @@ final class ViewFixture {
         Files.createFile(folder.resolve("tired"));
         EvolutionSettings settings = EvolutionSettings.of(SCENE, EncodingKind.DENSE, 2).withSize(20, 3).withSeed(5);
         return new Path[] {
-                evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
+                evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null),
+                        null),
                 evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
-                        WeightedObjective.parse("distance,work")))};
+                        WeightedObjective.parse("distance,work")), null)};
     }
 
     /** A run of bodies in vacuum, likewise. */
@@ -76,16 +78,13 @@ final class ViewFixture {
         EvolutionSettings settings = EvolutionSettings.of("pool/eel", EncodingKind.SPARSE, 8).withSize(6, 5)
                 .withEvolve(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
                         EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
-        Path run = folder.resolve("bodies-run");
-        new Natator(ExecutionSettings.of(simulator).withWorkers(2))
-                .evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
-        return run;
+        return evolve(simulator, folder.resolve("bodies-run"), settings, vacuum);
     }
 
-    private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {
-        new Natator(ExecutionSettings.of(simulator).withWorkers(2)).evolve(
-                settings.withScene(Scheme.CONSERVING, 2.0, null),
-                run);
+    private static Path evolve(Path simulator, Path run, EvolutionSettings settings, JsonNode overrides)
+            throws InterruptedException {
+        new Natator(ExecutionSettings.of(simulator).withWorkers(2))
+                .evolve(settings.withScene(Scheme.CONSERVING, 2.0, overrides), run);
         return run;
     }
 
