@@ -50,7 +50,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
         ok(natator("show", path("minnow one"))).contains("natator view --run " + run + " swims them");
 
         Files.writeString(folder.resolve("slow"), "0.2");
-        ok(evolve("one cut", "--workers", "1", "--stop-after", "4"));
+        ok(evolve("one cut", "--workers", "1", "--stop-after", "1"));
         assertThat(err.toString())
                 .endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
         ok(natator("show", path("one cut")))

@@ -109,7 +109,7 @@ class FaultInjectionTest {
     void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
                 .withSize(20, Budget.NO_LIMIT).withEvaluations(40L);
-        ExecutionSettings execution = FakeSimulator.execution(folder, 5).withMode(mode);
+        ExecutionSettings execution = FakeSimulator.execution(folder, 3).withMode(mode);
 
         assertThat(evolve(settings, execution, done -> {
         })).hasSize(40).allSatisfy(evaluation -> {

@@ -75,7 +75,7 @@ class BatchEvaluatorTest {
         List<SimulationRequest> requests = new ArrayList<>(FakeSimulator.requests(4, "thesis/creature-1"));
         requests.set(2, FakeSimulator.request(2, "fault/hang"));
 
-        assertThat(evaluate(requests, 10)).extracting(SimulationResult::status)
+        assertThat(evaluate(requests, 3)).extracting(SimulationResult::status)
                 .containsExactly(Status.OK, Status.OK, Status.FAILED, Status.OK);
     }
 

@@ -75,13 +75,6 @@ class ViewPictureTest extends ViewBrowserTest {
         assertThat(get("drawing")).hasValue(name.equals("processor") ? "plain" : "auto");
     }
 
-    /** What is seen of a picture that nothing changes any more, from its first sample on: those to come only smooth it. */
-    private BufferedImage restingPicture() {
-        awaitDrawings(3);
-        await("natator.samples() > 0");
-        return picture(get("picture-a"));
-    }
-
     /**
      * Slows the page down, so that it draws with less detail; notes each picture that it shows black. Only what is drawn or
      * emptied between two pictures of the screen can be read: afterwards the screen has it, and reading gives black.
