@@ -14,9 +14,14 @@ SMALL = ["--num-envs", "3", "--steps", "8", "--rollouts", "4", "--env", '{"durat
 
 
 class LearnTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        compiled = cls.enterClassContext(tempfile.TemporaryDirectory())  # the same for tasks of as many inputs
+        cls.environment = {**os.environ, "JAX_PLATFORMS": "cpu", "JAX_COMPILATION_CACHE_DIR": compiled, "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0"}
+
     def run_in(self, folder, *arguments):
         done = subprocess.run([sys.executable, SCRIPT, folder, *arguments, *SMALL], capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "JAX_PLATFORMS": "cpu"})
+                              env=self.environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         return [line for line in done.stdout.splitlines() if "body lengths" in line]
 
