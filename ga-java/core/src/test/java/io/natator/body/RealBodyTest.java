@@ -17,6 +17,7 @@ import io.natator.process.SceneInfo;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
+import java.time.Duration;
 import java.util.List;
 import java.util.SplittableRandom;
 import java.util.stream.LongStream;
@@ -69,7 +70,8 @@ class RealBodyTest {
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
                 settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random))))
                 .toList();
-        ExecutionSettings execution = ExecutionSettings.of(SIMULATOR).withMode(SimulatorMode.PROCESS).withWorkers(2);
+        ExecutionSettings execution = ExecutionSettings.of(SIMULATOR).withMode(SimulatorMode.PROCESS).withWorkers(2)
+                .withTimeout(Duration.ofMinutes(5));
 
         List<String> alone = hashes(requests, execution);
 

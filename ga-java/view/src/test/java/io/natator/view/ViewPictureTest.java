@@ -47,6 +47,7 @@ class ViewPictureTest extends ViewBrowserTest {
     @ParameterizedTest
     @CsvSource({"webgl, WebGL", "plain, processor"})
     void bothWaysOfDrawingShowIt(String drawing, String name) {
+        page.setViewportSize(480, 360);
         open(water, FEW_PIXELS);
         pauseAt(3);
         get("drawing").selectOption(drawing);
