@@ -240,8 +240,7 @@ class ClusterJarCheck {
     @Tag("nightly")
     void evolutionsAtTheSameTimeShareTheCluster() throws IOException, InterruptedException {
         List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--seeds", "4",
-                "--evaluations", "30",
-                "--creature", "1", "--output-dir");
+                "--evaluations", "30", "--scene", "thesis/creature-1", "--output-dir");
         List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator", "process"));
         arguments.addAll(settings);
         arguments.add(folder.resolve("alone").toString());
