@@ -205,8 +205,8 @@ abstract class BrowserTest {
     static double share(BufferedImage one, BufferedImage other, BiPredicate<Color, Color> condition) {
         int[] were = pixels(one);
         int[] are = pixels(other);
-        return IntStream.range(0, were.length).filter(i -> condition.test(new Color(were[i]), new Color(are[i])))
-                .count()
-                / (double) were.length;
+        long count = IntStream.range(0, were.length)
+                .filter(i -> condition.test(new Color(were[i]), new Color(are[i]))).count();
+        return count / (double) were.length;
     }
 }
