@@ -43,6 +43,10 @@ class LearnTest(unittest.TestCase):
             self.assertEqual([line.split(": ")[0] for line in told[0]], ["turn, overrides {}", "turn, overrides {'solver'"])
             self.assertNotEqual(*(line.split(": ")[-1] for line in told[0]))  # other steps, other swims
             self.assertEqual(*told, "what is learned swims again with the same bits")
+            first = Path(folder, "policy.json").read_bytes()
+        with tempfile.TemporaryDirectory() as folder:
+            self.run_in(folder, "turn", "--check", '{"solver": {"substeps": 12}}')
+            self.assertEqual(Path(folder, "policy.json").read_bytes(), first, "a seed learns the same")
 
 
 if __name__ == "__main__":
