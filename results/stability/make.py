@@ -19,8 +19,25 @@ def breaches(runs, scheme):
     return f"{values}: {', '.join(dict.fromkeys(broken.law))}, {how}"
 
 
+def in_lattice():
+    """What the answer says of scheme `lattice`, and for each axis and scene where a swim ends as unstable or is refused."""
+    table = pandas.read_csv(HERE / "lattice.csv")
+    rows = []
+    for axis, of_axis in table.groupby("axis", sort=False):
+        row = [axis, f"{of_axis.value.min():g} to {of_axis.value.max():g}"]
+        for _, own in of_axis.groupby("scene", sort=False):
+            ends = [", ".join(f"{value:g}" for value in own[own.status == status].value) + f": {how}" for status, how in (("unstable", "mach"), ("error", "refused"))
+                    if (own.status == status).any()]
+            row.append("; ".join(ends) or "–")
+        rows.append(row)
+    laws = table[table.status == "unstable"].why
+    if set(laws) != {"mach"}:
+        raise ValueError(f"lattice.csv: laws {sorted(set(laws))}; expected mach alone")
+    return f"In `lattice` {len(laws)} of {len(table)} do, by the law mach, and {(table.status == 'error').sum()} are refused.", study.table(["axis", "range", *table.scene.unique()], rows, "<<<<")
+
+
 def make(folder):
-    table = pandas.read_csv(HERE / "stability.csv")
+    table, (of_lattice, lattice) = pandas.read_csv(HERE / "stability.csv"), in_lattice()
     single, pairs = table[table.second_axis.isna()], table[table.second_axis.notna()]
     tank = single[(single.scene == "small-tank") & (single.precision == "float")]
     rows = [[axis, f"{own.value.min():g} to {own.value.max():g}", *(breaches(own, scheme) for scheme in SCHEMES)] for axis, own in tank.groupby("axis", sort=False)]
@@ -36,11 +53,11 @@ def make(folder):
     broken = table[table.status != "ok"].scheme.value_counts()
     finite = "No value was infinite. " if not (table.law == "finite").any() else ""
     answer = f"**Of {len(table)} runs {broken.get('flex', 0)} in `flex` and {broken.get('conserving', 0)} in `conserving` break a law.** {finite}" \
-             + f"Double and float differ in that at {otherwise} of {len(both)} points.\n"
+             + f"Double and float differ in that at {otherwise} of {len(both)} points. {of_lattice}\n"
     (folder / "README.md").write_text(study.filled(
         HERE / "README.md", answer=answer, axes=study.table(["axis", "range", *SCHEMES], [row for row in rows if row[2:] != ["–", "–"]], "<<<<")
         + f"\nNowhere: {', '.join(calm)}.\n", scenes=study.table(["scene", *SCHEMES], scenes, "<<<"),
-        pairs=study.table(["two things", *SCHEMES], two)), encoding="utf-8")
+        pairs=study.table(["two things", *SCHEMES], two), lattice=lattice), encoding="utf-8")
 
 
 study.main(make)
