@@ -3,7 +3,7 @@ import pathlib
 
 import numpy as np
 import pandas
-from scipy import optimize
+from scipy import optimize, stats
 import study
 
 HERE = pathlib.Path(__file__).parent
@@ -86,10 +86,27 @@ def float_beside_double(table):
             + f". Double takes {times['flex']:.1f} times the time in `flex`, {times['conserving']:.1f} times in `conserving` (median).\n")
 
 
+def swims():
+    """What the answer says, and a row for each time step of a whole swim: distance, how far that is from the finest step's, both with half the 95 % interval (Student's t), and the time."""
+    rows, answers = [], []
+    for (scheme, scene), own in pandas.read_csv(HERE / "swims.csv").groupby(["scheme", "scene"], sort=False):
+        error = own.standard_deviation * own.starts**-0.5
+        interval = error * stats.t.ppf(0.975, own.starts - 1)
+        finest, differ = own.index[-1], 0
+        for k in own.index:
+            both = np.hypot(error[k], error[finest]) * stats.t.ppf(0.975, own.starts[k] + own.starts[finest] - 2)
+            off = own.distance[k] - own.distance[finest]
+            differ += abs(off) > both
+            off = "" if k == finest else study.with_error(off, both, 3)
+            rows.append([f"`{scheme}`, {scene}" if k == own.index[0] else "", str(own.substeps[k]), study.with_error(own.distance[k], interval[k], 3), off, f"{own.seconds[k]:.2g}"])
+        answers.append(f"{differ} of {len(own) - 1} in `{scheme}`")
+    return f"Whole swims go another distance than at the smallest time step by {', '.join(answers)} of the larger ones.", study.table(["swim", "substeps", "distance in 4 s", "off the finest", "processor s"], rows)
+
+
 def make(folder):
     table = pandas.read_csv(HERE / "precision.csv")
-    answer, falls = scenes(table)
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, scenes=falls, settings=settings(table), momentum=momentum(table), float=float_beside_double(table)),
+    (answer, falls), (of_swims, whole) = scenes(table), swims()
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer.rstrip() + f" {of_swims}\n", scenes=falls, settings=settings(table), momentum=momentum(table), float=float_beside_double(table), swims=whole),
                                       encoding="utf-8")
     # a setting that equals the reference has no error, and no place on a logarithmic axis
     table = table[(table.status == "ok") & (table[TIME] > 0) & (table[ERROR] > 0)]

@@ -1,4 +1,4 @@
-"""The page's figures, of the fresh runs, the twelve candidates and the winner at half the spacing."""
+"""The page's figures: of fresh swims of the fry in `lattice`; of the eel's fresh runs, its twelve candidates and the winner at half the spacing."""
 import csv
 import json
 import math
@@ -9,8 +9,7 @@ from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
-VISCOSITY, SECONDS = 0.002, 4  # as set, units²/s; of a run
-MASS = 142 * 0.421875  # of the body's particles
+SECONDS = 4  # of a run
 
 
 def lines(name):
@@ -25,6 +24,44 @@ def sample(values):
 
 def ranges(values, decimals):
     return " to ".join(study.fixed(end, decimals) for end in (min(values), max(values)))
+
+
+LENGTH = 1.45  # of the fry's particles
+LEVELS = ("cells of 0.025", "cells of 0.01875", "… half the time step", "cells of 0.0125")  # lattice.py's
+
+
+def fry():
+    """Answer and tables of the fry: speeds by seed and level, until 4 s or a wall."""
+    found = {}
+    for one in lines("lattice/fresh.jsonl"):
+        if one["status"] != "ok":
+            raise ValueError(f"lattice/fresh.jsonl: swim {one['id']} is {one['status']}")
+        seed, number = divmod(one["id"], 1000)
+        found.setdefault((seed, number if number > 900 else number // 100), []).append(one)
+    speed = {key: [one["distance"] / one["simulated"] / LENGTH for one in own] for key, own in found.items()}
+    seeds = sorted({seed for seed, _ in found})
+
+    def cell(seed, level):
+        mean, _, interval = sample(speed[seed, level])
+        return study.with_error(mean, interval, 3)
+
+    rows = [[name] + [cell(seed, level) for seed in seeds] for level, name in enumerate(LEVELS)]
+    rows += [[name] + [study.fixed(speed[seed, number][0], 3) for seed in seeds] for number, name in ((902, "… in a tank 1.65 by 1.95, one swim"), (901, "… at rest, one swim"))]
+    best = max(seeds, key=lambda seed: statistics.fmean(speed[seed, 1]))
+    mean = {level: statistics.fmean(speed[best, level]) for level in range(len(LEVELS))}
+    (base, _, interval), others = sample(speed[best, 1]), [statistics.fmean(speed[seed, 1]) for seed in seeds if seed != best]
+    answer = f"**In `lattice` an evolved fry swims {study.with_error(base, interval, 2)} body lengths/s, {study.fixed(mean[2], 2)} at half the time step, {study.fixed(mean[0], 2)} " \
+             f"in cells a third wider and {study.fixed(mean[3], 2)} in cells a third narrower;** two other evolutions {' and '.join(study.fixed(one, 2) for one in others)}. "
+    swims = [one["swimming"] for one in found[best, 1]]
+    reynolds, strouhal = (statistics.fmean(one[name] for one in swims) for name in ("reynolds", "strouhal"))
+    frequency = json.loads((HERE / f"lattice/seed-{best}-best.json").read_text(encoding="utf-8"))["gait"]["frequency"]
+    finer = found[best, 3][0]["swimming"]["strouhal"]
+    does = f"- {frequency:.2f} beats/s, {study.fixed(base / frequency, 2)} lengths in each (eels 0.26 to 0.5: Kern and Koumoutsakos 2006)\n" \
+           f"- Reynolds number {reynolds:.0f}, Strouhal number {study.fixed(strouhal, 2)} ({study.fixed(finer, 2)} in the finest cells): " \
+           f"{study.fixed(strouhal / study.larva(reynolds), 1)} times a larva's\n" \
+           f"- tail beat {study.fixed(statistics.fmean(one['tailAmplitude'] for one in swims) / LENGTH, 2)} lengths, two to three times a fish's\n" \
+           f"- turn in 4 s: {ranges([abs(math.degrees(one['course']['yaw'])) for one in found[best, 1]], 0)} degrees\n"
+    return answer, study.table(["body lengths/s by seed"] + list(map(str, seeds)), rows), does
 
 
 def make(folder):
@@ -65,26 +102,12 @@ def make(folder):
         row("… by the starts that chose it", best["estimate_bl_s"], best["estimate_se"]),
         ["… mean of the twelve candidates", study.with_error(mean, sum(weights)**-0.5, 3), ""],
         ["with muscles at rest", study.fixed(statistics.fmean(ways["rest"]), 3), ""]])
-    water = study.water_viscosity(VISCOSITY)
-    swims, halves = ([one["swimming"] for one in runs[name]] for name in ("base", "half"))
-    reynolds = statistics.fmean(one["reynolds"] for one in swims)
-    own, strouhal = reynolds * VISCOSITY / water, [one["strouhal"] for one in swims]
-    work = statistics.fmean(one["work"] / one["distance"] for one in runs["base"])
-    speed = base * length
-    answer = f"**An evolved eel swims {study.fixed(base, 2)} body lengths/s at a spacing of 0.1 and {study.fixed(levels['spacing/2'], 2)} at half of it; " \
-             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)}.** It was chosen from twelve, of which eleven do " \
+    of_fry, fry_speeds, fry_does = fry()
+    answer = of_fry + f"In `conserving` an eel swims {study.fixed(base, 2)} at a spacing of 0.1 and {study.fixed(levels['spacing/2'], 2)} at half of it; " \
+             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)}. It was chosen from twelve, of which eleven do " \
              f"not differ (χ² = {chi:.1f}, {len(alike) - 1} degrees of freedom, p = {stats.chi2.sf(chi, len(alike) - 1):.2f}); their mean estimate is " \
              f"{study.with_error(mean, sum(weights)**-0.5, 2)}, as one has that was not selected.\n"
-    does = f"- frequency: {frequency:.2f} beats/s\n" \
-           f"- Reynolds number: {reynolds:.0f} by the set viscosity, {own:.0f} by [the water's](../water/README.md)\n" \
-           f"- Strouhal number: {ranges(strouhal, 2)}, {ranges([one / study.larva(own) for one in strouhal], 1)} times a larva's at {own:.0f}; at half the " \
-           f"time step {ranges([one['strouhal'] for one in halves], 2)}\n" \
-           f"- tail beat: {study.fixed(statistics.fmean(one['tailAmplitude'] for one in swims) / length, 2)} body lengths (half the time step: " \
-           f"{study.fixed(statistics.fmean(one['tailAmplitude'] for one in halves) / length, 2)}), two to three times a fish's\n" \
-           f"- cost of transport: {work:.0f} mass · length/s²; of a unit of the body's mass {study.fixed(work / MASS, 0)} length/s², " \
-           f"{study.fixed(work / MASS / (speed**2 / length), 0)} U²/L\n" \
-           f"- turn in 4 s: {ranges([abs(math.degrees(one['course']['yaw'])) for one in runs['base'] + runs['half']], 0)} degrees\n"
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, speeds=speeds, does=does), encoding="utf-8")
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, fry_speeds=fry_speeds, fry_does=fry_does, speeds=speeds), encoding="utf-8")
 
 
 study.main(make)

@@ -241,7 +241,7 @@ TEST(PlaneFlow, ShiftsNothingOutOfTheMiddle) {
     for (const Eigen::Vector3d& place : model.position) EXPECT_EQ(place.y(), 0.01);
 }
 
-TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
+TEST(PlaneFlow, RefusesWhatIsNotPlane) {
     const auto refusal = [](const json& creature) {
         return test::refusal_of([&] { build_model(load_scene("plane/loach", json{{"creature", creature}})); });
     };
@@ -252,6 +252,9 @@ TEST(PlaneFlow, RefusesBodiesThatAreNotPlane) {
         refusal({{"slices", {{{"height", 2}, {"width", 4}, {"count", 30}}}}, {"joints", {10, 20}}, {"spacing", 0.02}}),
         "scene \"plane/loach\": scheme lattice: creature.slices[0].height = 2: must be 1 in water that is one "
         "cell deep");
+    EXPECT_EQ(
+        test::refusal_of([] { build_model(load_scene("plane/loach", json{{"solver", {{"gravity", {0, -1, 0}}}}})); }),
+        "scene \"plane/loach\": scheme lattice: solver.gravity[1] = -1: must be 0 in water that is one cell deep");
 }
 
 TEST(LatticeSwim, RefusesWhatItHasNot) {

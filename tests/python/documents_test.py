@@ -8,6 +8,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -22,7 +23,7 @@ class DocumentsTest(unittest.TestCase):
         blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
         self.assertGreaterEqual(len(blocks), 5)
         for block in blocks:
-            with self.subTest(block.splitlines()[0]), contextlib.redirect_stdout(io.StringIO()) as said:
+            with self.subTest(block.splitlines()[0]), tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()) as said:
                 exec(compile(block, "README.md", "exec"), {"__name__": "__main__"})
             self.assertTrue(said.getvalue().strip(), block)
 

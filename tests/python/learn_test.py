@@ -14,9 +14,14 @@ SMALL = ["--num-envs", "3", "--steps", "8", "--rollouts", "4", "--env", '{"durat
 
 
 class LearnTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        compiled = cls.enterClassContext(tempfile.TemporaryDirectory())  # the same for tasks of as many inputs
+        cls.environment = {**os.environ, "JAX_PLATFORMS": "cpu", "JAX_COMPILATION_CACHE_DIR": compiled, "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0"}
+
     def run_in(self, folder, *arguments):
         done = subprocess.run([sys.executable, SCRIPT, folder, *arguments, *SMALL], capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "JAX_PLATFORMS": "cpu"})
+                              env=self.environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         return [line for line in done.stdout.splitlines() if "body lengths" in line]
 
@@ -38,6 +43,10 @@ class LearnTest(unittest.TestCase):
             self.assertEqual([line.split(": ")[0] for line in told[0]], ["turn, overrides {}", "turn, overrides {'solver'"])
             self.assertNotEqual(*(line.split(": ")[-1] for line in told[0]))  # other steps, other swims
             self.assertEqual(*told, "what is learned swims again with the same bits")
+            first = Path(folder, "policy.json").read_bytes()
+        with tempfile.TemporaryDirectory() as folder:
+            self.run_in(folder, "turn", "--check", '{"solver": {"substeps": 12}}')
+            self.assertEqual(Path(folder, "policy.json").read_bytes(), first, "a seed learns the same")
 
 
 if __name__ == "__main__":

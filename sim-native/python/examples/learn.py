@@ -9,12 +9,12 @@ import time
 
 import flax.linen as nn
 import numpy as np
-from skrl import config
 from skrl.agents.jax.ppo import PPO
 from skrl.envs.wrappers.jax import wrap_env
 from skrl.memories.jax import RandomMemory
 from skrl.models.jax import DeterministicMixin, GaussianMixin, Model
 from skrl.trainers.jax import SequentialTrainer
+from skrl.utils import set_seed
 
 from natator.gym import SwimmerVectorEnv
 from natator.policy import Policy, save
@@ -75,7 +75,7 @@ class Episodes(SwimmerVectorEnv):
 def learn():
     env = Episodes(options.num_envs, "SameStep", backend=options.backend, **environment)
     env.reset(seed=1000 * options.seed)
-    config.jax.key = options.seed
+    set_seed(options.seed)
     wrapped = wrap_env(env, wrapper="gymnasium")
     spaces = {"observation_space": wrapped.observation_space, "action_space": wrapped.action_space, "device": wrapped.device}
     models = {"policy": Actor(**spaces), "value": Critic(**spaces)}

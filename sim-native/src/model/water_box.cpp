@@ -119,6 +119,9 @@ WaterBox water_box(const Scene& scene) {
     }
     if (is_plane_flow(scene)) {
         box.faces[1][0] = box.faces[1][1] = WaterFace::periodic;
+        if (const double gravity = scene.solver.gravity.y(); gravity != 0)
+            refuse_lattice(
+                scene, "solver.gravity[1] = " + number_text(gravity) + ": must be 0 in water that is one cell deep");
         if (scene.creature) check_plane_body(scene, "creature", *scene.creature);
         for (std::size_t k = 0; k < scene.companions.size(); ++k)
             check_plane_body(scene, "companions[" + std::to_string(k) + "].creature", scene.companions[k].creature);

@@ -17,7 +17,7 @@ from natator.script import package
 from natator.simulator import Simulator, make_request
 
 FIGURES = ("best", "mean", "median", "worst")
-FIRST_FRESH = 2**30  # starts that no generation has: StartSeeds.java
+FIRST_FRESH = 2**30  # starts that no generation has: Seeds.java
 BATCH = 1000  # MLflow's limit of figures at once
 
 

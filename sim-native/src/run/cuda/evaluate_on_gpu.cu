@@ -237,7 +237,7 @@ std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox&
             how.execution.gpu = options.device;
             evaluations[k] = natator::evaluate(own, members[k].gait, how);
         },
-        at_once);
+        at_once, 4);  // most wait for the device
     return evaluations;
 }
 

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <mutex>
 
+#include "base/combiner.h"
 #include "cube_cells.h"
 #include "physics/lattice.h"
 #include "solver/cuda/device.h"
@@ -74,6 +77,29 @@ __device__ int cube_of(Key key) {
     return static_cast<int>(key);
 }
 
+/// A step of one water, as the kernels take it.
+struct Step {
+    Lattice lattice;
+    LatticeRates rates;
+    Populations inflow;
+    Keys keys;
+    const float* from;       ///< populations before it
+    float* to;               ///< and after
+    const float* from_host;  ///< cubes
+    Cube* cubes;
+    Owners* owners;
+    double* to_host;  ///< pushes
+    int count;        ///< of cubes
+    bool begun;
+};
+
+/// Steps of several waters, which the blocks share by y: small ones would leave most of a GPU idle, and a launch for
+/// each takes longer than its work.
+constexpr int max_steps = 32;
+struct Steps {
+    Step of[max_steps];
+};
+
 /// The warp's cube; none beyond the last.
 __device__ int cube_of_warp(int cubes) {
     const int cube = static_cast<int>((blockIdx.x * block + threadIdx.x) / warp);
@@ -99,18 +125,20 @@ __device__ void each_cell_around(const Lattice& lattice, const Keys& keys, const
 }
 
 /// Takes the cubes over from the host and finds the cells that they hold.
-__global__ void hold(Lattice lattice, Keys keys, const float* from_host, Cube* cubes, int count) {
+__global__ void hold(const __grid_constant__ Steps steps) {
+    const Step& step = steps.of[blockIdx.y];
+    const Lattice& lattice = step.lattice;
     __shared__ Cube of_block[block / warp];
-    const int p = cube_of_warp(count);
+    const int p = cube_of_warp(step.count);
     if (p < 0) return;
     Cube& cube = of_block[threadIdx.x / warp];
     if (const int word = threadIdx.x % warp; word < cube_words) {
-        const float value = from_host[p * cube_words + word];
+        const float value = step.from_host[p * cube_words + word];
         reinterpret_cast<float*>(&cube)[word] = value;
-        reinterpret_cast<float*>(cubes + p)[word] = value;
+        reinterpret_cast<float*>(step.cubes + p)[word] = value;
     }
     __syncwarp();
-    each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, Key& key) {
+    each_cell_around(lattice, step.keys, cube, 0, [&](int x, int y, int z, Key& key) {
         const PlaceInCube in = place_in(cube, x, y, z);
         if (in.out <= cube.edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
     });
@@ -125,15 +153,17 @@ __device__ void load_moments(const float* populations, long count, unsigned at, 
 
 /// Where bodies come to cover cells, these have more momentum than the body there. The water's part of that is to go to
 /// the cells beside them.
-__global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ populations, const Cube* cubes, int count,
-                      const Owners* owners) {
-    const int p = cube_of_warp(count);
-    if (p < 0) return;
-    const Cube& cube = cubes[p];
+__global__ void cover(const __grid_constant__ Steps steps) {
+    const Step& step = steps.of[blockIdx.y];
+    const Lattice& lattice = step.lattice;
+    const Keys& keys = step.keys;
+    const int p = cube_of_warp(step.count);
+    if (p < 0 || !step.begun) return;
+    const Cube& cube = step.cubes[p];
     each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, const Key& key) {
         if (key == nobody || cube_of(key) != p) return;
         const unsigned at = lattice.at_inside(x, y, z);
-        if (owners[at].now >= 0) return;
+        if (step.owners[at].now >= 0) return;
         const int here[3] = {lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z)};
         float sum = 0;
         for (int i = 0; i < lattice_populations; ++i) {
@@ -146,7 +176,7 @@ __global__ void cover(Lattice lattice, Keys keys, const float* __restrict__ popu
         }
         if (sum == 0) return;
         float m[lattice_moments];
-        load_moments(populations, lattice.count, at, m);
+        load_moments(step.from, lattice.count, at, m);
         const Velocity3 told = velocity_in(cube, place_in(cube, x, y, z).xi);
         const float density = 1 + m[0] + divergence_of(cube), part = (1 - covered_share) / sum;
         keys.handover(key) = {
@@ -215,18 +245,22 @@ struct Put {
     }
 };
 
-/// Collides and streams: a thread a cell. `eddies`: whether the rates have any.
+/// Collides and streams: a thread a cell. Of steps whose rates have eddies, or of those without.
 template <bool eddies>
-__global__ void __launch_bounds__(block)
-    advance_cells(Lattice lattice, LatticeRates rates, Populations inflow, const float* __restrict__ from,
-                  float* __restrict__ to, Keys keys, const Cube* __restrict__ cubes, Owners* __restrict__ owners) {
+__global__ void __launch_bounds__(block) advance_cells(const __grid_constant__ Steps steps) {
+    const Step& step = steps.of[blockIdx.y];
+    const Lattice& lattice = step.lattice;
+    const Keys& keys = step.keys;
+    const Cube* __restrict__ const cubes = step.cubes;
+    Owners* __restrict__ const owners = step.owners;
+    const float* __restrict__ const from = step.from;
     const unsigned cell = blockIdx.x * block + threadIdx.x;
-    if (cell >= lattice.count) return;
+    if (cell >= lattice.count || (step.rates.eddies > 0) != eddies) return;
     float m[lattice_moments];
     load_moments(from, lattice.count, cell, m);
     int place[3];
     lattice.place(cell, place);
-    const Ways ways(lattice, cell, place, inflow, to);
+    const Ways ways(lattice, cell, place, step.inflow, step.to);
     Velocity3 told{};
     bool held = false;
     if (const Key* const key = keys.of(place[0], place[1], place[2])) {
@@ -253,21 +287,25 @@ __global__ void __launch_bounds__(block)
     const float inverse = 1.0f / (m[0] + 1.0f);
     const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse,
                 uz = held ? told.z : m[3] * inverse;
-    collide<eddies>(m, ux, uy, uz, rates, Put{ways});
+    collide<eddies>(m, ux, uy, uz, step.rates, Put{ways});
 }
 
 /// Sums what each cube is pushed by, in a fixed order, and forgets who has its cells.
-__global__ void push(Lattice lattice, Keys keys, const float* before, const float* after, const Cube* cubes, int count,
-                     const Owners* owners, bool begun, double* to_host) {
-    const int p = cube_of_warp(count);
+__global__ void push(const __grid_constant__ Steps steps) {
+    const Step& step = steps.of[blockIdx.y];
+    const Lattice& lattice = step.lattice;
+    const Keys& keys = step.keys;
+    const float *const before = step.from, *const after = step.to;
+    const Owners* const owners = step.owners;
+    const int p = cube_of_warp(step.count);
     if (p < 0) return;
-    const Cube& cube = cubes[p];
+    const Cube& cube = step.cubes[p];
     const long cells = lattice.count;
     double sums[push_numbers] = {};  // as Push has them
     each_cell_around(lattice, keys, cube, 1, [&](int x, int y, int z, Key& key) {
         const unsigned at = lattice.at_inside(x, y, z);
         const Owners own = owners[at];
-        const bool holds = own.now == p, comes = holds && begun && own.before < 0,
+        const bool holds = own.now == p, comes = holds && step.begun && own.before < 0,
                    leaves = own.now < 0 && own.before == p;
         if (!holds && !leaves) return;
         const PlaceInCube in = place_in(cube, x, y, z);
@@ -312,7 +350,7 @@ __global__ void push(Lattice lattice, Keys keys, const float* before, const floa
         for (unsigned other = warp / 2; other > 0; other /= 2) sum += __shfl_xor_sync(all, sum, other);
         if (lane == static_cast<unsigned>(k)) own = sum;
     }
-    if (lane < push_numbers) to_host[p * push_numbers + lane] = own;
+    if (lane < push_numbers) step.to_host[p * push_numbers + lane] = own;
 }
 
 __global__ void __launch_bounds__(block)
@@ -354,6 +392,59 @@ __global__ void __launch_bounds__(block)
     to[cell] = {density, m[1] / density, m[2] / density, m[3] / density};
 }
 
+unsigned blocks_of(std::size_t threads) {
+    return static_cast<unsigned>((threads + block - 1) / block);
+}
+
+/// Makes the steps of all waters of a GPU, those together that are asked for at the same time.
+class Stepper {
+public:
+    /// The GPU's, which all waters there share. `device` is the current one.
+    static std::shared_ptr<Stepper> of(int device);
+
+    void make(const Step& step) { combiner_.run(step); }
+
+private:
+    static void launch(const std::vector<const Step*>& steps, cudaStream_t stream);
+
+    static constexpr int places = 2;
+    cuda::Stream streams_[places];  ///< one group's steps begin while another's are under way
+    Combiner<Step> combiner_{max_steps, places, [this](const std::vector<const Step*>& steps, int one) {
+                                 launch(steps, streams_[one].get());
+                             }};
+};
+
+std::shared_ptr<Stepper> Stepper::of(int device) {
+    static std::mutex mutex;
+    static std::map<int, std::weak_ptr<Stepper>> all;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<Stepper> found = all[device].lock();
+    if (!found) all[device] = found = std::make_shared<Stepper>();
+    return found;
+}
+
+void Stepper::launch(const std::vector<const Step*>& all, cudaStream_t stream) {
+    Steps steps;
+    unsigned cells = 0, cubes = 0;
+    bool with_eddies = false, without = false, begun = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Step& step = steps.of[k] = *all[k];
+        cells = std::max(cells, step.lattice.count);
+        cubes = std::max(cubes, static_cast<unsigned>(step.count));
+        begun = begun || step.begun;
+        (step.rates.eddies > 0 ? with_eddies : without) = true;
+    }
+    const auto size = static_cast<unsigned>(all.size());
+    const dim3 by_cell(blocks_of(cells), size), by_cube(blocks_of(cubes * warp), size);
+    if (cubes > 0) hold<<<by_cube, block, 0, stream>>>(steps);
+    if (cubes > 0 && begun) cover<<<by_cube, block, 0, stream>>>(steps);
+    if (without) advance_cells<false><<<by_cell, block, 0, stream>>>(steps);
+    if (with_eddies) advance_cells<true><<<by_cell, block, 0, stream>>>(steps);
+    if (cubes > 0) push<<<by_cube, block, 0, stream>>>(steps);
+    cuda::check(cudaGetLastError(), "launch");
+    cuda::check(cudaStreamSynchronize(stream), "lattice");
+}
+
 /// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is
 /// found by kernels.
 class GpuWater : public Water {
@@ -374,7 +465,6 @@ private:
     struct Chosen {
         explicit Chosen(int device) { cuda::choose_device(device); }
     };
-    static unsigned blocks_of(std::size_t threads) { return static_cast<unsigned>((threads + block - 1) / block); }
     void choose() const { cuda::check(cudaSetDevice(device_), "choose device"); }
     void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
     float* now() const { return populations_[now_].data(); }
@@ -384,8 +474,9 @@ private:
 
     int device_;
     Chosen chosen_{device_};
+    std::shared_ptr<Stepper> stepper_ = Stepper::of(device_);
     Lattice lattice_;
-    cuda::Stream stream_;
+    cuda::Stream stream_;  ///< for all but steps
     cuda::DeviceBuffer<float> populations_[2];
     cuda::DeviceBuffer<Owners> owners_[2];    ///< the second is for shifts
     cuda::DeviceBuffer<Key> keys_;            ///< nobody's between steps
@@ -438,7 +529,6 @@ Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
         }
     const auto size = static_cast<std::size_t>(both.size());
     if (keys_.size() < size) {
-        wait();
         keys_ = {};
         handovers_ = {};
         keys_ = cuda::DeviceBuffer<Key>(std::min<std::size_t>(size + size / 2, lattice_.count));
@@ -446,6 +536,7 @@ Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
         cuda::check(cudaMemsetAsync(keys_.data(), 0xff, keys_.size() * sizeof(Key), stream_.get()), "clear");
         cuda::check(cudaMemsetAsync(handovers_.data(), 0, handovers_.size() * sizeof(Handover), stream_.get()),
                     "clear");
+        wait();
     }
     return {both, keys_.data(), handovers_.data()};
 }
@@ -454,33 +545,26 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     choose();
     const int count = static_cast<int>(cubes.size());
     const Keys keys = keys_around(cubes);
-    const unsigned blocks_of_warps = blocks_of(cubes.size() * warp);
     if (cubes_.size() < cubes.size()) {
-        wait();
         cubes_ = cuda::DeviceBuffer<Cube>(cubes.size());
         cubes_on_host_ = cuda::HostBuffer<Cube>(cubes.size());
         pushes_ = cuda::HostBuffer<Push>(cubes.size());
     }
-    if (count > 0) {
-        std::ranges::copy(cubes, cubes_on_host_.data());
-        hold<<<blocks_of_warps, block, 0, stream_.get()>>>(
-            lattice_, keys, reinterpret_cast<const float*>(cubes_on_host_.data()), cubes_.data(), count);
-        if (begun_)
-            cover<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), cubes_.data(), count,
-                                                                owners_[0].data());
-    }
-    const LatticeRates rates = rates_in(step);
-    (rates.eddies > 0 ? advance_cells<true>
-                      : advance_cells<false>)<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(
-        lattice_, rates, inflow(step), now(), next(), keys, cubes_.data(), owners_[0].data());
-    if (count > 0)
-        push<<<blocks_of_warps, block, 0, stream_.get()>>>(lattice_, keys, now(), next(), cubes_.data(), count,
-                                                           owners_[0].data(), begun_,
-                                                           reinterpret_cast<double*>(pushes_.data()));
-    cuda::check(cudaGetLastError(), "launch");
+    std::ranges::copy(cubes, cubes_on_host_.data());
+    stepper_->make({.lattice = lattice_,
+                    .rates = rates_in(step),
+                    .inflow = inflow(step),
+                    .keys = keys,
+                    .from = now(),
+                    .to = next(),
+                    .from_host = reinterpret_cast<const float*>(cubes_on_host_.data()),
+                    .cubes = cubes_.data(),
+                    .owners = owners_[0].data(),
+                    .to_host = reinterpret_cast<double*>(pushes_.data()),
+                    .count = count,
+                    .begun = begun_});
     now_ = 1 - now_;
     begun_ = true;
-    if (count > 0) wait();
     pushes.assign(pushes_.data(), pushes_.data() + count);
 }
 
@@ -489,6 +573,7 @@ void GpuWater::shift(const Eigen::Vector3i& by) {
     shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), next(), owners_[0].data(),
                                                                         owners_[1].data(), by.x(), by.y(), by.z());
     cuda::check(cudaGetLastError(), "launch");
+    wait();
     now_ = 1 - now_;
     std::swap(owners_[0], owners_[1]);
     for (int a = 0; a < 3; ++a) {
@@ -547,11 +632,11 @@ void GpuWater::set_cells(const Cell& all) {
     choose();
     fill_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, in_equilibrium(all), now());
     cuda::check(cudaGetLastError(), "launch");
+    wait();
 }
 
 void GpuWater::save(ByteWriter& to) const {
     choose();
-    wait();
     to.add(lattice_populations);
     to.add(begun_);
     for (int a = 0; a < 3; ++a) to.add(around_.low[a]), to.add(around_.count[a]);
@@ -580,7 +665,6 @@ void GpuWater::restore(ByteReader from) {
     std::memcpy(owners.data(), from.take(of_owners).data(), of_owners);
     if (!std::ranges::all_of(populations, [](float value) { return std::isfinite(value); })) refuse_saved();
     choose();
-    wait();
     populations_[now_].upload(populations);
     owners_[0].upload(owners);
     cuda::wait_for_uploads();

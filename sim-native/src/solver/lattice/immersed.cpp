@@ -119,8 +119,14 @@ std::vector<Cube> Immersed::cubes(const std::vector<Eigen::Vector3d>& places,
         const auto edge = static_cast<float>(overlap + 2 * extension_ * box.cell / spacing);
         Eigen::Matrix3d shape = Eigen::Matrix3d::Zero(), rate = shape;
         for (const Neighbour& one : near_[p]) {
-            shape += (places[one.particle] - places[p]) * one.weight.transpose();
-            rate += (velocities[one.particle] - velocities[p]) * one.weight.transpose();
+            const Eigen::Vector3d away = places[one.particle] - places[p],
+                                  faster = velocities[one.particle] - velocities[p];
+            // Entry by entry: by rows of two that do not follow how a product was stored, each waits for its memory.
+            for (int c = 0; c < 3; ++c)
+                for (int r = 0; r < 3; ++r) {
+                    shape(r, c) += away[r] * one.weight[c];
+                    rate(r, c) += faster[r] * one.weight[c];
+                }
         }
         shape = completed(shape, missing_[p], spacing / 2) / box.cell;
         const Eigen::Vector3d middle = middle_of(places[p], box);
@@ -144,14 +150,15 @@ std::vector<Eigen::Vector3d> Immersed::impulses(const std::vector<Push>& pushes,
     const double unit = impulse_unit(box, step);
     for (std::size_t p = 0; p < near_.size(); ++p) {
         const Push& push = pushes[p];
-        impulses[p] += unit * Eigen::Vector3d(push.j[0], push.j[1], push.j[2]);
+        Eigen::Vector3d own = impulses[p] + unit * Eigen::Vector3d(push.j[0], push.j[1], push.j[2]);
         const Eigen::Matrix3d moment =
             unit * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(push.moment);
         for (const Neighbour& one : near_[p]) {
             const Eigen::Vector3d given = moment * one.weight;
             impulses[one.particle] += given;
-            impulses[p] -= given;
+            own -= given;
         }
+        impulses[p] = own;
     }
     return impulses;
 }

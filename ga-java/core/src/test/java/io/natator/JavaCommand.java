@@ -19,11 +19,4 @@ public final class JavaCommand {
         command.addAll(List.of(arguments));
         return command;
     }
-
-    /** The same with so much memory for what it allocates, MiB. */
-    public static List<String> within(int mebibytes, Class<?> main, String... arguments) {
-        List<String> command = of(main, arguments);
-        command.add(1, "-Xmx" + mebibytes + "m");
-        return command;
-    }
 }

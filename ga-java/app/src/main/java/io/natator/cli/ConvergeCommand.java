@@ -72,9 +72,10 @@ final class ConvergeCommand implements Callable<Integer> {
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
                 .withBackend(backend != null ? backend : settings.budget().backend()), settings);
         run.checkUnchanged(execution.simulator());
-        JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
-                Convergence.runs(run.directory()), new ProgressListener());
         PrintWriter out = spec.commandLine().getOut();
+        // The table is a result, the runs are progress.
+        JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
+                Convergence.runs(run.directory()), spec.commandLine().getErr()::println, out::println);
         try {
             out.println(ConvergenceText.of(Convergence.write(run.directory(), swimmer, answer)));
         } catch (JsonProcessingException e) {
@@ -82,19 +83,5 @@ final class ConvergeCommand implements Callable<Integer> {
         }
         out.flush();
         return ExitCode.OK;
-    }
-
-    /** The table is a result, the runs are progress. */
-    private final class ProgressListener implements ConvergeProgram.Listener {
-
-        @Override
-        public void ran(String run) {
-            spec.commandLine().getErr().println(run);
-        }
-
-        @Override
-        public void table(String line) {
-            spec.commandLine().getOut().println(line);
-        }
     }
 }

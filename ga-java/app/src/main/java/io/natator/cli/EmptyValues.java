@@ -29,16 +29,9 @@ final class EmptyValues {
         Stream<ArgSpec> given = Stream.<List<? extends ArgSpec>>of(parsed.matchedOptions(), parsed.matchedPositionals())
                 .flatMap(List::stream);
         given.filter(one -> one.originalStringValues().contains("")).findFirst().ifPresent(one -> {
-            throw new ParameterException(command, message(one));
+            String name = one instanceof OptionSpec option ? option.longestName() : one.paramLabel();
+            throw new ParameterException(command,
+                    name + " is empty; expected a value: is a variable of the shell not set?");
         });
-    }
-
-    static String message(ArgSpec argument) {
-        return name(argument) + " is empty; expected a value: is a variable of the shell not set?";
-    }
-
-    /** The name of an argument as the help has it. */
-    static String name(ArgSpec argument) {
-        return argument instanceof OptionSpec option ? option.longestName() : argument.paramLabel();
     }
 }

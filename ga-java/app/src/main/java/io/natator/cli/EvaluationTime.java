@@ -9,22 +9,17 @@ import io.natator.protocol.SimulationResult;
 import java.util.List;
 import java.util.stream.LongStream;
 
-/** How long evaluations take, judged by a few short ones of the swimmer in the middle of all ranges. */
-final class EvaluationTime {
+/**
+ * How long evaluations take, judged by a few short ones of the swimmer in the middle of all ranges.
+ *
+ * @param evaluator stays the caller's
+ */
+record EvaluationTime(EvolutionSettings settings, Evaluator evaluator) {
 
     /** Simulated seconds of the trials, at most; their difference leaves out what every evaluation costs once. */
     private static final double SHORT_TRIAL = 0.05;
     private static final double LONG_TRIAL = 0.25;
     private static final double NANOSECONDS = 1e9;
-
-    private final EvolutionSettings settings;
-    private final Evaluator evaluator;
-
-    /** For evaluations with these settings; the evaluator stays the caller's. */
-    EvaluationTime(EvolutionSettings settings, Evaluator evaluator) {
-        this.settings = settings;
-        this.evaluator = evaluator;
-    }
 
     /**
      * Seconds that evaluations take together. No trial is longer than they are, so that what is too short is refused here.

@@ -34,7 +34,8 @@ public final class Main implements Callable<Integer> {
     /** Without a command: what there is. */
     @Override
     public Integer call() {
-        return SectionedHelp.missingCommand(spec);
+        spec.commandLine().usage(spec.commandLine().getErr());
+        return CommandLine.ExitCode.USAGE;
     }
 
     /**

@@ -14,26 +14,17 @@ import java.io.FileOutputStream;
 import java.io.PrintWriter;
 import picocli.CommandLine;
 
-/** Runs the evolution of a folder for the command line: progress, an early stop, the report. */
-final class RunLauncher {
-
-    private final PrintWriter out;
-    private final PrintWriter err;
-
-    private RunLauncher(PrintWriter out, PrintWriter err) {
-        this.out = out;
-        this.err = err;
-    }
+/**
+ * Runs the evolution of a folder for the command line: progress, an early stop, the report.
+ *
+ * @param out what people read
+ */
+record RunLauncher(PrintWriter out, PrintWriter err) {
 
     /** For a command, whose standard output is the optimizer's if that is outside this program: then people read standard error. */
     static RunLauncher of(CommandLine command, EvolutionSettings settings) {
         return new RunLauncher(settings.search().optimizer().isOutside() ? command.getErr() : command.getOut(),
                 command.getErr());
-    }
-
-    /** What people read. */
-    PrintWriter out() {
-        return out;
     }
 
     /**

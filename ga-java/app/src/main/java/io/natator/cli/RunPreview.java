@@ -16,15 +16,7 @@ import java.nio.file.Path;
 import java.util.Locale;
 
 /** What {@code evolve} would do and how long that would take, judged by a few short evaluations. */
-final class RunPreview {
-
-    private final EvolutionSettings settings;
-    private final ExecutionSettings execution;
-
-    RunPreview(EvolutionSettings settings, ExecutionSettings execution) {
-        this.settings = settings;
-        this.execution = execution;
-    }
+record RunPreview(EvolutionSettings settings, ExecutionSettings execution) {
 
     /**
      * Measures and prints.

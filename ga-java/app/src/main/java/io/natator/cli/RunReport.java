@@ -20,15 +20,9 @@ import java.util.Map;
 import java.util.stream.Collectors;
 
 /** The best gait of a run, in words. */
-final class RunReport {
+record RunReport(PrintWriter out) {
 
     static final int DIGITS = 4;
-
-    private final PrintWriter out;
-
-    RunReport(PrintWriter out) {
-        this.out = out;
-    }
 
     /**
      * Prints it.

@@ -7,9 +7,7 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.stream.Collectors;
 import picocli.CommandLine;
-import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Help;
-import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Model.UsageMessageSpec;
 
@@ -26,12 +24,6 @@ final class SectionedHelp {
         command.getCommandSpec().usageMessage().abbreviateSynopsis(sectioned);
         command.getHelpSectionMap().put(UsageMessageSpec.SECTION_KEY_OPTION_LIST, SectionedHelp::options);
         command.getSubcommands().values().forEach(SectionedHelp::install);
-    }
-
-    /** The help on standard error, for a command that lacks the name of one below it. */
-    static int missingCommand(CommandSpec command) {
-        command.commandLine().usage(command.commandLine().getErr());
-        return ExitCode.USAGE;
     }
 
     private static String options(Help help) {

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.process.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
@@ -232,8 +233,7 @@ class BadUsageTest extends FakeSimulatorTest {
         Path simulator = folder.resolve("simulator");
         String[] arguments = (command + " pool/eel --simulator-path " + simulator).split(" ");
         for (String program : List.of("#!/no/such/interpreter\n", "\u007fELF", "#!/bin/sh\nexit 7\n")) {
-            Files.writeString(simulator, program);
-            assertThat(simulator.toFile().setExecutable(true)).isTrue();
+            FakeSimulator.program(simulator, program);
 
             assertThat(execute(arguments)).as(err.toString()).isEqualTo(1);
             assertThat(err.toString()).startsWith("natator " + arguments[0] + ": simulator: ").hasLineCount(1);

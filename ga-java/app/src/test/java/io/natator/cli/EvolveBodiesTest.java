@@ -90,7 +90,7 @@ class EvolveBodiesTest extends FakeSimulatorTest {
         assertThat(refused).hasSizeBetween(1, 9).allSatisfy(one -> {
             assertThat(one.genes().get(16)).isBetween(1.8, 2.0);
             assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
-            assertThat(one.result().fitness()).isZero();
+            assertThat(one.result().score()).isZero();
         });
         assertThat(RunReader.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8)
                 .hasSameSizeAs(refused);

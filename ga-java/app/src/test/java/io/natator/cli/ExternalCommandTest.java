@@ -123,7 +123,7 @@ class ExternalCommandTest extends CommandTest {
     /** Nobody waits for an optimizer that thinks for ever. */
     @Test
     void theTimeEndsAWait() throws IOException, InterruptedException {
-        Process natator = start(EVOLVE, "--output-dir", path("slow"), "--stop-after", "3");
+        Process natator = start(EVOLVE, "--output-dir", path("slow"), "--stop-after", "1");
 
         assertThat(natator.waitFor()).as(Files.readString(log)).isZero();
         assertThat(Files.readAllLines(log)).last().isEqualTo("time is up; continue by: natator resume " + path("slow"));

@@ -2,11 +2,11 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.process.FakeSimulator;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -23,9 +23,8 @@ class LauncherTest {
 
     @BeforeEach
     void programs() throws IOException {
-        Path launcher = Files.copy(SCRIPT, folder.resolve("natator"), StandardCopyOption.REPLACE_EXISTING);
-        Path java = Files.writeString(folder.resolve("java"), "#!/bin/sh\necho \"$1\"\n");
-        assertThat(launcher.toFile().setExecutable(true) && java.toFile().setExecutable(true)).isTrue();
+        FakeSimulator.program(folder.resolve("natator"), Files.readString(SCRIPT));
+        FakeSimulator.program(folder.resolve("java"), "#!/bin/sh\necho \"$1\"\n");
         Files.createFile(folder.resolve("natator.jar"));
     }
 
@@ -41,14 +40,11 @@ class LauncherTest {
         return said.strip();
     }
 
-    @Test
-    void byNameOnThePathItIsItsName() throws IOException, InterruptedException {
-        assertThat(said("natator new scene minnow")).isEqualTo("-Dnatator.command=natator");
-    }
-
-    @Test
-    void byAPathItIsThatPath() throws IOException, InterruptedException {
-        assertThat(said("./natator new scene minnow")).isEqualTo("-Dnatator.command=./natator");
+    /** A name on the PATH, or a path. */
+    @ParameterizedTest
+    @ValueSource(strings = {"natator", "./natator"})
+    void itSaysHowItWasCalled(String name) throws IOException, InterruptedException {
+        assertThat(said(name + " new scene minnow")).isEqualTo("-Dnatator.command=" + name);
     }
 
     @Test
@@ -72,8 +68,7 @@ class LauncherTest {
     @Test
     void aLocaleThatKnowsMoreThanAsciiIsKept() throws IOException, InterruptedException {
         Files.writeString(folder.resolve("java"), "#!/bin/sh\necho \"$LC_ALL\"\n");
-        Path locale = Files.writeString(folder.resolve("locale"), "#!/bin/sh\necho ISO-8859-1\n");
-        assertThat(locale.toFile().setExecutable(true)).isTrue();
+        FakeSimulator.program(folder.resolve("locale"), "#!/bin/sh\necho ISO-8859-1\n");
 
         assertThat(said("LC_ALL=de_DE ./natator show run")).isEqualTo("de_DE");
     }

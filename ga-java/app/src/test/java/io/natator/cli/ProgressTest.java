@@ -35,7 +35,8 @@ class ProgressTest {
     private void evaluate(Progress progress, double distance, long seconds) {
         clock.addAndGet(TimeUnit.SECONDS.toNanos(seconds));
         progress.evaluated(
-                new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)), Results.ok(distance)));
+                new EvaluationRecord(0, List.of(), new Gait(1, List.of(0.5), List.of(0.0)),
+                        Results.ok(distance), null));
     }
 
     private Progress progress(EvolutionState from, long recorded, PrintStream terminal) {

@@ -32,10 +32,10 @@ class ResumeCommandTest extends FakeSimulatorTest {
     /** Within a generation; where the machine stood still all the time, once more. */
     @Test
     void stopsInTimeAndContinues() throws IOException {
-        Files.writeString(folder.resolve("slow"), "0.4");
-        ok(evolve("run", "--workers", "1", "--stop-after", "5"));
+        Files.writeString(folder.resolve("slow"), "0.2");
+        ok(evolve("run", "--workers", "1", "--stop-after", "2"));
         for (int i = 0; i < 100 && !Files.exists(folder.resolve("run/evaluations.jsonl")); i++) {
-            ok(natator("resume", path("run"), "--workers", "1", "--stop-after", "5"));
+            ok(natator("resume", path("run"), "--workers", "1", "--stop-after", "2"));
         }
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
@@ -215,7 +215,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
             Files.writeString(folder.resolve("slow"), "0.5");
         }
         ok(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
-                isStopped ? "2" : "100"));
+                isStopped ? "1" : "100"));
         Files.deleteIfExists(folder.resolve("slow"));
         assertThat(folder.resolve("run/checkpoint.json").toFile().exists()).isNotEqualTo(isStopped);
         if (how.equals("compact")) {

@@ -59,7 +59,7 @@ class ShowCommandTest extends FakeSimulatorTest {
         EvaluationRecord last = Json.parse(evaluations.lines().reduce((before, line) -> line).orElseThrow(),
                 EvaluationRecord.class);
         EvaluationRecord next = new EvaluationRecord(last.generation() + 1, last.genes(), last.gait(),
-                last.result().withId(last.result().id() + 1));
+                last.result().withId(last.result().id() + 1), null);
         CompactRun.compact(folder.resolve("run"));
         showsWithoutWarning();
         Files.writeString(file("checkpoint.json"), checkpoint);

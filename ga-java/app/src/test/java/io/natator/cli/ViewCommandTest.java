@@ -6,6 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.JavaCommand;
 import io.natator.config.Json;
 import io.natator.process.FakeSimulator;
+import io.natator.view.StreamClient;
 import java.io.BufferedReader;
 import java.io.IOException;
 import java.net.ServerSocket;
@@ -13,16 +14,12 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse.BodyHandlers;
-import java.net.http.WebSocket;
 import java.nio.ByteBuffer;
-import java.nio.ByteOrder;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.CompletionStage;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
@@ -130,25 +127,14 @@ class ViewCommandTest extends CommandTest {
     }
 
     /** How the two actuators are driven after six frames. */
-    private static List<Float> driven(URI server, String scene) {
-        CompletableFuture<List<Float>> heard = new CompletableFuture<>();
-        WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
-                .header("Origin", "http://" + server.getAuthority())
-                .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
-                    @Override
-                    public CompletionStage<?> onBinary(WebSocket one, ByteBuffer data, boolean last) {
-                        ByteBuffer frame = data.order(ByteOrder.LITTLE_ENDIAN);
-                        if (frame.remaining() >= 80 && frame.getInt(frame.position() + 4) == 6) {
-                            heard.complete(List.of(frame.getFloat(frame.position() + 72),
-                                    frame.getFloat(frame.position() + 76)));
-                        }
-                        one.request(1);
-                        return null;
-                    }
-                }).join();
-        socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
-        socket.sendText("{\"do\":\"credit\",\"frames\":100}", true).join();
-        return heard.orTimeout(5, TimeUnit.MINUTES).join();
+    private static List<Float> driven(URI server, String scene) throws InterruptedException {
+        try (StreamClient page = started(server, scene).send("{'do':'credit','frames':100}")) {
+            ByteBuffer frame = page.awaitFrame();
+            while (frame.getInt(4) != 6) {
+                frame = page.awaitFrame();
+            }
+            return List.of(frame.getFloat(72), frame.getFloat(76));
+        }
     }
 
     /** With so many inputs, for two actuators. */
@@ -174,26 +160,13 @@ class ViewCommandTest extends CommandTest {
                         "natator view: --policy has its own scene and gait; expected no --scene, --creature or --gait\n");
     }
 
-    /** Opens a socket and starts a scene; what it says first. */
-    private static String watch(URI server, String scene) {
-        CompletableFuture<String> heard = new CompletableFuture<>();
-        WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
-                .header("Origin", "http://" + server.getAuthority())
-                .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
-                    private final StringBuilder text = new StringBuilder();
+    private static StreamClient started(URI server, String scene) {
+        return StreamClient.open(server).send("{'do':'start','scene':'" + scene + "'}");
+    }
 
-                    @Override
-                    public CompletionStage<?> onText(WebSocket one, CharSequence data, boolean last) {
-                        text.append(data);
-                        if (last) {
-                            heard.complete(text.toString());
-                        }
-                        one.request(1);
-                        return null;
-                    }
-                }).join();
-        socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
-        return heard.orTimeout(5, TimeUnit.MINUTES).join();
+    /** Opens a socket and starts a scene; what it says first. */
+    private static String watch(URI server, String scene) throws InterruptedException {
+        return started(server, scene).next().toString();
     }
 
     @Test

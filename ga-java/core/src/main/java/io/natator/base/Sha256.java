@@ -20,7 +20,12 @@ public final class Sha256 {
 
     /** Digest of a text in UTF-8. */
     public static String of(String text) {
-        return of(text.getBytes(StandardCharsets.UTF_8));
+        return HexFormat.of().formatHex(digest(text));
+    }
+
+    /** The digest of a text in UTF-8 as 32 bytes. */
+    public static byte[] digest(String text) {
+        return sha256().digest(text.getBytes(StandardCharsets.UTF_8));
     }
 
     /** Digest of bytes. */

@@ -7,7 +7,7 @@ import java.util.Iterator;
 import java.util.List;
 import java.util.Locale;
 import java.util.function.DoublePredicate;
-import java.util.function.ToDoubleFunction;
+import java.util.function.UnaryOperator;
 
 /**
  * Genes of a body, around that of a scene: length, height and width at a few places, the fin's height, places of the joints,
@@ -199,10 +199,9 @@ public final class BodyGenome {
     }
 
     private ProfileBody scaled(ProfileBody body, double scale, double tilt) {
-        ToDoubleFunction<Point> size = point -> Math.max(thinnest(),
-                scale * (1 + tilt * (2 * point.at() - 1)) * point.value());
-        return body.withSections(body.height().map(point -> new Point(point.at(), size.applyAsDouble(point))),
-                body.width().map(point -> new Point(point.at(), size.applyAsDouble(point))));
+        UnaryOperator<Point> change = point -> new Point(point.at(),
+                Math.max(thinnest(), scale * (1 + tilt * (2 * point.at() - 1)) * point.value()));
+        return body.with(to -> to.height(body.height().map(change)).width(body.width().map(change)));
     }
 
     /** With muscles that pull as hard together as those of the scene's body, none harder than 1. */

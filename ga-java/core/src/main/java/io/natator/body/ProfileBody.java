@@ -8,6 +8,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.base.InvalidInputException;
 import io.natator.base.MergePatch;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -25,8 +26,9 @@ import java.util.List;
  * @param stiffness of the clusters, from 0 to 1
  * @param muscles   stiffness of the muscles' springs, from 0 to 1: how hard they pull
  */
+@RecordBuilder
 public record ProfileBody(double spacing, double length, Curve height, Curve width, Curve fin, double thickness,
-        List<Double> joints, Curve stiffness, Curve muscles) {
+        List<Double> joints, Curve stiffness, Curve muscles) implements ProfileBodyBuilder.With {
 
     private static final double SPACING = 0.075;
     private static final double CLUSTER_STIFFNESS = 0.2;
@@ -115,21 +117,6 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
     /** The body that a patch on this one's scene makes of it; null for no patch. */
     public ProfileBody with(JsonNode patch) {
         return patch == null || !patch.has("creature") ? this : of(MergePatch.both(json(), patch.get("creature")));
-    }
-
-    /** This body with other heights and widths. */
-    ProfileBody withSections(Curve newHeight, Curve newWidth) {
-        return new ProfileBody(spacing, length, newHeight, newWidth, fin, thickness, joints, stiffness, muscles);
-    }
-
-    /** This body with its joints elsewhere. */
-    ProfileBody withJoints(List<Double> newJoints) {
-        return new ProfileBody(spacing, length, height, width, fin, thickness, newJoints, stiffness, muscles);
-    }
-
-    /** This body with other muscles. */
-    ProfileBody withMuscles(Curve newMuscles) {
-        return new ProfileBody(spacing, length, height, width, fin, thickness, joints, stiffness, newMuscles);
     }
 
     /** How many slices of particles it has. */

@@ -1,17 +1,24 @@
 package io.natator.checkpoint;
 
+import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.base.InvalidInputException;
+import io.natator.config.FileErrors;
 import io.natator.config.Json;
+import io.natator.config.Limits;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.file.AtomicFile;
-import io.natator.file.CompressedJson;
+import java.io.ByteArrayOutputStream;
+import java.io.EOFException;
 import java.io.IOException;
 import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.function.LongSupplier;
+import java.util.zip.GZIPInputStream;
+import java.util.zip.GZIPOutputStream;
 
 /** Makes the folder of a finished run some hundred times smaller, to be kept for long. */
 public final class CompactRun {
@@ -40,7 +47,7 @@ public final class CompactRun {
         Path checkpoint = directory.resolve(RunWriter.CHECKPOINT);
         try {
             if (!state.population().isEmpty()) {
-                CompressedJson.write(directory.resolve(WHOLE), state);
+                AtomicFile.write(directory.resolve(WHOLE), compressed(Json.line(state)));
                 AtomicFile.write(checkpoint,
                         Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
                                 state.best(), state.history())));
@@ -86,6 +93,28 @@ public final class CompactRun {
     }
 
     private static EvolutionState whole(Path directory) {
-        return CompressedJson.read(directory.resolve(WHOLE), EvolutionState.class, "checkpoint");
+        Path file = directory.resolve(WHOLE);
+        try (GZIPInputStream in = new GZIPInputStream(Files.newInputStream(file))) {
+            byte[] content = in.readNBytes(Limits.FILE_BYTES);
+            if (in.read() >= 0) {
+                throw new IOException("larger than " + Limits.FILE_BYTES + " bytes");
+            }
+            return Json.parse(new String(content, StandardCharsets.UTF_8), EvolutionState.class);
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("checkpoint " + file + ": " + Json.reason(e), e);
+        } catch (EOFException e) {
+            throw new InvalidInputException("checkpoint " + file + " ends too early", e);
+        } catch (IOException e) {
+            throw new InvalidInputException("checkpoint " + file + " cannot be read: " + FileErrors.reason(file, e), e);
+        }
+    }
+
+    /** By gzip; the same text gives the same bytes. */
+    private static byte[] compressed(String text) throws IOException {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        try (GZIPOutputStream out = new GZIPOutputStream(bytes)) {
+            out.write(text.getBytes(StandardCharsets.UTF_8));
+        }
+        return bytes.toByteArray();
     }
 }

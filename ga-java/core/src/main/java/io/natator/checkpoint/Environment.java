@@ -1,10 +1,12 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.base.Sha256;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
+import io.natator.process.ProgramInfo;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
@@ -49,11 +51,12 @@ public record Environment(String natator, String simulator, String simulatorSha2
      */
     public static Environment present(ExecutionSettings execution, String sceneSha256, EvolutionSettings settings)
             throws InterruptedException {
-        Program program = Program.at(execution.simulator(), execution.backend(), execution.device());
+        ProgramInfo program = ProgramInfo.of(execution.simulator());
+        String gpu = execution.backend() == Backend.CPU ? null : program.device(execution.device()).orElse(null);
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
-                program.simulatorSha256(), program.version(), program.commit(), program.instructionSet(),
-                execution.mode(), execution.backend(), execution.devices(), program.gpu(), execution.workers(),
+                Sha256.of(execution.simulator()), program.version(), program.commit(), program.instructionSet(),
+                execution.mode(), execution.backend(), execution.devices(), gpu, execution.workers(),
                 execution.timeout().toMillis() / 1000.0, Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(),

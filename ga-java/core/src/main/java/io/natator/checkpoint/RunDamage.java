@@ -17,8 +17,9 @@ final class RunDamage {
 
     /** Which settings were edited since the run computed by them, in one line; null if none were, or none are recorded. */
     static String editedSettings(Path directory, EvolutionSettings settings) {
-        EvolutionSettings before = RunReader.settingsBefore(directory);
-        String change = before == null ? "" : SettingsChange.withinRun(before, settings);
+        RunReader.Origin before = RunReader.origin(directory);
+        String change = before == null || before.settings() == null ? ""
+                : SettingsChange.withinRun(before.settings(), settings);
         return change.isEmpty() ? null
                 : directory.resolve(RunWriter.CONFIG) + " was edited after the run was begun: " + change
                         + "; expected the settings that it was begun with, or a new run";

@@ -140,12 +140,6 @@ public record RunReader(Path directory, EvolutionSettings settings, EvolutionSta
         return Json.read(directory.resolve(RunWriter.CONFIG), EvolutionSettings.class, "settings");
     }
 
-    /** The settings that the run was begun with; null if it has not begun or {@code environment.json} lacks them or is damaged. */
-    static EvolutionSettings settingsBefore(Path directory) {
-        Origin origin = origin(directory);
-        return origin == null ? null : origin.settings();
-    }
-
     /** Scene and settings that the run was begun with; null if it has not begun, or {@code environment.json} is damaged. */
     static Origin origin(Path directory) {
         return readable(directory, RunWriter.ENVIRONMENT, Origin.class);

@@ -77,11 +77,8 @@ public final class SceneDigest {
 
     /** Whether it is known what these settings' scene was when the run was begun. */
     private static boolean isWith(RunReader.Origin origin, EvolutionSettings settings) {
-        return isKnown(origin) && origin.settings().problem().scene().equals(settings.problem().scene())
+        return origin != null && origin.sceneSha256() != null && origin.settings() != null
+                && origin.settings().problem().scene().equals(settings.problem().scene())
                 && Objects.equals(origin.settings().problem().overrides(), settings.problem().overrides());
-    }
-
-    private static boolean isKnown(RunReader.Origin origin) {
-        return origin != null && origin.sceneSha256() != null && origin.settings() != null;
     }
 }

@@ -74,11 +74,6 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
                 Runtime.getRuntime().availableProcessors(), null, null, List.of(), null);
     }
 
-    /** A process for each evaluation, on the processor, without a cache. */
-    public ExecutionSettings(Path simulator, int workers, Duration timeout) {
-        this(simulator, SimulatorMode.PROCESS, Backend.CPU, List.of(0), workers, timeout, null, List.of(), null);
-    }
-
     /** The first GPU, for what needs no more than one. */
     public int device() {
         return devices.get(0);

@@ -6,23 +6,24 @@ import java.util.List;
 /**
  * Dense encoding (thesis 2.6): frequency, n amplitudes, n − 1 phases. The first phase is fixed at 0, since only
  * differences between phases matter. For creatures with few actuators.
+ *
+ * @param actuators n of the creature, at least 1
  */
-public final class DenseEncoding implements Encoding {
-
-    private final int actuators;
-    private final List<GeneRange> genes;
+public record DenseEncoding(int actuators) implements Encoding {
 
     /**
-     * Encoding for a creature.
+     * Checks the number.
      *
-     * @param actuators n, at least 1
-     * @throws IllegalArgumentException if n is less than 1
+     * @throws IllegalArgumentException if it is less than 1
      */
-    public DenseEncoding(int actuators) {
+    public DenseEncoding {
         if (actuators < 1) {
             throw new IllegalArgumentException("dense encoding of " + actuators + " actuators; expected at least 1");
         }
-        this.actuators = actuators;
+    }
+
+    @Override
+    public List<GeneRange> genes() {
         List<GeneRange> ranges = new ArrayList<>();
         ranges.add(GeneRange.frequency());
         for (int i = 1; i <= actuators; i++) {
@@ -31,12 +32,7 @@ public final class DenseEncoding implements Encoding {
         for (int i = 2; i <= actuators; i++) {
             ranges.add(GeneRange.unit("phase " + i));
         }
-        this.genes = List.copyOf(ranges);
-    }
-
-    @Override
-    public List<GeneRange> genes() {
-        return genes;
+        return List.copyOf(ranges);
     }
 
     @Override

@@ -40,19 +40,14 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
         phase = List.copyOf(phase);
     }
 
-    /** A gait that goes straight on. */
-    public Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power) {
-        this(frequency, amplitude, phase, power, null);
-    }
-
-    /** A gait that follows the plain sine. */
+    /** A gait that follows the plain sine and goes straight on. */
     public Gait(double frequency, List<Double> amplitude, List<Double> phase) {
-        this(frequency, amplitude, phase, null);
+        this(frequency, amplitude, phase, null, null);
     }
 
     /** Muscles that do nothing. */
     public Gait resting() {
-        return new Gait(frequency, Collections.nCopies(actuators(), 0.0), phase, power);
+        return new Gait(frequency, Collections.nCopies(actuators(), 0.0), phase, power, null);
     }
 
     /**

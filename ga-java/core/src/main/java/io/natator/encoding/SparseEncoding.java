@@ -8,26 +8,24 @@ import java.util.List;
  * Sparse encoding (thesis 2.6): frequency, first amplitude, last amplitude, phase difference. Amplitudes run evenly
  * from the first to the last (eq. 2.9), phases advance by the difference from one actuator to the next (eq. 2.10,
  * counted so that the first phase is 0, as table 2.2 shows). Four genes for any number of actuators.
+ *
+ * @param actuators of the creature, at least 2: with one there is no last amplitude
  */
-public final class SparseEncoding implements Encoding {
+public record SparseEncoding(int actuators) implements Encoding {
 
     private static final List<GeneRange> GENES = List.of(GeneRange.frequency(), GeneRange.unit("first amplitude"),
             GeneRange.unit("last amplitude"), GeneRange.unit("phase difference"));
 
-    private final int actuators;
-
     /**
-     * Encoding for a creature.
+     * Checks the number.
      *
-     * @param actuators n, at least 2: with one there is no last amplitude
-     * @throws IllegalArgumentException if n is less than 2
+     * @throws IllegalArgumentException if there are fewer than 2
      */
-    public SparseEncoding(int actuators) {
+    public SparseEncoding {
         if (actuators < 2) {
             throw new IllegalArgumentException(
                     "sparse encoding of " + Numbers.count(actuators, "actuator") + "; expected at least 2");
         }
-        this.actuators = actuators;
     }
 
     @Override

@@ -6,17 +6,12 @@ import java.util.List;
 /**
  * Another encoding with one gene more, the offset: how far all muscles are driven to one side beside their beat, so that
  * the swimmer steers.
+ *
+ * @param straight the other; the offset comes after its genes
  */
-public final class SteeredEncoding implements Encoding {
+public record SteeredEncoding(Encoding straight) implements Encoding {
 
     private static final GeneRange OFFSET = new GeneRange("offset", -0.5, 0.5);
-
-    private final Encoding straight;
-
-    /** The genes of an encoding, and the offset after them. */
-    public SteeredEncoding(Encoding straight) {
-        this.straight = straight;
-    }
 
     @Override
     public List<GeneRange> genes() {

@@ -25,9 +25,4 @@ public record EvaluationRecord(int generation, List<Double> genes, Gait gait, Si
         Objects.requireNonNull(result, "result");
         Objects.requireNonNull(result.id(), "id");
     }
-
-    /** A record of a run from the scene's own start. */
-    public EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result) {
-        this(generation, genes, gait, result, null);
-    }
 }

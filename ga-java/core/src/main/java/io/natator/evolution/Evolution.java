@@ -48,16 +48,7 @@ public final class Evolution {
      * @param evaluator carries out the simulations; stays open
      * @param listeners told of everything in this order
      * @param recorded  simulations that an interrupted run had finished (a compacted run lacks the oldest); none for a new run
-     */
-    public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            RecordedEvaluations recorded) {
-        this(settings, evaluator, listeners, recorded, null);
-    }
-
-    /**
-     * An evolution that has not begun, by an optimizer outside this program.
-     *
-     * @param pipe to it, which stays open; null without one
+     * @param pipe      to an optimizer outside this program, which stays open; null without one
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             RecordedEvaluations recorded, OptimizerPipe pipe) {
@@ -207,7 +198,7 @@ public final class Evolution {
 
     /** A start of the generation; null where gaits run from the scene's own. */
     private Integer start(int number) {
-        return settings.search().starts() == 1 ? null : StartSeeds.of(settings.search().seed(), generation, number);
+        return settings.search().starts() == 1 ? null : Seeds.start(settings.search().seed(), generation, number);
     }
 
     /** The newborns of a generation that these simulations are of. */
@@ -217,7 +208,7 @@ public final class Evolution {
         List<SimulationResult> results = new ArrayList<>();
         for (EvaluationRecord one : earlier) {
             if (starts > 1 && one.start() != null && IntStream.range(0, starts)
-                    .noneMatch(k -> one.start() == StartSeeds.of(settings.search().seed(), one.generation(), k))) {
+                    .noneMatch(k -> one.start() == Seeds.start(settings.search().seed(), one.generation(), k))) {
                 continue;
             }
             if (results.size() % starts == 0) {
@@ -232,7 +223,7 @@ public final class Evolution {
         List<Run> runs = new ArrayList<>();
         for (Individual one : individuals) {
             for (int k = first; k < first + starts; k++) {
-                runs.add(new Run(one.genes(), StartSeeds.of(settings.search().seed(), generation, k)));
+                runs.add(new Run(one.genes(), Seeds.start(settings.search().seed(), generation, k)));
             }
         }
         List<SimulationResult> results = simulate(runs.subList(0, (int) Math.min(runs.size(), budgetLeft())));

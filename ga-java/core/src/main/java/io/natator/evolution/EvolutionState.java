@@ -41,16 +41,10 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         refused = refused == null ? null : refused.stream().map(List::copyOf).toList();
     }
 
-    /** The state of an evolution in which no gait was unstable in some of its runs. */
-    public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
-            List<GenerationSummary> history, List<Individual> champions) {
-        this(generation, evaluations, population, best, history, champions, null);
-    }
-
     /** The state of an evolution in which every gait is run once. */
     public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
             List<GenerationSummary> history) {
-        this(generation, evaluations, population, best, history, null);
+        this(generation, evaluations, population, best, history, null, null);
     }
 
     /** Whether an evolution with these settings goes no further than this state: no more whole gait can be evaluated. */

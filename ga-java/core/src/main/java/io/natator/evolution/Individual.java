@@ -3,6 +3,7 @@ package io.natator.evolution;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.protocol.Effort;
 import io.natator.protocol.SimulationResult;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
 import java.util.Objects;
 
@@ -15,7 +16,9 @@ import java.util.Objects;
  * @param estimate what it is worth by several runs; null where there is one
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate) {
+@RecordBuilder
+public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate)
+        implements IndividualBuilder.With {
 
     /** Copies the genes; requires them and a result with its id. */
     public Individual {
@@ -62,13 +65,5 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
     /** Whether none of its runs broke a law of mechanics. */
     boolean isStable() {
         return result.status() != SimulationResult.Status.UNSTABLE && (estimate == null || estimate.isStable());
-    }
-
-    Individual withAge(int newAge) {
-        return new Individual(genes, newAge, result, estimate);
-    }
-
-    Individual withEstimate(Estimate newEstimate) {
-        return new Individual(genes, age, result, newEstimate);
     }
 }

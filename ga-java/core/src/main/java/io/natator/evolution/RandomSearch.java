@@ -7,15 +7,7 @@ import java.util.List;
 import java.util.SplittableRandom;
 
 /** Uniformly random genomes, as many in each generation as the population's size. */
-final class RandomSearch implements Optimizer {
-
-    private final EvolutionSettings settings;
-    private final List<GeneRange> ranges;
-
-    RandomSearch(EvolutionSettings settings, List<GeneRange> ranges) {
-        this.settings = settings;
-        this.ranges = ranges;
-    }
+record RandomSearch(EvolutionSettings settings, List<GeneRange> ranges) implements Optimizer {
 
     @Override
     public List<List<Double>> propose(int generation, List<Individual> before) {

@@ -13,7 +13,6 @@ import io.natator.process.SceneInfo;
 import io.natator.protocol.Effort;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
-import io.natator.protocol.VacuumRequests;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -105,7 +104,7 @@ public final class FitnessEvaluator implements Evaluator {
         evaluator.evaluateAll(requests, result -> {
             if (isNet && result.distanceOrZero() > 0) {
                 inWater.put(result.id(), result);
-                inVacuum.add(VacuumRequests.of(asked.get(result.id()), result.simulated()));
+                inVacuum.add(asked.get(result.id()).inVacuum(result.simulated()));
             } else {
                 whenDone.accept(judge(result, asked.get(result.id())));
             }

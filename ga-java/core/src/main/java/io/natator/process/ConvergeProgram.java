@@ -26,16 +26,6 @@ public final class ConvergeProgram {
 
     private final ExecutionSettings execution;
 
-    /** Who is told of the program's work while it lasts. */
-    public interface Listener {
-
-        /** A run has ended; which, and how far it came. */
-        void ran(String run);
-
-        /** A line of the table for people, which comes at the end. */
-        void table(String line);
-    }
-
     /**
      * The program of an execution.
      *
@@ -48,21 +38,22 @@ public final class ConvergeProgram {
     /**
      * Runs a swim as it is asked for and at finer levels, all from the same starts.
      *
-     * @param starts   how many, at least 2
-     * @param levels   beside its own, each once
-     * @param runs     gets a line for each run; those that it has already are not done again
-     * @param listener called in another thread
+     * @param starts how many, at least 2
+     * @param levels beside its own, each once
+     * @param runs   gets a line for each run; those that it has already are not done again
+     * @param ran    told, in another thread, of each run that has ended: which, and how far it came
+     * @param table  told likewise, at the end, the lines of the table for people
      * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
      */
-    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs, Listener listener)
-            throws InterruptedException {
+    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs,
+            Consumer<String> ran, Consumer<String> table) throws InterruptedException {
         Consumer<String> lines = line -> {
             if (line.startsWith(PROGRESS)) {
-                listener.ran(line.substring(PROGRESS.length()));
+                ran.accept(line.substring(PROGRESS.length()));
             } else if (!line.startsWith(NativeProgram.Output.NAME)) {
-                listener.table(line);
+                table.accept(line);
             }
         };
         List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,

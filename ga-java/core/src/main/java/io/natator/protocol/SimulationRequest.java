@@ -59,4 +59,17 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return withChange(patch);
     }
+
+    /**
+     * This request without fluid, gravity and planes, as the thesis' check takes them out of a scene (2.7): a gait that advances
+     * there is no swimming. It has no early stops, see {@link #withoutStops()}.
+     *
+     * @param seconds simulated time, or null for the scene's own
+     */
+    public SimulationRequest inVacuum(Double seconds) {
+        ObjectNode removal = JsonNodeFactory.instance.objectNode();
+        removal.putNull("fluid").putArray("planes");
+        removal.putObject("solver").putArray("gravity").add(0).add(0).add(0);
+        return withDuration(seconds).withChange(removal).withoutStops();
+    }
 }

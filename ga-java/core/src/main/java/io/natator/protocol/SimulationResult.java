@@ -152,11 +152,6 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return distanceOrZero() - (vacuumDrift == null ? 0.0 : Math.max(vacuumDrift, 0.0));
     }
 
-    /** The fitness that selection works with: the score of what swims forwards, never negative nor NaN. */
-    public double fitness() {
-        return Math.max(score(), 0.0);
-    }
-
     /**
      * Whether it ended before its time though nothing was wrong. What would have been ended with the last frame was simulated whole,
      * whatever {@code stopped} says.

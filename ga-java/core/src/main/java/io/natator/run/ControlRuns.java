@@ -13,7 +13,6 @@ import io.natator.config.SimulatorMode;
 import io.natator.process.Evaluator;
 import io.natator.process.ProgramInfo;
 import io.natator.protocol.SimulationResult;
-import io.natator.protocol.VacuumRequests;
 import java.util.List;
 
 /** Runs a swimmer under the conditions of {@link Controls}, all but the share under water. */
@@ -48,20 +47,13 @@ public final class ControlRuns {
             String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst()
                     .orElse("");
             SwimSample water = again.sample(inWater, swimmer, 1);
-            // A body at rest makes no progress, which is to end no run of it.
-            SwimSample resting = again.sample(
-                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping())),
-                    swimmer, 1);
+            SwimSample resting = sample(evaluator, swimmer.withGait(swimmer.gait().resting()), stopping());
             SwimSample vacuum = again.sample(evaluator.evaluate(again.requests(swimmer, starts, null).stream()
-                    .map(request -> VacuumRequests.of(request, settings.problem().duration())).toList()), swimmer, 1);
-            SwimSample clampOff = Scheme.of(scheme) == Scheme.FLEX
-                    ? again.sample(evaluator.evaluate(again.requests(swimmer, starts, withoutClamp())), swimmer, 1)
-                    : null;
+                    .map(request -> request.inVacuum(settings.problem().duration())).toList()), swimmer, 1);
+            SwimSample clampOff = Scheme.of(scheme) == Scheme.FLEX ? sample(evaluator, swimmer, withoutClamp()) : null;
             SwimSample half = again.sample(evaluator.evaluate(again.requests(swimmer, starts, again.halfStep())),
                     swimmer, 2);
-            SwimSample mirrored = again.sample(
-                    evaluator.evaluate(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null)),
-                    swimmer, 1);
+            SwimSample mirrored = sample(evaluator, swimmer.withGait(swimmer.gait().mirrored()), null);
             Backend other = otherBackend();
             return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer),
                     water, resting, vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
@@ -69,12 +61,17 @@ public final class ControlRuns {
         }
     }
 
+    /** Runs from the same starts with a change of the scene, or null. */
+    private SwimSample sample(Evaluator evaluator, Swimmer swimmer, ObjectNode change) throws InterruptedException {
+        return again.sample(evaluator.evaluate(again.requests(swimmer, starts, change)), swimmer, 1);
+    }
+
     /** Runs from the same starts on another backend. */
     private SwimSample onOther(Swimmer swimmer, Backend backend) throws InterruptedException {
         ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);
         try (Evaluator evaluator = EvolutionRun.open(elsewhere)) {
-            return again.sample(evaluator.evaluate(again.requests(swimmer, starts, null)), swimmer, 1);
+            return sample(evaluator, swimmer, null);
         }
     }
 
@@ -92,6 +89,7 @@ public final class ControlRuns {
         return patch;
     }
 
+    /** A body at rest makes no progress, which is to end no run of it. */
     private static ObjectNode stopping() {
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("noProgressAfter", 0);

@@ -12,7 +12,6 @@ import io.natator.process.Evaluator;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
-import io.natator.protocol.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -56,7 +55,7 @@ final class VacuumCheck implements EvolutionListener {
         SimulationRequest request = SimulationRequest.of(individual.result().id(), settings,
                 settings.problem().genome().decode(individual.genes()));
         try {
-            return evaluator.evaluate(VacuumRequests.of(request, duration));
+            return evaluator.evaluate(request.inVacuum(duration));
         } catch (RequestRejectedException e) {
             e.throwUnlessBadInput();
             return SimulationResult.failed(request.id(), e.getMessage());

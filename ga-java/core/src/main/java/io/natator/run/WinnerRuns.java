@@ -7,7 +7,7 @@ import io.natator.body.Swimmer;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.evolution.StartSeeds;
+import io.natator.evolution.Seeds;
 import io.natator.process.SceneInfo;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
@@ -63,7 +63,7 @@ final class WinnerRuns {
      */
     List<SimulationRequest> requests(Swimmer swimmer, int starts, ObjectNode change) {
         return IntStream.range(0, starts).mapToObj(k -> SimulationRequest.of(k, settings, swimmer).withChange(change)
-                .withStart(StartSeeds.fresh(settings.search().seed(), k))).toList();
+                .withStart(Seeds.freshStart(settings.search().seed(), k))).toList();
     }
 
     /**

@@ -56,17 +56,6 @@ public record Verdict(Kind kind, String text, String advice) {
         return sinks && verdict.advice != null ? new Verdict(verdict.kind, verdict.text, SINKS) : verdict;
     }
 
-    /**
-     * The verdict on a gait.
-     *
-     * @param water      what it did in water
-     * @param vacuum     what it did without, or null if that was not tried
-     * @param bodyLength in scene units, or null if that is unknown
-     */
-    public static Verdict of(SimulationResult water, SimulationResult vacuum, Double bodyLength) {
-        return of(Swim.of(water), vacuum, bodyLength);
-    }
-
     private static Verdict of(Swim water, SimulationResult vacuum, Double bodyLength) {
         if (water.failure() != null) {
             return unproven("not judged: " + water.failure(), LONGER);

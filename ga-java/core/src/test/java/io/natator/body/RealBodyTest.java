@@ -70,7 +70,8 @@ class RealBodyTest {
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
                 settings.problem().genome().decode(Bodies.random(settings.problem().genome().genes(), random))))
                 .toList();
-        ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
+        ExecutionSettings execution = ExecutionSettings.of(SIMULATOR).withMode(SimulatorMode.PROCESS).withWorkers(2)
+                .withTimeout(Duration.ofMinutes(5));
 
         List<String> alone = hashes(requests, execution);
 

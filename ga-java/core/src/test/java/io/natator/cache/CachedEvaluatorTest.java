@@ -18,7 +18,6 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
-import java.time.Duration;
 import java.util.List;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -34,7 +33,7 @@ class CachedEvaluatorTest {
 
     @BeforeEach
     void fake() {
-        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        execution = FakeSimulator.execution(folder);
     }
 
     /** How many of the requests the simulator is asked for. */

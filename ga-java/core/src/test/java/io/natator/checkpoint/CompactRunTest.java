@@ -18,7 +18,6 @@ import io.natator.run.EvolutionRun;
 import io.natator.run.PlannedRun;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -36,7 +35,7 @@ class CompactRunTest {
 
     @BeforeEach
     void fake() {
-        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        execution = FakeSimulator.execution(folder);
     }
 
     @Test

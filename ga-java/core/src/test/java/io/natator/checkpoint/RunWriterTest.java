@@ -61,7 +61,7 @@ class RunWriterTest {
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
         try (folder; Evaluator pool = new FakePool(simulator, 3)) {
-            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded(), null)
                     .run(folder.checkpoint());
             folder.writeResults(end);
         }
@@ -246,7 +246,8 @@ class RunWriterTest {
         try (broken;
                 Evaluator pool = new FakePool(request -> request.id() < 15 ? toy.evaluate(request)
                         : SimulationResult.failed(request.id(), "no memory"), 2)) {
-            Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded());
+            Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), broken.recorded(),
+                    null);
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(EvolutionFailedException.class)
                     .hasMessageContaining("simulations failed, the first: no memory");
         }

@@ -23,13 +23,6 @@ class EvolutionSettingsTest {
         assertThat(settings(population, 1, 0.05, null).search().elites()).isEqualTo(elites);
     }
 
-    @Test
-    void surviveTheFile() throws JsonProcessingException {
-        EvolutionSettings settings = settings(24, 8, 0.1, 0.25);
-
-        assertThat(Json.parse(Json.document(settings), EvolutionSettings.class)).isEqualTo(settings);
-    }
-
     /** Of runs that were begun before settings were three records, and for programs that read them. */
     @Test
     void filesHaveAllKeysSideBySideInTheirOldOrder() throws JsonProcessingException {

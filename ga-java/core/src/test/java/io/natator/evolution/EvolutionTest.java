@@ -8,7 +8,6 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
-import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
@@ -28,17 +27,10 @@ class EvolutionTest {
                 .withSeed(seed).withOptimizer(OptimizerKind.JGAP, operators, 0.05);
     }
 
-    private static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator, int workers,
-            EvolutionListener... listeners) {
-        try (Evaluator pool = new FakePool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), new RecordedEvaluations(0, List.of())).run(null);
-        }
-    }
-
     @ParameterizedTest
     @EnumSource(OperatorSet.class)
     void improvesAndNeverLosesItsBest(OperatorSet operators) {
-        EvolutionState end = run(settings(operators, 40, 25, 3), new ToySimulator(), 2);
+        EvolutionState end = ToyEvolution.run(settings(operators, 40, 25, 3)).end();
 
         double before = Double.NEGATIVE_INFINITY;
         for (GenerationSummary generation : end.history()) {
@@ -55,9 +47,9 @@ class EvolutionTest {
     @ParameterizedTest
     @EnumSource(OperatorSet.class)
     void sameSeedSameRunWhateverTheWorkers(OperatorSet operators) {
-        EvolutionState one = run(settings(operators, 30, 6, 42), new ToySimulator(), 1);
-        EvolutionState four = run(settings(operators, 30, 6, 42), new ToySimulator(), 4);
-        EvolutionState other = run(settings(operators, 30, 6, 43), new ToySimulator(), 4);
+        EvolutionState one = ToyEvolution.run(settings(operators, 30, 6, 42), 1, null, List.of());
+        EvolutionState four = ToyEvolution.run(settings(operators, 30, 6, 42), 4, null, List.of());
+        EvolutionState other = ToyEvolution.run(settings(operators, 30, 6, 43), 4, null, List.of());
 
         assertThat(four).isEqualTo(one);
         assertThat(other.population()).isNotEqualTo(one.population());
@@ -66,7 +58,7 @@ class EvolutionTest {
     @Test
     void thesisSizeTakesTheExpectedNumberOfEvaluations() {
         ToySimulator simulator = new ToySimulator();
-        EvolutionState end = run(settings(OperatorSet.CORRECTED, 150, 3, 1), simulator, 2);
+        EvolutionState end = ToyEvolution.run(settings(OperatorSet.CORRECTED, 150, 3, 1), simulator);
 
         assertThat(end.history().get(0).evaluations()).isEqualTo(150);
         assertThat(simulator.calls()).isEqualTo((int) end.evaluations());
@@ -82,7 +74,7 @@ class EvolutionTest {
         List<EvaluationRecord> evaluations = new ArrayList<>();
         Set<List<Double>> previous = new HashSet<>();
         List<EvaluationRecord> repeated = new ArrayList<>();
-        run(settings(OperatorSet.CORRECTED, 30, 10, 5), new ToySimulator(), 2, new EvolutionListener() {
+        ToyEvolution.run(settings(OperatorSet.CORRECTED, 30, 10, 5), new ToySimulator(), new EvolutionListener() {
             @Override
             public void evaluated(EvaluationRecord evaluation) {
                 evaluations.add(evaluation);
@@ -104,27 +96,26 @@ class EvolutionTest {
 
     @Test
     void theSelectedGoOnUnchangedAndAge() {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, recorder);
+        List<EvolutionState> states = ToyEvolution.run(settings(OperatorSet.CORRECTED, 50, 1, 5)).states;
 
-        List<Individual> first = recorder.states.get(0).population();
-        List<Individual> second = recorder.states.get(1).population();
+        List<Individual> first = states.get(0).population();
+        List<Individual> second = states.get(1).population();
         assertThat(first).hasSize(50).extracting(Individual::age).containsOnly(1);
         List<List<Double>> firstGenes = first.stream().map(Individual::genes).toList();
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
         assertThat(second.subList(0, 50)).allSatisfy(one -> assertThat(firstGenes).contains(one.genes()));
         assertThat(second.subList(50, second.size())).extracting(Individual::age).containsOnly(0);
-        List<Double> tenBest = first.stream().map(one -> one.result().fitness()).sorted(Comparator.reverseOrder())
+        List<Double> tenBest = first.stream().map(Individual::fitness).sorted(Comparator.reverseOrder())
                 .limit(10).toList();
-        assertThat(second.subList(0, 10)).extracting(one -> one.result().fitness()).isEqualTo(tenBest);
+        assertThat(second.subList(0, 10)).extracting(Individual::fitness).isEqualTo(tenBest);
         assertThat(tenBest.get(0)).isPositive();
     }
 
     /** Backward swimmers have fitness 0 for JGAP, and their distance in the record. */
     @Test
     void negativeDistancesAreKeptInTheRecord() {
-        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), request -> Results.ok(request.id(), -0.25),
-                2);
+        EvolutionState end = ToyEvolution.run(settings(OperatorSet.CORRECTED, 10, 2, 5),
+                request -> Results.ok(request.id(), -0.25));
 
         assertThat(end.best().result().distance()).isEqualTo(-0.25);
         assertThat(end.history()).extracting(GenerationSummary::mean)
@@ -135,7 +126,7 @@ class EvolutionTest {
     void oneFailureCostsOneEvaluation() {
         FakePool.Simulation flaky = request -> request.id() % 4 == 1
                 ? SimulationResult.failed(request.id(), "crashed") : Results.ok(request.id(), 0.1);
-        EvolutionState end = run(settings(OperatorSet.CORRECTED, 16, 2, 5), flaky, 3);
+        EvolutionState end = ToyEvolution.run(settings(OperatorSet.CORRECTED, 16, 2, 5), flaky);
 
         assertThat(end.history().get(0).failed()).isEqualTo(4);
         assertThat(end.history().get(0).worst()).isZero();
@@ -146,7 +137,7 @@ class EvolutionTest {
     void stopsWhenMostEvaluationsFail() {
         FakePool.Simulation broken = request -> SimulationResult.failed(request.id(), "exit status 1");
 
-        assertThatThrownBy(() -> run(settings(OperatorSet.CORRECTED, 10, 2, 5), broken, 2))
+        assertThatThrownBy(() -> ToyEvolution.run(settings(OperatorSet.CORRECTED, 10, 2, 5), broken))
                 .isInstanceOf(EvolutionFailedException.class)
                 .hasMessage("generation 0: 10 of 10 simulations failed, the first: exit status 1");
     }

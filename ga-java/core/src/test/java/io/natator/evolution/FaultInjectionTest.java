@@ -19,7 +19,6 @@ import io.natator.protocol.SimulationResult.Status;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -49,7 +48,7 @@ class FaultInjectionTest {
                     evaluations.add(evaluation);
                     then.accept(evaluations.size());
                 }
-            }), new RecordedEvaluations(0, List.of())).run(null);
+            }), new RecordedEvaluations(0, List.of()), null).run(null);
         }
         return evaluations;
     }
@@ -72,7 +71,7 @@ class FaultInjectionTest {
             throws IOException, InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
                 .withSize(100, Budget.NO_LIMIT).withEvaluations(count);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5))
+        ExecutionSettings execution = FakeSimulator.execution(folder)
                 .withMode(mode);
         long filesBefore = openFiles();
 
@@ -89,7 +88,7 @@ class FaultInjectionTest {
                     .isEqualTo(again ? Status.FAILED : Status.OK);
             if (again) {
                 assertThat(result.error()).isNotBlank();
-                assertThat(result.fitness()).isZero();
+                assertThat(result.score()).isZero();
                 failed++;
             } else {
                 assertThat(result.distance()).isCloseTo(distance(evaluation.gait()), within(1e-7));
@@ -110,8 +109,7 @@ class FaultInjectionTest {
     void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
                 .withSize(20, Budget.NO_LIMIT).withEvaluations(40L);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5))
-                .withMode(mode);
+        ExecutionSettings execution = FakeSimulator.execution(folder, 3).withMode(mode);
 
         assertThat(evolve(settings, execution, done -> {
         })).hasSize(40).allSatisfy(evaluation -> {

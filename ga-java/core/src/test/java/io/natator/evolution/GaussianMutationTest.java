@@ -3,12 +3,11 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.checkpoint.Spread;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.SplittableRandom;
-import java.util.stream.DoubleStream;
 import java.util.stream.Stream;
-import org.jgap.Gene;
 import org.jgap.GeneticOperator;
 import org.jgap.IChromosome;
 import org.jgap.InvalidConfigurationException;
@@ -26,7 +25,7 @@ class GaussianMutationTest {
     private static final double RANGE = JgapFixture.UPPER - JgapFixture.LOWER;
 
     /** Shifts of all genes as shares of the range, from the middle of the range, where no bound interferes. */
-    private static double[] shifts(boolean stock, double deviation) throws InvalidConfigurationException {
+    private static List<Double> shifts(boolean stock, double deviation) throws InvalidConfigurationException {
         JgapFixture jgap = new JgapFixture(7, CHROMOSOMES);
         Population population = new Population(jgap.configuration);
         for (int i = 0; i < CHROMOSOMES; i++) {
@@ -38,61 +37,41 @@ class GaussianMutationTest {
         operator.operate(population, children);
 
         assertThat(children).hasSize(CHROMOSOMES);
-        return children.stream().flatMapToDouble(child -> DoubleStream.of(valuesOf(child)))
-                .map(value -> (value - MIDDLE) / RANGE).toArray();
-    }
-
-    private static double[] valuesOf(IChromosome chromosome) {
-        double[] values = new double[chromosome.size()];
-        for (int i = 0; i < values.length; i++) {
-            Gene gene = chromosome.getGene(i);
-            values[i] = (double) gene.getAllele();
-        }
-        return values;
-    }
-
-    private static double mean(double[] values) {
-        return DoubleStream.of(values).average().orElseThrow();
-    }
-
-    private static double deviation(double[] values) {
-        double mean = mean(values);
-        return Math.sqrt(DoubleStream.of(values).map(x -> (x - mean) * (x - mean)).average().orElseThrow());
+        return children.stream().flatMap(child -> GeneticAlgorithm.genesOf(child).stream())
+                .map(value -> (value - MIDDLE) / RANGE).toList();
     }
 
     @ParameterizedTest
     @ValueSource(doubles = {0.02, 0.05, 0.1})
     void noiseHasMeanZeroAndTheSetDeviation(double sigma) throws InvalidConfigurationException {
-        double[] shifts = shifts(false, sigma);
+        List<Double> shifts = shifts(false, sigma);
 
         // Four standard errors of the mean and of the deviation of 20 000 normal numbers.
-        assertThat(mean(shifts)).isCloseTo(0.0, within(4 * sigma / Math.sqrt(shifts.length)));
-        assertThat(deviation(shifts)).isCloseTo(sigma, within(4 * sigma / Math.sqrt(2.0 * shifts.length)));
+        assertThat(Spread.of(shifts).mean()).isCloseTo(0.0, within(4 * sigma / Math.sqrt(shifts.size())));
+        assertThat(Spread.of(shifts).sd()).isCloseTo(sigma, within(4 * sigma / Math.sqrt(2.0 * shifts.size())));
     }
 
     @Test
     void noiseIsNormal() throws InvalidConfigurationException {
-        double[] shifts = shifts(false, 0.05);
+        List<Double> shifts = shifts(false, 0.05);
 
         assertThat(share(shifts, 0.05)).isCloseTo(0.6827, within(0.015));
         assertThat(share(shifts, 0.10)).isCloseTo(0.9545, within(0.008));
     }
 
-    private static double share(double[] shifts, double limit) {
-        return (double) DoubleStream.of(shifts).filter(x -> Math.abs(x) <= limit).count() / shifts.length;
+    private static double share(List<Double> shifts, double limit) {
+        return (double) shifts.stream().filter(x -> Math.abs(x) <= limit).count() / shifts.size();
     }
 
     @Test
     void parentsStayAsTheyAre() throws InvalidConfigurationException {
         JgapFixture jgap = new JgapFixture(7, 10);
         Population population = jgap.population(10, 3);
-        List<double[]> before = Stream.of(population.toChromosomes()).map(GaussianMutationTest::valuesOf).toList();
+        List<List<Double>> before = Stream.of(population.toChromosomes()).map(GeneticAlgorithm::genesOf).toList();
 
         new GaussianMutation(jgap.configuration, 0.1, jgap.random).operate(population, new ArrayList<>());
 
-        for (int i = 0; i < before.size(); i++) {
-            assertThat(valuesOf(population.getChromosome(i))).containsExactly(before.get(i));
-        }
+        assertThat(population.toChromosomes()).extracting(GeneticAlgorithm::genesOf).isEqualTo(before);
     }
 
     @Test
@@ -118,11 +97,10 @@ class GaussianMutationTest {
     @ParameterizedTest
     @ValueSource(doubles = {0.05, 0.2})
     void stockNoiseIsUniformAndOnlyUpward(double deviation) throws InvalidConfigurationException {
-        double[] shifts = shifts(true, deviation);
+        List<Double> shifts = shifts(true, deviation);
 
-        assertThat(DoubleStream.of(shifts).min().orElseThrow()).isGreaterThanOrEqualTo(0.0);
-        assertThat(DoubleStream.of(shifts).max().orElseThrow()).isLessThanOrEqualTo(deviation);
-        assertThat(mean(shifts)).isCloseTo(deviation / 2, within(deviation / 100));
+        assertThat(shifts).allSatisfy(shift -> assertThat(shift).isBetween(0.0, deviation));
+        assertThat(Spread.of(shifts).mean()).isCloseTo(deviation / 2, within(deviation / 100));
         assertThat(share(shifts, deviation / 4)).isCloseTo(0.25, within(0.015));
     }
 }

@@ -25,15 +25,9 @@ class MapElitesTest {
     private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
             .withSize(30, 12).withSeed(2).withObjectives(OptimizerKind.MAP_ELITES, null);
 
-    private static ToyEvolution.Recorder run(EvolutionSettings settings) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        ToyEvolution.run(settings, 2, null, List.of(), recorder);
-        return recorder;
-    }
-
     @Test
     void theMapFillsAndNoEliteGetsWorse() {
-        List<EvolutionState> states = run(SETTINGS).states;
+        List<EvolutionState> states = ToyEvolution.run(SETTINGS).states;
 
         SortedMap<EliteMap.Cell, Individual> before = new EliteMap(List.of()).elites();
         for (EvolutionState state : states) {
@@ -50,7 +44,8 @@ class MapElitesTest {
     /** By what the simulated body did in its 4 s, not by what its gait asks for. */
     @Test
     void cellsAreByWhatWasMeasured() {
-        SortedMap<EliteMap.Cell, Individual> elites = new EliteMap(run(SETTINGS).states.get(12).population()).moving();
+        SortedMap<EliteMap.Cell, Individual> elites = new EliteMap(ToyEvolution.run(SETTINGS).end().population())
+                .moving();
 
         assertThat(elites).hasSizeGreaterThan(20);
         elites.forEach((cell, elite) -> {
@@ -81,10 +76,10 @@ class MapElitesTest {
     /** Of several starts a gait is of the kind of all its runs together, those in races too. */
     @Test
     void kindsAreByAllRuns() {
-        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Aggregate.MEAN));
-        EvolutionState end = recorder.states.get(4);
+        ToyEvolution.Recorder recorder = ToyEvolution
+                .run(SETTINGS.withSize(20, 4).withStarts(3, Aggregate.MEAN));
 
-        assertThat(end.champions()).isNotEmpty().allSatisfy(one -> {
+        assertThat(recorder.end().champions()).isNotEmpty().allSatisfy(one -> {
             List<EvaluationRecord> own = recorder.evaluations.stream().filter(run -> run.genes().equals(one.genes()))
                     .toList();
             assertThat(own).hasSizeGreaterThan(3);
@@ -95,7 +90,7 @@ class MapElitesTest {
             assertThat(one.effort().work()).isCloseTo(own.size() * ToySimulator.work(ENCODING.decode(one.genes())),
                     within(1e-9));
         });
-        assertThat(Json.line(end)).contains("\"effort\":{\"beats\":");
+        assertThat(Json.line(recorder.end())).contains("\"effort\":{\"beats\":");
     }
 
     /** As scheme flex, which cannot tell what its muscles do. */
@@ -110,7 +105,7 @@ class MapElitesTest {
     /** A run by a version whose kinds were others does not go on as if its map were empty. */
     @Test
     void anotherVersionsMapIsNoMap() {
-        EvolutionState state = run(SETTINGS.withSize(20, 1)).states.get(0);
+        EvolutionState state = ToyEvolution.run(SETTINGS.withSize(20, 1)).states.get(0);
         List<Individual> old = state.population().stream()
                 .map(one -> new Individual(one.genes(), one.age(), one.result().withEffort(null))).toList();
 

@@ -21,8 +21,8 @@ class Nsga2Test {
     private static EvolutionState run(int generations, int starts) {
         return ToyEvolution.run(ToyEvolution.by(OptimizerKind.NSGA2,
                 EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(24, generations).withSeed(3)
-                        .withStarts(starts, Aggregate.MEAN)),
-                new ToySimulator());
+                        .withStarts(starts, Aggregate.MEAN)))
+                .end();
     }
 
     private static boolean dominates(Individual one, Individual other) {
@@ -80,7 +80,7 @@ class Nsga2Test {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 5)
                 .withObjectives(OptimizerKind.CMA_ES,
                         WeightedObjective.parse("forward=2,straight=0.5,work=0.1,efficiency=0.01"));
-        EvolutionState end = ToyEvolution.run(settings, new ToySimulator());
+        EvolutionState end = ToyEvolution.run(settings).end();
         SimulationResult best = end.best().result();
         Gait gait = ENCODING.decode(end.best().genes());
         double distance = ToySimulator.distance(gait);

@@ -27,22 +27,20 @@ class OptimizerTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings(optimizer, 333, 4));
 
-        EvolutionState end = ToyEvolution.run(settings(optimizer, 333, 4), 2, null, List.of(), recorder);
-
-        assertThat(end.evaluations()).isEqualTo(333);
+        assertThat(recorder.end().evaluations()).isEqualTo(333);
         assertThat(recorder.evaluations).hasSize(333);
-        assertThat(end.best().result().distance()).isEqualTo(recorder.evaluations.stream()
+        assertThat(recorder.end().best().result().distance()).isEqualTo(recorder.evaluations.stream()
                 .mapToDouble(one -> one.result().distance()).max().orElseThrow());
     }
 
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void continuesFromAnyGenerationAsIfNeverInterrupted(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = settings(optimizer, 250, 8);
-        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings);
+        EvolutionState whole = recorder.end();
 
         for (EvolutionState state : recorder.states) {
             for (long more : List.of(0L, 7L)) {
@@ -51,15 +49,14 @@ class OptimizerTest {
                         .isEqualTo(whole);
             }
         }
-        assertThat(ToyEvolution.run(settings(optimizer, 250, 9), 2, null, List.of()).population())
-                .isNotEqualTo(whole.population());
+        assertThat(ToyEvolution.run(settings(optimizer, 250, 9)).end().population()).isNotEqualTo(whole.population());
     }
 
     /** The toy's optimum, 0.5, lies inside the ranges of all ten genes; a hundredth off in each gives 0.499. */
     @Test
     void cmaEsFindsTheOptimumOfASmoothFunction() {
-        EvolutionState cmaEs = ToyEvolution.run(settings(OptimizerKind.CMA_ES, 3000, 1), 2, null, List.of());
-        EvolutionState random = ToyEvolution.run(settings(OptimizerKind.RANDOM, 3000, 1), 2, null, List.of());
+        EvolutionState cmaEs = ToyEvolution.run(settings(OptimizerKind.CMA_ES, 3000, 1)).end();
+        EvolutionState random = ToyEvolution.run(settings(OptimizerKind.RANDOM, 3000, 1)).end();
 
         assertThat(cmaEs.best().result().distance()).isBetween(0.4999, 0.5);
         assertThat(random.best().result().distance()).isBetween(-0.3, 0.45);
@@ -68,15 +65,13 @@ class OptimizerTest {
     /** Once one search has converged to the last bit, the budget goes to another. */
     @Test
     void cmaEsBeginsAnewWhenItHasConverged() {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-
-        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, Budget.NO_LIMIT)
-                .withEvaluations(3000L).withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05), 2, null,
-                List.of(), recorder);
+        List<EvolutionState> states = ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withSize(10, Budget.NO_LIMIT).withEvaluations(3000L)
+                .withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05)).states;
 
         boolean converged = false;
         int restarts = 0;
-        for (EvolutionState state : recorder.states) {
+        for (EvolutionState state : states) {
             double spread = state.history().get(state.generation()).best() - state.history().get(state.generation())
                     .worst();
             restarts += converged && spread > 0.1 ? 1 : 0;
@@ -88,12 +83,12 @@ class OptimizerTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void evolvesBodiesAsItDoesGaits(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = ToyEvolution.by(optimizer,
                 EvolutionSettings.of("open-water/eel", EncodingKind.SPARSE, 8)
                         .withEvolve(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4)
                         .withSeed(3));
-        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings);
+        EvolutionState whole = recorder.end();
         EvolutionState second = recorder.states.get(1);
         int more = (int) second.evaluations() + 3;
 

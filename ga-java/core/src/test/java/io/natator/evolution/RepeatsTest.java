@@ -36,9 +36,9 @@ class RepeatsTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void continuesFromAnyEvaluationAsIfNeverInterrupted(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = settings(optimizer, 4);
-        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings);
+        EvolutionState whole = recorder.end();
         assertThat(ToyEvolution.run(settings, 1, null, List.of())).isEqualTo(whole);
 
         for (int kept = 0; kept <= recorder.evaluations.size(); kept += 17) {
@@ -49,15 +49,13 @@ class RepeatsTest {
             assertThat(ToyEvolution.run(settings, 2, from, recorder.evaluations.subList(0, kept))).as("after %d", kept)
                     .isEqualTo(whole);
         }
-        assertThat(ToyEvolution.run(settings.withSeed(7), 2, null, List.of()).champions())
-                .isNotEqualTo(whole.champions());
+        assertThat(ToyEvolution.run(settings.withSeed(7)).end().champions()).isNotEqualTo(whole.champions());
     }
 
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void newbornsOfAGenerationShareTheirStarts(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        ToyEvolution.run(settings(optimizer, 3), 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings(optimizer, 3));
 
         Set<Integer> earlier = new HashSet<>();
         for (int generation = 0; generation <= 3; generation++) {
@@ -80,8 +78,8 @@ class RepeatsTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void theBestAreRunAgainInEveryGeneration(OptimizerKind optimizer) {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        EvolutionState end = ToyEvolution.run(settings(optimizer, 5), 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = ToyEvolution.run(settings(optimizer, 5));
+        EvolutionState end = recorder.end();
 
         for (EvolutionState state : recorder.states) {
             assertThat(state.champions()).hasSize(4)
@@ -105,10 +103,9 @@ class RepeatsTest {
         double lost = 0;
         double luckiest = 0;
         for (long seed = 1; seed <= 8; seed++) {
-            ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-            EvolutionState end = ToyEvolution.run(settings(OptimizerKind.JGAP, 6).withSeed(seed), 2, null, List.of(),
-                    recorder);
-            lost += (end.best().score() - truth(end.best())) / 8;
+            ToyEvolution.Recorder recorder = ToyEvolution.run(settings(OptimizerKind.JGAP, 6).withSeed(seed));
+            Individual best = recorder.end().best();
+            lost += (best.score() - truth(best)) / 8;
             EvaluationRecord single = recorder.evaluations.stream().reduce(
                     (a, b) -> b.result().score() > a.result().score() ? b : a).orElseThrow();
             luckiest += (single.result().score() - ToySimulator.distance(single.gait())) / 8;
@@ -120,14 +117,13 @@ class RepeatsTest {
     /** Survivors bring their runs along; the next parents are chosen by all of them. */
     @Test
     void parentsAreChosenByTheirMeans() {
-        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 1)
-                .withStarts(STARTS, Aggregate.MEAN), 2, null, List.of(), recorder);
+        List<EvolutionState> states = ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withSize(20, 1).withStarts(STARTS, Aggregate.MEAN)).states;
 
-        List<List<Double>> best = recorder.states.get(0).population().stream()
+        List<List<Double>> best = states.get(0).population().stream()
                 .sorted((a, b) -> Double.compare(b.fitness(), a.fitness())).limit(4).map(Individual::genes).toList();
-        assertThat(recorder.states.get(1).population().subList(0, 4)).extracting(Individual::genes).isEqualTo(best);
-        assertThat(recorder.states.get(0).population().stream().filter(one -> best.contains(one.genes())))
+        assertThat(states.get(1).population().subList(0, 4)).extracting(Individual::genes).isEqualTo(best);
+        assertThat(states.get(0).population().stream().filter(one -> best.contains(one.genes())))
                 .allMatch(one -> one.fitness() > 0 && one.runs() > STARTS);
     }
 
@@ -135,11 +131,10 @@ class RepeatsTest {
     @EnumSource(OptimizerKind.class)
     void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
         for (long most : List.of(4L, 7L, 81L, 90L, 97L, 98L, 203L)) {
-            ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-            EvolutionState end = ToyEvolution.run(settings(optimizer, Budget.NO_LIMIT).withEvaluations(most), 2, null,
-                    List.of(), recorder);
-            assertThat(end.evaluations()).isEqualTo(most).isEqualTo(recorder.evaluations.size());
-            assertThat(end.best()).isNotNull();
+            ToyEvolution.Recorder recorder = ToyEvolution
+                    .run(settings(optimizer, Budget.NO_LIMIT).withEvaluations(most));
+            assertThat(recorder.end().evaluations()).isEqualTo(most).isEqualTo(recorder.evaluations.size());
+            assertThat(recorder.end().best()).isNotNull();
         }
         assertThatThrownBy(() -> settings(optimizer, 1).withEvaluations(3L))
                 .hasMessage("evaluations is 3; expected at least the 4 starts of one gait");
@@ -149,9 +144,8 @@ class RepeatsTest {
     @Test
     void theJudgeHasItsSay() {
         EvolutionSettings mean = settings(OptimizerKind.RANDOM, 2);
-        EvolutionState byMean = ToyEvolution.run(mean, 2, null, List.of());
-        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Aggregate.LOWER_QUARTILE), 2, null,
-                List.of());
+        EvolutionState byMean = ToyEvolution.run(mean).end();
+        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Aggregate.LOWER_QUARTILE)).end();
 
         assertThat(byQuartile.champions()).allSatisfy(
                 one -> assertThat(one.score()).isEqualTo(Aggregate.LOWER_QUARTILE.of(one.estimate().runs())));
@@ -161,8 +155,8 @@ class RepeatsTest {
     @Test
     void freshStartsAreThoseOfNoGeneration() {
         for (int number = 0; number < 1000; number++) {
-            assertThat(StartSeeds.fresh(number, number)).isGreaterThanOrEqualTo(1 << 30);
-            assertThat(StartSeeds.of(number, number, number)).isBetween(0, (1 << 30) - 1);
+            assertThat(Seeds.freshStart(number, number)).isGreaterThanOrEqualTo(1 << 30);
+            assertThat(Seeds.start(number, number, number)).isBetween(0, (1 << 30) - 1);
         }
     }
 }

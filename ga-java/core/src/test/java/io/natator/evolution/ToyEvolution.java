@@ -30,6 +30,13 @@ public final class ToyEvolution {
         return run(settings, new ToySimulator(), workers, from, recorded, listeners);
     }
 
+    /** From its beginning. */
+    static Recorder run(EvolutionSettings settings) {
+        Recorder recorder = new Recorder();
+        run(settings, 2, null, List.of(), recorder);
+        return recorder;
+    }
+
     /** From its beginning, with another simulator. */
     static EvolutionState run(EvolutionSettings settings, FakePool.Simulation simulator,
             EvolutionListener... listeners) {
@@ -60,7 +67,7 @@ public final class ToyEvolution {
     /** Keeps all that a run folder keeps. */
     public static final class Recorder implements EvolutionListener {
         public final List<EvolutionState> states = new ArrayList<>();
-        final List<EvaluationRecord> evaluations = new ArrayList<>();
+        public final List<EvaluationRecord> evaluations = new ArrayList<>();
         final List<Integer> announced = new ArrayList<>();
 
         @Override
@@ -76,6 +83,11 @@ public final class ToyEvolution {
         @Override
         public void generationFinished(EvolutionState state) {
             states.add(state);
+        }
+
+        /** The run's last state. */
+        EvolutionState end() {
+            return states.get(states.size() - 1);
         }
 
         List<EvaluationRecord> of(int generation) {

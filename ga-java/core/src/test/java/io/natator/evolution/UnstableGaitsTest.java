@@ -39,37 +39,24 @@ class UnstableGaitsTest {
 
     private static final List<String> LAWS = List.of("tank", "energy", "tank", "shape", "particle-energy");
 
-    /** Half of the gaits cheat: they go ten units further than others, and break a law from some of their starts. */
-    private static class Cheats implements FakePool.Simulation {
-
-        private final ToySimulator toy = new ToySimulator();
-        private final int oneOf;
-
-        /** Unstable from one of so many starts. */
-        Cheats(int oneOf) {
-            this.oneOf = oneOf;
-        }
-
-        @Override
-        public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+    /** Half of the gaits cheat: they go ten units further than others, and break a law from one of so many starts. */
+    private static FakePool.Simulation cheating(int oneOf) {
+        ToySimulator toy = new ToySimulator();
+        return request -> {
             SimulationResult result = toy.evaluate(request);
-            if (!cheats(request.gait())) {
+            if (request.gait().hashCode() % 2 != 0) {
                 return result;
             }
             int start = request.start() == null ? 0 : request.start();
             return Math.floorMod(start + request.gait().hashCode() / 2, oneOf) == 0
                     ? Results.unstable(request.id(), LAWS.get(Math.floorMod(start, LAWS.size())))
                     : result.withDistance(result.distance() + 10);
-        }
-
-        static boolean cheats(Gait gait) {
-            return gait.hashCode() % 2 == 0;
-        }
+        };
     }
 
     private static ToyEvolution.Recorder run(EvolutionSettings settings, int oneOf) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
-        ToyEvolution.run(settings, new Cheats(oneOf), recorder);
+        ToyEvolution.run(settings, cheating(oneOf), recorder);
         return recorder;
     }
 
@@ -141,12 +128,8 @@ class UnstableGaitsTest {
     void whatIsUnstableInVacuumHasNoNetDistance() throws InterruptedException {
         SimulationRequest request = SimulationRequest.of("thesis/creature-1", new Gait(1.5, List.of(0.6), List.of(0.3)))
                 .withId(7);
-        FakePool.Simulation simulator = new Cheats(1) {
-            @Override
-            public SimulationResult evaluate(SimulationRequest one) throws InterruptedException {
-                return one.overrides() == null ? new ToySimulator().evaluate(one) : Results.unstable(one.id(), "shape");
-            }
-        };
+        FakePool.Simulation simulator = one -> one.overrides() == null ? new ToySimulator().evaluate(one)
+                : Results.unstable(one.id(), "shape");
         try (Evaluator pool = new FakePool(simulator, 1)) {
             SimulationResult result = FitnessEvaluator
                     .of(pool, EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
@@ -176,10 +159,10 @@ class UnstableGaitsTest {
         assertThat(instability.law()).isNull();
         assertThat(Results.unstable(0, null).whyUnstable()).isEqualTo("unstable at 0.50 s");
         Individual one = new Individual(List.of(1.0), 0, Results.ok(1.0));
-        assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old), List.of())))
+        assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one, List.of(old))))
                 .isEqualTo("refused 2 of 10 evaluations: 2 broke law finite");
         assertThat(Refusals.of(new EvolutionState(0, 10, List.of(one), one,
-                List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3)), List.of()))).isNull();
+                List.of(new GenerationSummary(0, 1, 0, 0, -1, 10, 10, 0, 3))))).isNull();
         assertThat(new EliteMap(List.of(new Individual(List.of(1.0), 0, Results.unstable(1, "tank")),
                 new Individual(List.of(2.0), 0, one.result().withEffort(new Effort(8, 1, 2, 12))))).elites())
                 .hasSize(1);

@@ -12,6 +12,7 @@ import java.nio.file.StandardOpenOption;
 import java.util.Arrays;
 import java.util.List;
 import java.util.stream.IntStream;
+import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -76,11 +77,13 @@ class JsonLinesTest {
         Files.writeString(file, "{}\n", StandardOpenOption.APPEND);
         String before = Files.readString(file);
 
-        assertThatThrownBy(this::lines).isInstanceOf(InvalidInputException.class)
-                .hasMessageStartingWith(file + ", line 2: ");
-        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
-                .hasMessageStartingWith(file + ", line 2: ");
+        assertRefused(this::lines, ", line 2: ");
+        assertRefused(() -> JsonLines.locked(file, Row.class), ", line 2: ");
         assertThat(file).hasContent(before);
+    }
+
+    private void assertRefused(ThrowingCallable use, String message) {
+        assertThatThrownBy(use).isInstanceOf(InvalidInputException.class).hasMessageStartingWith(file + message);
     }
 
     /** Lines that lie across what is read at a time, and a line that nobody wrote, as of a file that was made larger. */
@@ -100,10 +103,8 @@ class JsonLinesTest {
         try (RandomAccessFile larger = new RandomAccessFile(file.toFile(), "rw")) {
             larger.setLength(3L << 30);
         }
-        String message = file + ", line 301 is longer than 16777216 bytes";
-        assertThatThrownBy(this::lines).isInstanceOf(InvalidInputException.class).hasMessage(message);
-        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
-                .hasMessage(message);
+        assertRefused(this::lines, ", line 301 is longer than 16777216 bytes");
+        assertRefused(() -> JsonLines.locked(file, Row.class), ", line 301 is longer than 16777216 bytes");
     }
 
     @Test
@@ -112,16 +113,13 @@ class JsonLinesTest {
         try (JsonLines<Row> early = lines(); JsonLines<Row> late = lines()) {
             early.append(new Row(2, "b"));
 
-            assertThatThrownBy(() -> late.append(new Row(3, "c"))).isInstanceOf(InvalidInputException.class)
-                    .hasMessage(file + " is in use by another run");
-            assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
-                    .hasMessage(file + " is in use by another run");
+            assertRefused(() -> late.append(new Row(3, "c")), " is in use by another run");
+            assertRefused(() -> JsonLines.locked(file, Row.class), " is in use by another run");
         }
         try (JsonLines<Row> late = lines()) {
             write(new Row(4, "d"));
 
-            assertThatThrownBy(() -> late.append(new Row(5, "e"))).isInstanceOf(InvalidInputException.class)
-                    .hasMessage(file + " was changed by another run meanwhile");
+            assertRefused(() -> late.append(new Row(5, "e")), " was changed by another run meanwhile");
         }
         assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 2, 4);
     }

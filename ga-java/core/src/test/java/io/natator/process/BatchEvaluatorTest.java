@@ -39,10 +39,6 @@ class BatchEvaluatorTest {
         assertThatNoChildIsLeft();
     }
 
-    private static List<SimulationRequest> requests(int count, String scene) {
-        return LongStream.range(0, count).mapToObj(id -> FakeSimulator.request(id, scene)).toList();
-    }
-
     private List<SimulationResult> evaluate(List<SimulationRequest> requests, double timeoutSeconds)
             throws InterruptedException {
         try (Evaluator evaluator = new BatchEvaluator(FakeSimulator.execution(folder, timeoutSeconds))) {
@@ -52,7 +48,7 @@ class BatchEvaluatorTest {
 
     @Test
     void answersAllUnderTheirIds() throws InterruptedException {
-        List<SimulationResult> results = evaluate(requests(300, "thesis/creature-1"), PATIENCE);
+        List<SimulationResult> results = evaluate(FakeSimulator.requests(300, "thesis/creature-1"), PATIENCE);
 
         assertThat(results).extracting(SimulationResult::id)
                 .containsExactlyElementsOf(LongStream.range(0, 300).boxed().toList());
@@ -62,7 +58,7 @@ class BatchEvaluatorTest {
     /** Ids are what the fake's faults depend on; a batch numbers its requests anew from 1. */
     @Test
     void anEvaluationThatEndsTheProcessFailsAlone() throws InterruptedException {
-        List<SimulationRequest> requests = new ArrayList<>(requests(40, "thesis/creature-1"));
+        List<SimulationRequest> requests = new ArrayList<>(FakeSimulator.requests(40, "thesis/creature-1"));
         requests.set(17, FakeSimulator.request(17, "fault/killed"));
 
         List<SimulationResult> results = evaluate(requests, PATIENCE);
@@ -76,10 +72,10 @@ class BatchEvaluatorTest {
 
     @Test
     void aHangCostsOneEvaluation() throws InterruptedException {
-        List<SimulationRequest> requests = new ArrayList<>(requests(4, "thesis/creature-1"));
+        List<SimulationRequest> requests = new ArrayList<>(FakeSimulator.requests(4, "thesis/creature-1"));
         requests.set(2, FakeSimulator.request(2, "fault/hang"));
 
-        assertThat(evaluate(requests, 10)).extracting(SimulationResult::status)
+        assertThat(evaluate(requests, 3)).extracting(SimulationResult::status)
                 .containsExactly(Status.OK, Status.OK, Status.FAILED, Status.OK);
     }
 
@@ -87,7 +83,7 @@ class BatchEvaluatorTest {
     void aProgramThatNeverAnswersIsGivenUp() throws InterruptedException, IOException {
         Files.createFile(folder.resolve("dies-at-start"));
 
-        List<SimulationResult> results = evaluate(requests(1000, "thesis/creature-1"), PATIENCE);
+        List<SimulationResult> results = evaluate(FakeSimulator.requests(1000, "thesis/creature-1"), PATIENCE);
 
         assertThat(results).hasSize(1000).allSatisfy(result -> assertThat(result.error()).contains("exit status 1"));
     }
@@ -136,7 +132,7 @@ class BatchEvaluatorTest {
                 all.add(own);
                 callers.add(new Thread(() -> {
                     try {
-                        own.addAll(evaluator.evaluate(requests(30, "thesis/creature-1")));
+                        own.addAll(evaluator.evaluate(FakeSimulator.requests(30, "thesis/creature-1")));
                     } catch (InterruptedException e) {
                         Thread.currentThread().interrupt();
                     }

@@ -74,8 +74,7 @@ class BatchSharingTest {
     }
 
     private static List<SimulationRequest> requests(int count) {
-        return new ArrayList<>(LongStream.range(0, count)
-                .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList());
+        return new ArrayList<>(FakeSimulator.requests(count, "thesis/creature-1"));
     }
 
     @Test

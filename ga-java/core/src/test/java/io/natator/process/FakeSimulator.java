@@ -1,6 +1,10 @@
 package io.natator.process;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
 import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationRequest;
@@ -11,6 +15,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.stream.LongStream;
 
 /** The script {@code fake-simulator.sh}, which speaks the protocol and fails in the ways that its scenes name. */
 public final class FakeSimulator {
@@ -20,16 +25,18 @@ public final class FakeSimulator {
 
     /** Puts the script into a folder of its own, where it may leave marks. */
     public static Path in(Path folder) {
-        Path script = folder.resolve("fake-simulator.sh");
         try (InputStream source = FakeSimulator.class.getResourceAsStream("/fake-simulator.sh")) {
-            Files.copy(source, script);
+            return program(folder.resolve("fake-simulator.sh"), new String(source.readAllBytes(), UTF_8));
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }
-        if (!script.toFile().setExecutable(true)) {
-            throw new IllegalStateException(script + " cannot be made executable");
-        }
-        return script;
+    }
+
+    /** A program of this text, such as a script with its first line. */
+    public static Path program(Path file, String text) throws IOException {
+        Files.writeString(file, text);
+        assertThat(file.toFile().setExecutable(true)).isTrue();
+        return file;
     }
 
     /** What a simulator's refusal of a request is on this side. */
@@ -37,8 +44,20 @@ public final class FakeSimulator {
         return new RequestRejectedException(reason, true);
     }
 
-    static ExecutionSettings execution(Path folder, double timeoutSeconds) {
-        return new ExecutionSettings(in(folder), 2, Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
+    /** Two at a time, a process for each evaluation, which may take far longer than it can; no cache. */
+    public static ExecutionSettings execution(Path folder) {
+        return execution(folder, 300);
+    }
+
+    /** The same with another time limit. */
+    public static ExecutionSettings execution(Path folder, double timeoutSeconds) {
+        return ExecutionSettings.of(in(folder)).withMode(SimulatorMode.PROCESS).withWorkers(2)
+                .withTimeout(Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
+    }
+
+    /** So many requests of a scene, by the ids from 0. */
+    static List<SimulationRequest> requests(int count, String scene) {
+        return LongStream.range(0, count).mapToObj(id -> request(id, scene)).toList();
     }
 
     static SimulationRequest request(long id, String scene) {

@@ -146,7 +146,7 @@ class OpenedEvaluatorsTest {
 
         assertThat(result.status()).isEqualTo(Status.FAILED);
         assertThat(result.error()).contains(reason).doesNotContain("\n");
-        assertThat(result.fitness()).isZero();
+        assertThat(result.score()).isZero();
         assertThat(result.id()).isEqualTo(7);
     }
 

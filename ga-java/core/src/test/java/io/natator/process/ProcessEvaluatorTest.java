@@ -12,7 +12,6 @@ import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulationResult.Status;
 import io.natator.protocol.SwimmingNumbers;
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -41,7 +40,6 @@ class ProcessEvaluatorTest {
         SimulationResult result = evaluate("thesis/creature-1", PATIENCE);
 
         assertThat(result).isEqualTo(Results.ok(7, -1.3925).withScheme("flex").withHash("0000000052ffdd20"));
-        assertThat(result.fitness()).isZero();
         assertThat(result.speed()).isEqualTo(-1.3925 / 4);
     }
 
@@ -59,19 +57,19 @@ class ProcessEvaluatorTest {
 
         assertThat(result.status()).isEqualTo(Status.UNSTABLE);
         assertThat(result.distance()).isNull();
-        assertThat(result.fitness()).isZero();
+        assertThat(result.score()).isZero();
         assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "frame", 0.5, "tank"));
     }
 
     /** A request larger than a pipe holds, to a program that does not read it. */
     @Test
     void aProgramThatDoesNotReadCannotBlockTheCaller() throws InterruptedException, IOException {
-        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
-        assertThat(deaf.toFile().setExecutable(true)).isTrue();
+        Path deaf = FakeSimulator.program(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
         ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
         SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
 
-        try (Evaluator simulator = new ProcessEvaluator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+        try (Evaluator simulator = new ProcessEvaluator(
+                ExecutionSettings.of(deaf).withTimeout(Duration.ofMillis(300)))) {
             assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
         }
         assertThatNoChildIsLeft();
@@ -85,8 +83,7 @@ class ProcessEvaluatorTest {
     /** As on a machine that has other work; nobody holds the pipes open any more. */
     @Test
     void whatIsReadLateIsReadWhole() throws Exception {
-        Path program = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
-        assertThat(program.toFile().setExecutable(true)).isTrue();
+        Path program = FakeSimulator.program(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
         try (NativeProgram late = new NativeProgram(program, Duration.ofMinutes(5))) {
             NativeProgram.Output output = late.call(List.of(), "", line -> sleep(3));
 

@@ -56,7 +56,7 @@ class ProtocolTest {
                 new SimulationRequest(2, "a", dense.decode(List.of(2.0, 1.0, 0.0, 1.0, 1.0, 0.0)), 4.0, Scheme.FLEX,
                         patch),
                 new SimulationRequest(3, "a", sparse.decode(List.of(0.5, 1.0, 0.0, 1.0)), 0.1, Scheme.CONSERVING, null),
-                new SimulationRequest(4, "a", new Gait(1, List.of(0.5), List.of(0.0), 0.5), null, null, null));
+                new SimulationRequest(4, "a", new Gait(1, List.of(0.5), List.of(0.0), 0.5, null), null, null, null));
 
         for (SimulationRequest request : requests) {
             assertThat(check("request.schema.json", Json.line(request))).as(Json.line(request)).isEmpty();

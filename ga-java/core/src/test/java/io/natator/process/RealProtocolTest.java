@@ -10,7 +10,6 @@ import io.natator.protocol.ResultReader;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import io.natator.protocol.SimulationResult.Status;
-import io.natator.protocol.VacuumRequests;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -79,7 +78,7 @@ class RealProtocolTest {
         List<Double> eight = Collections.nCopies(8, 0.5);
         SimulationRequest swim = new SimulationRequest(9, scene, new Gait(2, eight, eight), 0.2, null, null);
         try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n", line -> {
+            String answer = program.call(List.of("evaluate"), Json.line(swim.inVacuum(0.2)) + "\n", line -> {
             }).text();
             assertThat(ResultReader.read(answer).distance()).as(answer).isCloseTo(0, within(1e-4));
         }

@@ -7,7 +7,6 @@ import io.natator.base.InvalidInputException;
 import io.natator.protocol.RefusedSceneException;
 import io.natator.protocol.RequestRejectedException;
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -75,8 +74,7 @@ class SceneInfoTest {
 
     @Test
     void anAnswerWithoutActuatorsIsNotTakenForNone() throws IOException {
-        Path program = Files.writeString(folder.resolve("old.sh"), "#!/bin/sh\necho '{\"scene\":\"a\"}'\n");
-        assertThat(program.toFile().setExecutable(true)).isTrue();
+        Path program = FakeSimulator.program(folder.resolve("old.sh"), "#!/bin/sh\necho '{\"scene\":\"a\"}'\n");
 
         assertThatThrownBy(() -> SceneInfo.of("a", null, program)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("actuators");

@@ -7,6 +7,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import io.natator.base.InvalidInputException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
 import io.natator.config.SimulatorMode;
 import io.natator.protocol.RequestRejectedException;
 import io.natator.protocol.SimulationResult;
@@ -17,7 +18,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.LongStream;
+import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -38,8 +39,8 @@ class ServeCommandsTest {
     }
 
     private ExecutionSettings settings(SimulatorMode mode, String... commands) {
-        return new ExecutionSettings(fake, mode, Backend.CPU, List.of(0), 2, Duration.ofMinutes(5), null,
-                List.of(commands), null);
+        return ExecutionSettings.of(fake).withMode(mode).withWorkers(2).withTimeout(Duration.ofMinutes(5))
+                .withCommands(List.of(commands));
     }
 
     /** A command that leaves a line in the file `name` when it is started. */
@@ -55,8 +56,7 @@ class ServeCommandsTest {
     private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
             throws InterruptedException {
         try (Evaluator evaluator = Evaluator.open(settings)) {
-            return evaluator.evaluate(LongStream.range(0, requests)
-                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList());
+            return evaluator.evaluate(FakeSimulator.requests(requests, "thesis/creature-1"));
         } finally {
             assertThatNoChildIsLeft();
         }
@@ -113,52 +113,33 @@ class ServeCommandsTest {
                                 + "after 0.05 s\\): another version, instruction set .NATATOR_ISA. or kind of GPU");
     }
 
+    private static void assertRefused(ThrowingCallable settings, String message) {
+        assertThatThrownBy(settings).isInstanceOf(InvalidInputException.class).hasMessage(message);
+    }
+
     @Test
     void settingsThatDoNotGoTogetherAreRefused() {
-        assertThatThrownBy(() -> settings(SimulatorMode.PROCESS, "ssh a natator-sim serve"))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not process");
-        assertThatThrownBy(() -> settings(SimulatorMode.RESIDENT, " ")).isInstanceOf(InvalidInputException.class)
-                .hasMessage("simulator command is blank; expected a command line");
-    }
-
-    @Test
-    void settingsForAClusterThatDoNotGoTogetherAreRefused() {
-        assertThatThrownBy(() -> settings(SimulatorMode.SPARK, "ssh a natator-sim serve"))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not spark");
-        assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO))
-                .isInstanceOf(InvalidInputException.class)
-                .hasMessage("backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
-        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, List.of(0), 1, null,
-                null, List.of(),
-                "local[2]")).isInstanceOf(InvalidInputException.class)
-                .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
-        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(),
-                "local[2]").withMode(SimulatorMode.RESIDENT).master()).isNull();
-    }
-
-    @Test
-    void devicesThatAreNoneAreRefused() {
-        for (List<Integer> devices : List.of(List.<Integer>of(), List.of(-1), List.of(1, 1))) {
-            assertThatThrownBy(
-                    () -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CUDA, devices, 1, null, null,
-                            List.of(), null))
-                    .isInstanceOf(InvalidInputException.class)
-                    .hasMessage("devices are " + devices + "; expected whole numbers from 0, each once");
+        for (SimulatorMode mode : List.of(SimulatorMode.PROCESS, SimulatorMode.SPARK)) {
+            assertRefused(() -> settings(mode, "ssh a natator-sim serve"),
+                    "simulator commands keep running; expected simulator mode resident or batch, not "
+                            + Json.name(mode));
         }
-        assertThatThrownBy(
-                () -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
-                        List.of(), null))
-                .isInstanceOf(InvalidInputException.class).hasMessage(
-                        "devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
-    }
-
-    @Test
-    void aProgramWithoutSparkSaysWhichOneHasIt() {
-        assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK)))
-                .isInstanceOf(InvalidInputException.class).hasMessage(
-                        "this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
-                                + "(ga-java/docs/cluster.md)");
+        assertRefused(() -> settings(SimulatorMode.RESIDENT, " "),
+                "simulator command is blank; expected a command line");
+        assertRefused(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO),
+                "backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
+        assertRefused(() -> settings(SimulatorMode.BATCH).withMaster("local[2]"),
+                "master is local[2]; expected simulator mode spark with it, not batch");
+        assertThat(settings(SimulatorMode.SPARK).withMaster("local[2]").withMode(SimulatorMode.RESIDENT).master())
+                .isNull();
+        for (List<Integer> devices : List.of(List.<Integer>of(), List.of(-1), List.of(1, 1))) {
+            assertRefused(() -> settings(SimulatorMode.BATCH).withDevices(devices),
+                    "devices are " + devices + "; expected whole numbers from 0, each once");
+        }
+        assertRefused(() -> settings(SimulatorMode.SPARK).withDevices(List.of(0, 1)),
+                "devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
+        assertRefused(() -> Evaluator.open(settings(SimulatorMode.SPARK)),
+                "this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
+                        + "(ga-java/docs/cluster.md)");
     }
 }

@@ -23,9 +23,7 @@ class SimulatorLocatorTest {
     private Path program(String place, String text) throws IOException {
         Path program = folder.resolve(place);
         Files.createDirectories(program.getParent());
-        Files.writeString(program, text);
-        assertThat(program.toFile().setExecutable(true)).isTrue();
-        return program;
+        return FakeSimulator.program(program, text);
     }
 
     private Path found(String jar) {

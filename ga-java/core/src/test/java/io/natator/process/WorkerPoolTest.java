@@ -3,10 +3,7 @@ package io.natator.process;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.protocol.RequestRejectedException;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
-import java.util.List;
 import java.util.concurrent.BrokenBarrierException;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.CyclicBarrier;
@@ -17,10 +14,6 @@ import org.junit.jupiter.api.Timeout;
 
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class WorkerPoolTest {
-
-    private static List<SimulationRequest> requests(int count) {
-        return LongStream.range(0, count).mapToObj(id -> FakeSimulator.request(id, "any")).toList();
-    }
 
     @Test
     void resultsComeInTheOrderOfTheRequests() throws InterruptedException {
@@ -33,7 +26,7 @@ class WorkerPoolTest {
             return SimulationResult.failed(request.id(), "");
         };
         try (Evaluator pool = new FakePool(slowFirst, 4)) {
-            assertThat(pool.evaluate(requests(50))).extracting(SimulationResult::id)
+            assertThat(pool.evaluate(FakeSimulator.requests(50, "any"))).extracting(SimulationResult::id)
                     .containsExactlyElementsOf(LongStream.range(0, 50).boxed().toList());
         }
     }
@@ -51,18 +44,7 @@ class WorkerPoolTest {
             return SimulationResult.failed(request.id(), "");
         };
         try (Evaluator pool = new FakePool(meeting, 3)) {
-            assertThat(pool.evaluate(requests(9))).hasSize(9);
-        }
-    }
-
-    @Test
-    void aRejectedRequestEndsTheBatch() {
-        FakePool.Simulation rejecting = request -> {
-            throw new RequestRejectedException("unknown scene", true);
-        };
-        try (Evaluator pool = new FakePool(rejecting, 2)) {
-            assertThatThrownBy(() -> pool.evaluate(requests(5)))
-                    .isInstanceOf(RequestRejectedException.class).hasMessage("unknown scene");
+            assertThat(pool.evaluate(FakeSimulator.requests(9, "any"))).hasSize(9);
         }
     }
 
@@ -73,7 +55,8 @@ class WorkerPoolTest {
             throw new NoClassDefFoundError("io/natator/Part");
         };
         try (Evaluator pool = new FakePool(lacking, 2)) {
-            assertThatThrownBy(() -> pool.evaluate(requests(5))).isInstanceOf(NoClassDefFoundError.class);
+            assertThatThrownBy(() -> pool.evaluate(FakeSimulator.requests(5, "any")))
+                    .isInstanceOf(NoClassDefFoundError.class);
         }
     }
 }

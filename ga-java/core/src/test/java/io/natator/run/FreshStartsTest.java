@@ -23,7 +23,6 @@ import io.natator.protocol.Results;
 import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -41,19 +40,9 @@ class FreshStartsTest {
     private final List<SimulationRequest> asked = new ArrayList<>();
 
     /** The toy swimmer, who takes down what it is asked. */
-    private final class Recorder implements FakePool.Simulation {
-
-        private final FakePool.Simulation toy = new ToySimulator();
-        private final Predicate<SimulationRequest> refused;
-        private final RequestRejectedException refusal;
-
-        Recorder(Predicate<SimulationRequest> refused, RequestRejectedException refusal) {
-            this.refused = refused;
-            this.refusal = refusal;
-        }
-
-        @Override
-        public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+    private FakePool.Simulation recorder(Predicate<SimulationRequest> refused, RequestRejectedException refusal) {
+        FakePool.Simulation toy = new ToySimulator();
+        return request -> {
             if (refused.test(request)) {
                 throw refusal;
             }
@@ -61,13 +50,13 @@ class FreshStartsTest {
                 asked.add(request);
             }
             return toy.evaluate(request);
-        }
+        };
     }
 
-    private BestGait best(int starts, Aggregate judge, Recorder simulator) throws InterruptedException {
+    private BestGait best(int starts, Aggregate judge, FakePool.Simulation simulator) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(12, 3)
                 .withStarts(starts, judge);
-        ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        ExecutionSettings how = FakeSimulator.execution(folder);
         try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
                 Evaluator pool = new FakePool(simulator, 2)) {
             BestGait best = new EvolutionRun(run).run(how, pool).best();
@@ -79,7 +68,7 @@ class FreshStartsTest {
     @ParameterizedTest
     @CsvSource({"1, MEAN, 4", "3, MEDIAN, 6", "4, LOWER_QUARTILE, 8"})
     void aWinnerIsRunFromStartsThatNoGenerationHad(int starts, Aggregate judge, int fresh) throws InterruptedException {
-        BestGait best = best(starts, judge, new Recorder(request -> false, null));
+        BestGait best = best(starts, judge, recorder(request -> false, null));
 
         List<EvaluationRecord> evolved = RunWriter.open(folder.resolve("run")).recorded().rows();
         List<Integer> used = evolved.stream().map(EvaluationRecord::start).toList();
@@ -114,7 +103,7 @@ class FreshStartsTest {
     @Test
     void withoutFreshStartsThereIsStillAWinner() throws InterruptedException {
         BestGait best = best(1, Aggregate.MEAN,
-                new Recorder(request -> request.start() != null, FakeSimulator.rejection("request: start: unknown")));
+                recorder(request -> request.start() != null, FakeSimulator.rejection("request: start: unknown")));
 
         assertThat(best.fresh()).isNull();
         assertThat(best.vacuum()).isNotNull();
@@ -124,7 +113,8 @@ class FreshStartsTest {
     @ParameterizedTest
     @ValueSource(booleans = {true, false})
     void aSimulatorThatIsGoneEndsTheRun(boolean inVacuum) {
-        Recorder leaving = new Recorder(request -> inVacuum ? request.overrides() != null : request.start() != null,
+        FakePool.Simulation leaving = recorder(
+                request -> inVacuum ? request.overrides() != null : request.start() != null,
                 new RequestRejectedException("cannot start natator-sim", false));
 
         assertThatThrownBy(() -> best(1, Aggregate.MEAN, leaving)).isInstanceOf(RequestRejectedException.class)

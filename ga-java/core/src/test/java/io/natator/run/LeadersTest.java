@@ -14,10 +14,8 @@ import io.natator.evolution.ToySimulator;
 import io.natator.process.Evaluator;
 import io.natator.process.FakePool;
 import io.natator.process.FakeSimulator;
-import io.natator.protocol.SimulationRequest;
 import io.natator.protocol.SimulationResult;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -30,15 +28,12 @@ class LeadersTest {
     private Path folder;
 
     /** The toy swimmer, who touches a wall after 1 s of 4 if it is quick. */
-    private static final class Hurried implements FakePool.Simulation {
-
-        private final FakePool.Simulation toy = new ToySimulator();
-
-        @Override
-        public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+    private static FakePool.Simulation hurried() {
+        FakePool.Simulation toy = new ToySimulator();
+        return request -> {
             SimulationResult one = toy.evaluate(request);
             return one.distance() < 0.2 ? one : one.with(to -> to.stopped("touched-plane").simulated(1.0).frames(60));
-        }
+        };
     }
 
     @ParameterizedTest
@@ -46,9 +41,9 @@ class LeadersTest {
     void theLastLeaderIsTheWinner(int starts, long seed) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 8)
                 .withStarts(starts, Aggregate.MEAN).withSeed(seed);
-        ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        ExecutionSettings how = FakeSimulator.execution(folder);
         try (RunWriter run = RunWriter.create(folder.resolve("run"), settings);
-                Evaluator pool = new FakePool(new Hurried(), 2)) {
+                Evaluator pool = new FakePool(hurried(), 2)) {
             new EvolutionRun(run).run(how, pool);
         }
         RunReader run = RunReader.in(folder.resolve("run"));

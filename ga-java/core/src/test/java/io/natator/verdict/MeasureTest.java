@@ -45,7 +45,6 @@ class MeasureTest {
                         tuple("mirrored", "", NOT_MEASURED));
     }
 
-    /** The length of its body is known, though it is the unit. */
     /** What gets faster with the time step is no more converged than what gets slower. */
     @ParameterizedTest
     @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})

@@ -21,6 +21,11 @@ class VerdictTest {
         return Results.ok(distance).with(to -> to.stopped(stopped).simulated(simulated).scheme(scheme));
     }
 
+    /** Of one run. */
+    private static Verdict verdict(SimulationResult water, SimulationResult vacuum, Double length) {
+        return Verdict.of(Winners.best("pool/creature-1", water, length, vacuum, null));
+    }
+
     /** Distances in scene units; in the last line the run in vacuum took longer than the one that touched a wall. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
@@ -42,7 +47,7 @@ class VerdictTest {
             "flex|0.5|touched-plane|1|4|4|DOES_NOT_SWIM|does not swim: moves 2.0 times as fast in vacuum"})
     void judgesByDistancesTheirSignsAndTheirTimes(String scheme, double water, String stopped, double simulated,
             double vacuum, double inVacuum, Verdict.Kind kind, String text) {
-        Verdict verdict = Verdict.of(result(water, stopped, simulated, scheme),
+        Verdict verdict = verdict(result(water, stopped, simulated, scheme),
                 result(vacuum, "completed", inVacuum, scheme), LENGTH);
 
         assertThat(verdict.text()).isEqualTo(text);
@@ -128,11 +133,10 @@ class VerdictTest {
 
     @Test
     void aCheatIsToldWhatToTry() {
-        assertThat(
-                Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
+        assertThat(verdict(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
                 .contains("--scene pool/creature-N", "open-water/creature-N", "--fitness net")
                 .as("in the thesis' tank bodies sink in it").doesNotContain("--scheme");
-        assertThat(Verdict.of(result(0.01, "completed", 4, "conserving"), null, LENGTH).advice())
+        assertThat(verdict(result(0.01, "completed", 4, "conserving"), null, LENGTH).advice())
                 .contains("--generations");
     }
 
@@ -147,12 +151,12 @@ class VerdictTest {
         Verdict verdict = Verdict.of(Winners.best(scene, water, LENGTH, vacuum, null));
 
         assertThat(verdict.advice()).contains(advice);
-        assertThat(verdict.text()).isEqualTo(Verdict.of(water, vacuum, LENGTH).text());
+        assertThat(verdict.text()).isEqualTo(verdict(water, vacuum, LENGTH).text());
     }
 
     @Test
     void withoutTheBodysLengthSpeedsAreInUnits() {
-        assertThat(Verdict.of(result(0.75, "completed", 4, "conserving"), result(0, "completed", 4, "conserving"), null)
+        assertThat(verdict(result(0.75, "completed", 4, "conserving"), result(0, "completed", 4, "conserving"), null)
                 .text()).isEqualTo("swims: 0.19 units/s, 0.00 in vacuum");
     }
 
@@ -160,7 +164,7 @@ class VerdictTest {
     @ParameterizedTest
     @CsvSource({"0.001, 0.00", "0.75, 0.19"})
     void aRunThatGoesOnIsNotJudgedByUnits(double way, String speed) {
-        assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null))
+        assertThat(verdict(result(way, "completed", 4, "conserving"), null, null))
                 .extracting(Verdict::kind, Verdict::text).containsExactly(Verdict.Kind.UNPROVEN,
                         "not judged: moves at " + speed + " units/s; not run in vacuum yet");
     }
@@ -168,13 +172,13 @@ class VerdictTest {
     @Test
     void withoutAResultThereIsNoVerdict() {
         SimulationResult water = result(0.75, "completed", 4, "conserving");
-        assertThat(Verdict.of(water, null, LENGTH).text())
+        assertThat(verdict(water, null, LENGTH).text())
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; not run in vacuum yet");
-        assertThat(Verdict.of(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
+        assertThat(verdict(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
                 .isEqualTo("not judged: moves at 0.15 body lengths/s; no result in vacuum, no answer");
-        assertThat(Verdict.of(Results.unstable(0, "tank"), null, LENGTH).text())
+        assertThat(verdict(Results.unstable(0, "tank"), null, LENGTH).text())
                 .isEqualTo("not judged: unstable at 0.50 s (broke law tank)");
-        assertThat(Verdict.of(Results.unstable(0, null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
+        assertThat(verdict(Results.unstable(0, null), null, LENGTH)).extracting(Verdict::kind, Verdict::text)
                 .containsExactly(Verdict.Kind.UNPROVEN, "not judged: unstable at 0.50 s");
     }
 }

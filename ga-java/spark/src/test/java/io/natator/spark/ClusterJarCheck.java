@@ -4,6 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.cli.Main;
 import io.natator.process.FakeSimulator;
+import io.natator.process.Processes;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -47,9 +48,8 @@ class ClusterJarCheck {
     static void startCluster() throws IOException, InterruptedException {
         cluster = new TestCluster(shared);
         for (int gpu = 5; gpu <= 6; gpu++) {
-            Path discovery = shared.resolve("gpu-" + gpu);
-            Files.writeString(discovery, "#!/bin/sh\necho '{\"name\":\"gpu\",\"addresses\":[\"" + gpu + "\"]}'\n");
-            assertThat(discovery.toFile().setExecutable(true)).isTrue();
+            Path discovery = FakeSimulator.program(shared.resolve("gpu-" + gpu),
+                    "#!/bin/sh\necho '{\"name\":\"gpu\",\"addresses\":[\"" + gpu + "\"]}'\n");
             cluster.addWorker(Map.of(), List.of("-Dspark.worker.resource.gpu.amount=1",
                     "-Dspark.worker.resource.gpu.discoveryScript=" + discovery), "");
         }
@@ -70,17 +70,15 @@ class ClusterJarCheck {
 
     @AfterEach
     void nothingIsLeft() throws IOException, InterruptedException {
-        TestCluster.await("executors end with their driver", () -> cluster.executors().isEmpty());
-        TestCluster.await("native programs end with their executors", () -> ProcessHandle.allProcesses()
+        Processes.await("executors end with their driver", () -> cluster.executors().isEmpty());
+        Processes.await("native programs end with their executors", () -> ProcessHandle.allProcesses()
                 .noneMatch(process -> process.info().arguments().map(List::of).orElse(List.of())
                         .contains(folder.resolve("fake-simulator.sh").toString())));
     }
 
     private Path script(String text) throws IOException {
-        Path script = folder.resolve("simulator");
-        Files.writeString(script, "#!/bin/bash\n" + text.replace("FOLDER", folder.toString()) + "\n");
-        assertThat(script.toFile().setExecutable(true)).isTrue();
-        return script;
+        return FakeSimulator.program(folder.resolve("simulator"),
+                "#!/bin/bash\n" + text.replace("FOLDER", folder.toString()) + "\n");
     }
 
     /** A run on this machine, a process for each evaluation. */
@@ -139,12 +137,8 @@ class ClusterJarCheck {
     /** Each is killed while generations are under way; then the driver, which is continued by another. */
     @Test
     void killedExecutorsAndAKilledDriverChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations",
-                "4", "--seed", "3"};
-        alone(fake, folder.resolve("alone"), settings);
-        inTurns();
         Path run = folder.resolve("run");
-        Process driver = evolve(fake, run, List.of(), settings);
+        Process driver = beginInTurns(run, 40, 4);
         long before = 0;
         for (int kill = 0; kill < 2; kill++) {
             before = killAnExecutor(run, before + 10, kill);
@@ -156,19 +150,27 @@ class ClusterJarCheck {
         assertThat(logged).isLessThan(evaluations(folder.resolve("alone")));
         Files.delete(folder.resolve("turns"));
 
-        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(),
-                run.toString()));
+        assertSucceeds(resume(run));
 
         assertSame(run, folder.resolve("alone"));
     }
 
-    /** From here on there are evaluations only while they are waited for: no run gets to its end before it is looked at. */
-    private void inTurns() throws IOException {
+    /** There are evaluations only while they are waited for: no run gets to its end before it is looked at. */
+    private Process beginInTurns(Path run, int population, int generations) throws IOException {
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "" + population,
+                "--generations", "" + generations, "--seed", "3"};
+        alone(fake, folder.resolve("alone"), settings);
         Files.writeString(folder.resolve("turns"), "0\n");
+        return evolve(fake, run, List.of(), settings);
+    }
+
+    private Process resume(Path run) throws IOException {
+        return cluster.submit(log, List.of(), "resume", "--no-cache", "--timeout", "3600", "--simulator-path",
+                fake.toString(), run.toString());
     }
 
     private void awaitEvaluations(Path run, long count) throws IOException, InterruptedException {
-        TestCluster.await(count + " evaluations", () -> {
+        Processes.await(count + " evaluations", () -> {
             if (turns == 0 || Files.exists(folder.resolve("seen-turn-" + (turns - 1)))) {
                 Files.writeString(folder.resolve("turns"), ++turns + "\n");
             }
@@ -178,7 +180,7 @@ class ClusterJarCheck {
 
     private long killAnExecutor(Path run, long after, int which) throws IOException, InterruptedException {
         awaitEvaluations(run, after);
-        TestCluster.await("executors", () -> !cluster.executors().isEmpty());
+        Processes.await("executors", () -> !cluster.executors().isEmpty());
         List<ProcessHandle> executors = cluster.executors();
         assertThat(executors.get(which % executors.size()).destroyForcibly()).isTrue();
         return evaluations(run);
@@ -188,21 +190,16 @@ class ClusterJarCheck {
     @Test
     @Tag("nightly")
     void fiftyKillsChangeNothing() throws IOException, InterruptedException {
-        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "150", "--generations",
-                "12", "--seed", "3"};
-        alone(fake, folder.resolve("alone"), settings);
-        inTurns();
         Path run = folder.resolve("run");
-        Process driver = evolve(fake, run, List.of(), settings);
+        Process driver = beginInTurns(run, 150, 12);
         long before = 0;
         for (int kill = 0; kill < Integer.getInteger("spark.kills", 50); kill++) {
             before = killAnExecutor(run, before + 10, kill);
             assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
             if (kill % 10 == 9) {
                 driver.destroyForcibly().waitFor();
-                TestCluster.await("executors end with their driver", () -> cluster.executors().isEmpty());
-                driver = cluster.submit(log, List.of(), "resume", "--no-cache", "--timeout", "3600", "--simulator-path",
-                        fake.toString(), run.toString());
+                Processes.await("executors end with their driver", () -> cluster.executors().isEmpty());
+                driver = resume(run);
             }
         }
         Files.delete(folder.resolve("turns"));
@@ -243,8 +240,7 @@ class ClusterJarCheck {
     @Tag("nightly")
     void evolutionsAtTheSameTimeShareTheCluster() throws IOException, InterruptedException {
         List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--seeds", "4",
-                "--evaluations", "30",
-                "--creature", "1", "--output-dir");
+                "--evaluations", "30", "--scene", "thesis/creature-1", "--output-dir");
         List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator", "process"));
         arguments.addAll(settings);
         arguments.add(folder.resolve("alone").toString());
@@ -282,7 +278,7 @@ class ClusterJarCheck {
     void waitingForExecutorsIsToldOf() throws IOException, InterruptedException {
         Process driver = evolve(fake, folder.resolve("run"), List.of("spark.executor.memory=40g"), "--creature", "1");
         try {
-            TestCluster.await("a line about it",
+            Processes.await("a line about it",
                     () -> Files.readString(log).contains("no executor for 30 s; are there workers at "
                             + cluster.master() + " with enough free memory (40g, --executor-memory) and cores?"));
         } finally {

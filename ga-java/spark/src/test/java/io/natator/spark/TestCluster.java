@@ -12,6 +12,7 @@ import java.util.Map;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import org.apache.spark.launcher.JavaModuleOptions;
+import io.natator.process.Processes;
 
 /** A standalone cluster of Spark on the loopback interface: a master and workers, each a process, as its scripts start them. */
 final class TestCluster implements AutoCloseable {
@@ -19,7 +20,6 @@ final class TestCluster implements AutoCloseable {
     private static final Path HOME = Path.of(System.getProperty("natator.sparkHome")).toAbsolutePath().normalize();
     private static final Path JAR = Path.of(System.getProperty("natator.jar")).toAbsolutePath().normalize();
     private static final Pattern MASTER = Pattern.compile("Starting Spark master at (spark://\\S+)");
-    private static final long PATIENCE_MILLISECONDS = 600_000;
 
     private final Path folder;
     private final String master;
@@ -33,7 +33,7 @@ final class TestCluster implements AutoCloseable {
         processes.add(start(log, Map.of(), List.of(), "org.apache.spark.deploy.master.Master", "--host", "127.0.0.1",
                 "--port", "0",
                 "--webui-port", "0"));
-        await("master", () -> MASTER.matcher(Files.readString(log)).find());
+        Processes.await("master", () -> MASTER.matcher(Files.readString(log)).find());
         Matcher url = MASTER.matcher(Files.readString(log));
         assertThat(url.find()).isTrue();
         master = url.group(1);
@@ -65,7 +65,7 @@ final class TestCluster implements AutoCloseable {
         Process worker = run(log, all, command);
         processes.add(worker);
         workers.add(worker);
-        await(name, () -> Files.readString(log).contains("Successfully registered with master"));
+        Processes.await(name, () -> Files.readString(log).contains("Successfully registered with master"));
         return worker;
     }
 
@@ -113,21 +113,6 @@ final class TestCluster implements AutoCloseable {
         builder.environment().put("SPARK_LOCAL_IP", "127.0.0.1");
         builder.environment().putAll(environment);
         return builder.start();
-    }
-
-    /** What is to come about sooner or later. */
-    @FunctionalInterface
-    interface Condition {
-        boolean holds() throws IOException;
-    }
-
-    /** Waits until it has; far longer than it can take. */
-    static void await(String what, Condition condition) throws IOException, InterruptedException {
-        long end = System.nanoTime() + PATIENCE_MILLISECONDS * 1_000_000;
-        while (!condition.holds()) {
-            assertThat(System.nanoTime()).as("waited in vain: " + what).isLessThan(end);
-            Thread.sleep(5);
-        }
     }
 
     @Override

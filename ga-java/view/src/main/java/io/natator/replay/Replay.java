@@ -28,11 +28,6 @@ public record Replay(String title, StreamScene scene, String json, List<StreamFr
         facts = Collections.unmodifiableMap(new LinkedHashMap<>(facts));
     }
 
-    /** A swim that nobody has judged. */
-    public Replay(String title, StreamScene scene, String json, List<StreamFrame> frames) {
-        this(title, scene, json, frames, List.of(), Map.of());
-    }
-
     /** The same swim with another title, and what is known of it. */
     public Replay with(String newTitle, Map<String, String> newFacts) {
         return new Replay(newTitle, scene, json, frames, waters, newFacts);

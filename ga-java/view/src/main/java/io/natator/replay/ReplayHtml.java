@@ -11,15 +11,17 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.stream.Collectors;
 
-/** One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request. */
-public final class ReplayHtml {
+/**
+ * One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request.
+ *
+ * @param title of the page
+ * @param swims at least one
+ * @param water whether the water is shown too
+ */
+public record ReplayHtml(String title, List<Replay> swims, boolean water) {
 
     private static final int[] EVERY = {1, 2, 3, 4, 5, 6, 8, 10, 12};
     private static final double MEGABYTE = 1e6;
-
-    private final String title;
-    private final List<Replay> swims;
-    private final boolean water;
 
     /**
      * What was written.
@@ -32,17 +34,9 @@ public final class ReplayHtml {
     public record Written(long bytes, double framesPerSecond, boolean isReduced, double largestError) {
     }
 
-    /**
-     * A page.
-     *
-     * @param title of the page
-     * @param swims at least one
-     * @param water whether the water is shown too
-     */
-    public ReplayHtml(String title, List<Replay> swims, boolean water) {
-        this.title = title;
-        this.swims = List.copyOf(swims);
-        this.water = water;
+    /** A page of these swims as they are now. */
+    public ReplayHtml {
+        swims = List.copyOf(swims);
     }
 
     /**

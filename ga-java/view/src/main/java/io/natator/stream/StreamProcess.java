@@ -169,11 +169,6 @@ public final class StreamProcess implements AutoCloseable {
         return new InterruptedIOException("interrupted");
     }
 
-    /** Process id of the program, for those who watch it. */
-    public long pid() {
-        return process.pid();
-    }
-
     private void write() {
         try (OutputStream stdin = process.getOutputStream()) {
             while (true) {

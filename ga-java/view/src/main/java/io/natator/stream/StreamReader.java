@@ -71,9 +71,7 @@ public final class StreamReader {
     }
 
     private StreamMessage scene(String json) throws StreamException {
-        if (!(object("SCEN", json) instanceof ObjectNode body)) {
-            throw new StreamException("SCEN: expected a JSON object, found " + shown(json));
-        }
+        ObjectNode body = object("SCEN", json);
         if (sceneBody != null && body.path("restarted").isBoolean() && !body.get("restarted").booleanValue()) {
             sceneBody.setAll(body);
         } else {
@@ -141,11 +139,10 @@ public final class StreamReader {
         return new StreamMessage.Stop(stop.get("reason").textValue(), json);
     }
 
-    private static JsonNode object(String letters, String json) throws StreamException {
+    private static ObjectNode object(String letters, String json) throws StreamException {
         try {
-            JsonNode node = Json.parse(json, JsonNode.class);
-            if (node.isObject()) {
-                return node;
+            if (Json.parse(json, JsonNode.class) instanceof ObjectNode object) {
+                return object;
             }
         } catch (JsonProcessingException e) {
             throw new StreamException(letters + ": " + Json.reason(e), e);

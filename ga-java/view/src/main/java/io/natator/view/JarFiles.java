@@ -12,8 +12,10 @@ import java.util.regex.Pattern;
 /**
  * Parts of the page, out of the jars of this program. The folders of some jars are not listed in them, so that what serves
  * folders does not find them.
+ *
+ * @param folder of the jars; with the folders in it
  */
-final class JarFiles {
+record JarFiles(String folder) {
 
     /**
      * Words between single slashes: no way out of the folder. Nothing is tried twice (possessive quantifiers), so that a long
@@ -23,13 +25,6 @@ final class JarFiles {
             .compile("\\w[\\w-]*+(?:\\.[\\w-]++)*+(?:/\\w[\\w-]*+(?:\\.[\\w-]++)*+)*+");
     private static final Map<String, String> TYPES = Map.of("js", "text/javascript;charset=utf-8",
             "css", "text/css;charset=utf-8", "svg", "image/svg+xml", "png", "image/png", "json", "application/json");
-
-    private final String folder;
-
-    /** Files in a folder of the jars, and in the folders in it. */
-    JarFiles(String folder) {
-        this.folder = folder;
-    }
 
     /** Answers with the file that the request's {@code name} names. */
     void answer(Context request) {

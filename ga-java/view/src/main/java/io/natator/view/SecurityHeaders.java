@@ -1,9 +1,7 @@
 package io.natator.view;
 
 import io.javalin.http.Context;
-import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
+import io.natator.base.Sha256;
 import java.util.Base64;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
@@ -24,18 +22,10 @@ final class SecurityHeaders {
     SecurityHeaders(String html) {
         StringBuilder allowed = new StringBuilder("'self'");
         for (Matcher script = INLINE_SCRIPT.matcher(html); script.find();) {
-            allowed.append(" 'sha256-").append(hash(script.group(1))).append('\'');
+            allowed.append(" 'sha256-")
+                    .append(Base64.getEncoder().encodeToString(Sha256.digest(script.group(1)))).append('\'');
         }
         scripts = allowed.toString();
-    }
-
-    private static String hash(String script) {
-        try {
-            return Base64.getEncoder().encodeToString(
-                    MessageDigest.getInstance("SHA-256").digest(script.getBytes(StandardCharsets.UTF_8)));
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException(e);
-        }
     }
 
     /** Sets them on an answer; its {@code Host} was checked. */

@@ -318,11 +318,6 @@ final class StreamSession implements AutoCloseable {
         return closed;
     }
 
-    /** Process id of the simulator, for those who watch it; −1 without one. */
-    synchronized long pid() {
-        return course == null ? -1 : process.pid();
-    }
-
     /** Ends the simulator. The socket is the caller's. */
     @Override
     public synchronized void close() {

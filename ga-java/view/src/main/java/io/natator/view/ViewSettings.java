@@ -22,12 +22,6 @@ public record ViewSettings(Path simulator, String host, int port, InitialScene s
     /** The address of this machine that no other can reach. */
     public static final String LOOPBACK = "127.0.0.1";
 
-    /** Without a policy. */
-    public ViewSettings(Path simulator, String host, int port, InitialScene start, Function<String, Gait> known,
-            List<Path> runs) {
-        this(simulator, host, port, start, known, runs, null);
-    }
-
     /** Copies the list. */
     public ViewSettings {
         runs = List.copyOf(runs);

@@ -20,6 +20,7 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Base64;
 import java.util.List;
+import java.util.Map;
 import java.util.Random;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
@@ -71,7 +72,8 @@ class ReplayHtmlTest {
                     new float[] {0.5f}, position, density));
         }
         try {
-            return new Replay(title, Json.parse(json.toString(), StreamScene.class), json.toString(), all);
+            return new Replay(title, Json.parse(json.toString(), StreamScene.class), json.toString(), all,
+                    List.of(), Map.of());
         } catch (JsonProcessingException e) {
             throw new IllegalStateException(e);
         }

@@ -6,6 +6,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.base.InvalidInputException;
 import io.natator.config.Scheme;
+import io.natator.process.FakeSimulator;
 import io.natator.protocol.RequestRejectedException;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -19,6 +20,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 /** The life of the program; what it says is a file. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
@@ -37,10 +40,8 @@ class StreamProcessTest {
     /** A program that says these bytes and then does what the lines of shell say. */
     private Path program(StreamBytes stream, String then) throws IOException {
         Files.write(folder.resolve("said"), stream.toBytes());
-        Path script = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\ncd '" + folder
+        return FakeSimulator.program(folder.resolve("program.sh"), "#!/bin/sh\ncd '" + folder
                 + "'\necho \"$@\" > arguments\ncat said\n" + then + "\n");
-        assertThat(script.toFile().setExecutable(true)).isTrue();
-        return script;
     }
 
     private static StreamBytes scene() {
@@ -96,30 +97,15 @@ class StreamProcessTest {
         }
     }
 
-    @Test
-    void aProgramThatDiesIsToldOfWithItsLastWords() throws IOException, InterruptedException {
-        try (StreamProcess process = new StreamProcess(program(scene(), "echo out of luck >&2; exit 1"), OPTIONS)) {
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+            "echo out of luck >&2; exit 1 | simulator ended; exit status 1, errors \"out of luck\"",
+            "printf F; kill -9 $$         | stream ended 1 byte into the 8-byte head of a message; exit status 137",
+            "exec >&-; sleep 3600         | simulator closed its output, but runs on"})
+    void aProgramThatEndsIsToldOf(String end, String message) throws IOException, InterruptedException {
+        try (StreamProcess process = new StreamProcess(program(scene(), end), OPTIONS)) {
             process.next();
-            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
-                    .hasMessage("simulator ended; exit status 1, errors \"out of luck\"");
-        }
-    }
-
-    @Test
-    void aProgramKilledWithinAMessageIsToldOf() throws IOException, InterruptedException {
-        try (StreamProcess process = new StreamProcess(program(scene().raw((byte) 'F'), "kill -9 $$"), OPTIONS)) {
-            process.next();
-            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
-                    .hasMessageStartingWith("stream ended 1 byte into the 8-byte head of a message; exit status 137");
-        }
-    }
-
-    @Test
-    void aProgramThatClosesItsOutputIsToldOf() throws IOException, InterruptedException {
-        try (StreamProcess process = new StreamProcess(program(scene(), "exec >&-; sleep 3600"), OPTIONS)) {
-            process.next();
-            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
-                    .hasMessage("simulator closed its output, but runs on");
+            assertThatThrownBy(process::next).isInstanceOf(StreamException.class).hasMessageStartingWith(message);
         }
     }
 

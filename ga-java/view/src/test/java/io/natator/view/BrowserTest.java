@@ -8,6 +8,7 @@ import com.microsoft.playwright.ConsoleMessage;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.assertions.PlaywrightAssertions;
+import java.awt.Color;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
@@ -17,9 +18,10 @@ import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.HashSet;
+import java.util.Arrays;
 import java.util.List;
-import java.util.Set;
+import java.util.function.BiPredicate;
+import java.util.stream.IntStream;
 import javax.imageio.ImageIO;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -184,25 +186,27 @@ abstract class BrowserTest {
         }
     }
 
+    /** The colours of all pixels of a picture, row by row. */
+    static int[] pixels(BufferedImage picture) {
+        return picture.getRGB(0, 0, picture.getWidth(), picture.getHeight(), null, 0, picture.getWidth());
+    }
+
     /** Number of different colours in a picture. */
     static int colours(BufferedImage picture) {
-        Set<Integer> colours = new HashSet<>();
-        for (int y = 0; y < picture.getHeight(); y++) {
-            for (int x = 0; x < picture.getWidth(); x++) {
-                colours.add(picture.getRGB(x, y));
-            }
-        }
-        return colours.size();
+        return (int) Arrays.stream(pixels(picture)).distinct().count();
     }
 
     /** Share of the pixels that differ between two pictures of the same size, 0 to 1. */
     static double difference(BufferedImage one, BufferedImage other) {
-        int different = 0;
-        for (int y = 0; y < one.getHeight(); y++) {
-            for (int x = 0; x < one.getWidth(); x++) {
-                different += one.getRGB(x, y) == other.getRGB(x, y) ? 0 : 1;
-            }
-        }
-        return different / (double) (one.getWidth() * one.getHeight());
+        return share(one, other, (was, is) -> !was.equals(is));
+    }
+
+    /** Share of the pixels of two pictures of the same size whose colours are as a condition has it, 0 to 1. */
+    static double share(BufferedImage one, BufferedImage other, BiPredicate<Color, Color> condition) {
+        int[] were = pixels(one);
+        int[] are = pixels(other);
+        long count = IntStream.range(0, were.length)
+                .filter(i -> condition.test(new Color(were[i]), new Color(are[i]))).count();
+        return count / (double) were.length;
     }
 }

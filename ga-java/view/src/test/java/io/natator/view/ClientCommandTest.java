@@ -36,7 +36,7 @@ class ClientCommandTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"3", "null", "true", "[]", "[\"pool/eel\"]", "{}", "\"\"", "\"-h\"", "\"--help\"",
-            "\"a\\u0000\"", "\"../x\"", "\"a b\""})
+            "\"a\\u0000\"", "\"../x\"", "\"a b\"", "\"/etc/passwd.json\""})
     void aSceneIsAName(String scene) {
         for (String what : new String[] {"start", "scene"}) {
             assertThatThrownBy(

@@ -51,7 +51,7 @@ class PagePictures extends BrowserTest {
         keys.remove("$schema");
         InitialScene start = new InitialScene(scene, null, Json.tree(keys, Gait.class));
         ViewServer server = new ViewServer(
-                new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, one -> null, List.of()));
+                new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, one -> null, List.of(), null));
         SERVERS.add(server);
         authority = server.address().getAuthority();
         page.setViewportSize(1400, 900);

@@ -1,7 +1,6 @@
 package io.natator.view;
 
 import static org.assertj.core.api.Assertions.assertThat;
-import static org.assertj.core.api.Assertions.fail;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
@@ -19,7 +18,7 @@ import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.TimeUnit;
 
 /** What a page does at its socket. It reads all that comes, unless it was opened as a slow one. */
-final class StreamClient implements WebSocket.Listener, AutoCloseable {
+public final class StreamClient implements WebSocket.Listener, AutoCloseable {
 
     static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final long PATIENCE_SECONDS = 600;
@@ -40,7 +39,7 @@ final class StreamClient implements WebSocket.Listener, AutoCloseable {
     }
 
     /** A page that takes what comes. */
-    static StreamClient open(URI server) {
+    public static StreamClient open(URI server) {
         return new StreamClient(server, false);
     }
 
@@ -99,7 +98,7 @@ final class StreamClient implements WebSocket.Listener, AutoCloseable {
     }
 
     /** Sends a command; single quotes stand for double ones. */
-    StreamClient send(String command) {
+    public StreamClient send(String command) {
         socket.sendText(command.replace('\'', '"'), true).join();
         return this;
     }
@@ -115,22 +114,24 @@ final class StreamClient implements WebSocket.Listener, AutoCloseable {
                 + paused + "}}");
     }
 
+    /** The next message: type and body. */
+    public JsonNode next() throws InterruptedException {
+        JsonNode next = texts.poll(PATIENCE_SECONDS, TimeUnit.SECONDS);
+        assertThat(next).as("a message; the socket: %s", closing).isNotNull();
+        return next;
+    }
+
     /** The body of the next message of a type; others before it are passed over. */
     JsonNode await(String type) throws InterruptedException {
-        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(PATIENCE_SECONDS);
-        while (true) {
-            JsonNode next = texts.poll(end - System.nanoTime(), TimeUnit.NANOSECONDS);
-            if (next == null) {
-                return fail("no " + type + " came; the socket: " + closing);
-            }
-            if (next.get("type").textValue().equals(type)) {
-                return next.get("body");
-            }
+        JsonNode next = next();
+        while (!next.get("type").textValue().equals(type)) {
+            next = next();
         }
+        return next.get("body");
     }
 
     /** The next frame. */
-    ByteBuffer awaitFrame() throws InterruptedException {
+    public ByteBuffer awaitFrame() throws InterruptedException {
         ByteBuffer frame = frames.poll(PATIENCE_SECONDS, TimeUnit.SECONDS);
         assertThat(frame).as("a frame; the socket: %s", closing).isNotNull();
         return frame;

@@ -11,6 +11,7 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import org.eclipse.jetty.websocket.api.Callback;
 import org.eclipse.jetty.websocket.api.Session;
 import org.junit.jupiter.api.Test;
+import io.natator.process.Processes;
 
 /** A session with a page that takes what it is sent when the test says so. */
 class StreamSessionTest {
@@ -36,7 +37,7 @@ class StreamSessionTest {
     void aPageThatTakesNothingCostsOneThreadHoweverOftenAFileIsSaved() throws InterruptedException {
         long before = tellers();
         session.saved("a.json");
-        ViewFixture.await("the first is sent", () -> sent.size() == 1);
+        Processes.await("the first is sent", () -> sent.size() == 1);
         for (int i = 0; i < 1000; i++) {
             session.saved(i % 2 == 0 ? "a.json" : "b.json");
         }
@@ -44,16 +45,16 @@ class StreamSessionTest {
 
         for (int taken = 0; taken < 3; taken++) {
             int next = taken;
-            ViewFixture.await("the next is sent", () -> done.size() > next);
+            Processes.await("the next is sent", () -> done.size() > next);
             done.get(next).succeed();
         }
-        ViewFixture.await("all is told", () -> tellers() == before);
+        Processes.await("all is told", () -> tellers() == before);
         assertThat(sent).hasSize(3);
         assertThat(sent.subList(1, 3)).anyMatch(text -> text.contains("a.json"))
                 .anyMatch(text -> text.contains("b.json"));
 
         session.saved("a.json");
-        ViewFixture.await("a later one is sent", () -> sent.size() == 4);
+        Processes.await("a later one is sent", () -> sent.size() == 4);
         done.get(3).succeed();
     }
 

@@ -5,6 +5,8 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
 import io.natator.config.Json;
+import io.natator.process.Processes;
+import java.awt.image.BufferedImage;
 import java.io.IOException;
 import java.net.URI;
 import java.net.URLEncoder;
@@ -44,7 +46,7 @@ abstract class ViewBrowserTest extends BrowserTest {
 
     @BeforeEach
     void noSimulatorIsLeft() throws InterruptedException {
-        ViewFixture.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+        Processes.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
     }
 
     @Override
@@ -91,6 +93,13 @@ abstract class ViewBrowserTest extends BrowserTest {
             get("step").click();
             await("natator.frame() === " + next);
         }
+    }
+
+    /** What is seen of a picture that nothing changes any more, from its first sample on: those to come only smooth it. */
+    BufferedImage restingPicture() {
+        awaitDrawings(3);
+        await("natator.samples() > 0");
+        return picture(get("picture-a"));
     }
 
     /** Presses one of several buttons in a row; the radio button itself is hidden. */

@@ -22,7 +22,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
-import java.util.function.BooleanSupplier;
 
 /** Servers with the real simulator, and its processes. */
 final class ViewFixture {
@@ -49,14 +48,15 @@ final class ViewFixture {
         assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
         return new ViewServer(new ViewSettings(SIMULATOR, ViewSettings.LOOPBACK, 0,
                 new InitialScene(scene, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), KNOWN::get,
-                List.of(runs)));
+                List.of(runs), null));
     }
 
     /** Evolves creature 1 for three generations of eight, with another scheme than the scene's and no real simulator. */
     static Path evolve(Path folder) throws InterruptedException {
         return evolve(FakeSimulator.in(folder), folder.resolve("my-run"),
                 EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                        .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05));
+                        .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05),
+                null);
     }
 
     /** Two runs of more than one gait in {@link #SCENE}, likewise: the best of each kind, and by two objectives. */
@@ -65,9 +65,10 @@ final class ViewFixture {
         Files.createFile(folder.resolve("tired"));
         EvolutionSettings settings = EvolutionSettings.of(SCENE, EncodingKind.DENSE, 2).withSize(20, 3).withSeed(5);
         return new Path[] {
-                evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
+                evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null),
+                        null),
                 evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
-                        WeightedObjective.parse("distance,work")))};
+                        WeightedObjective.parse("distance,work")), null)};
     }
 
     /** A run of bodies in vacuum, likewise. */
@@ -77,15 +78,13 @@ final class ViewFixture {
         EvolutionSettings settings = EvolutionSettings.of("pool/eel", EncodingKind.SPARSE, 8).withSize(6, 5)
                 .withEvolve(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
                         EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
-        Path run = folder.resolve("bodies-run");
-        new Natator(new ExecutionSettings(simulator, 2, null))
-                .evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
-        return run;
+        return evolve(simulator, folder.resolve("bodies-run"), settings, vacuum);
     }
 
-    private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {
-        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, null),
-                run);
+    private static Path evolve(Path simulator, Path run, EvolutionSettings settings, JsonNode overrides)
+            throws InterruptedException {
+        new Natator(ExecutionSettings.of(simulator).withWorkers(2))
+                .evolve(settings.withScene(Scheme.CONSERVING, 2.0, overrides), run);
         return run;
     }
 
@@ -99,14 +98,5 @@ final class ViewFixture {
         List<ProcessHandle> all = simulators(ProcessHandle.current());
         assertThat(all).hasSize(1);
         return all.get(0);
-    }
-
-    /** Waits until something holds. */
-    static void await(String what, BooleanSupplier holds) throws InterruptedException {
-        long end = System.nanoTime() + PATIENCE_SECONDS * 1_000_000_000L;
-        while (!holds.getAsBoolean()) {
-            assertThat(System.nanoTime()).as("%s within %d s", what, PATIENCE_SECONDS).isLessThan(end);
-            Thread.sleep(10);
-        }
     }
 }

@@ -14,6 +14,7 @@ import java.util.concurrent.TimeUnit;
 import javax.imageio.ImageIO;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
+import io.natator.process.Processes;
 
 /** What is around the picture, and what becomes of both when a simulator or the page ends. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
@@ -43,7 +44,7 @@ class ViewPageTest extends ViewBrowserTest {
         page.reload();
         awaitSwimming();
 
-        ViewFixture.await("the end of the first simulator", () -> !before.isAlive());
+        Processes.await("the end of the first simulator", () -> !before.isAlive());
         assertThat(ViewFixture.simulator().pid()).isNotEqualTo(before.pid());
     }
 
@@ -63,10 +64,10 @@ class ViewPageTest extends ViewBrowserTest {
     void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
         open(vacuum);
         for (int i = 0; i < 4; i++) {
-            ViewFixture.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
+            Processes.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
             ProcessHandle simulator = ViewFixture.simulator();
             simulator.destroyForcibly();
-            ViewFixture.await("its end", () -> !simulator.isAlive());
+            Processes.await("its end", () -> !simulator.isAlive());
         }
         assertThat(get("banner-again")).isVisible();
         assertThat(ViewFixture.simulators(ProcessHandle.current())).isEmpty();
@@ -74,7 +75,7 @@ class ViewPageTest extends ViewBrowserTest {
         get("banner-again").click();
 
         assertThat(get("banner")).isHidden();
-        ViewFixture.await("another simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
+        Processes.await("another simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
         double frame = number("natator.frame()");
         await("natator.frame() !== " + frame);
     }

@@ -47,6 +47,7 @@ class ViewPictureTest extends ViewBrowserTest {
     @ParameterizedTest
     @CsvSource({"webgl, WebGL", "plain, processor"})
     void bothWaysOfDrawingShowIt(String drawing, String name) {
+        page.setViewportSize(480, 360);
         open(water, FEW_PIXELS);
         pauseAt(3);
         get("drawing").selectOption(drawing);
@@ -73,13 +74,6 @@ class ViewPictureTest extends ViewBrowserTest {
 
         assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
         assertThat(get("drawing")).hasValue(name.equals("processor") ? "plain" : "auto");
-    }
-
-    /** What is seen of a picture that nothing changes any more, from its first sample on: those to come only smooth it. */
-    private BufferedImage restingPicture() {
-        awaitDrawings(3);
-        await("natator.samples() > 0");
-        return picture(get("picture-a"));
     }
 
     /**

@@ -183,8 +183,7 @@ class ViewRunsTest extends ViewBrowserTest {
     }
 
     private JsonNode best(int generation) throws IOException {
-        return Json.parse((String) page.evaluate("async () => (await fetch('/api/runs/0')).text()"), JsonNode.class)
-                .get("bests").get(generation).get("gait");
+        return answer(0).get("bests").get(generation).get("gait");
     }
 
     @Test

@@ -236,7 +236,7 @@ class ViewServerTest {
     @Test
     void aPortThatIsTakenIsNamed() {
         ViewSettings same = new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, server.address().getPort(),
-                new InitialScene(ViewFixture.SCENE, null, null), scene -> null, List.of());
+                new InitialScene(ViewFixture.SCENE, null, null), scene -> null, List.of(), null);
 
         assertThatThrownBy(() -> new ViewServer(same).close()).isInstanceOf(UncheckedIOException.class)
                 .hasMessage("cannot listen at port " + server.address().getPort()
