@@ -6,9 +6,13 @@ name at its head the commit that made its rows and have an answer, README.md mus
 must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything is wrong
 that --prune did not mend.
 """
+import collections
+import csv
+import gzip
 import json
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 
@@ -45,6 +49,32 @@ def damage(file):
     return None
 
 
+def lake():
+    """(evolution, seed) of tables/lake.csv whose ✔ the rows do not give, or whose rows give one that is not there: further than at rest by a twentieth of a body
+    length, more than twice as fast as in vacuum, within half of it at half the step and half the cells, clear of walls, and nothing unstable."""
+    page, runs, wrong = ROOT / "results/thesis", collections.defaultdict(list), []
+    for row in map(json.loads, gzip.open(page / "lake/swims.jsonl.gz", "rt", encoding="utf-8")):
+        runs[row["evolution"], row["seed"], row["condition"]].append(row)
+    lengths = {row["evolution"]: row["bodyLength"] for row in map(json.loads, open(page / "lake/motions.jsonl", encoding="utf-8"))}
+    for entry in csv.DictReader(open(page / "tables/lake.csv", encoding="utf-8", newline="")):
+        name, seed = entry["evolution"], int(entry["seed"])
+        found = {condition: rows for (one, number, condition), rows in runs.items() if (one, number) == (name, seed)}
+        swims = all(row["status"] == "ok" for rows in found.values() for row in rows)
+        touched = [row["stopped"] == "touched-plane" for row in found.get("until walls", [])]
+        if swims:
+            alone = 2 * sum(touched) <= len(touched)
+            found["water"] = found["water"] + (found.get("until walls", []) if alone else [])
+            speed = {condition: [row["distance"] / row["simulated"] for row in rows] for condition, rows in found.items()}
+            mean = {condition: statistics.mean(values) for condition, values in speed.items()}
+            net = mean["water"] - mean["resting"]
+            sure = net - 2 * statistics.stdev(speed["water"]) / len(speed["water"]) ** 0.5
+            swims = alone and sure >= 0.05 * lengths[name[:10]] / statistics.mean(row["simulated"] for row in found["water"]) \
+                and 2 * abs(mean["vacuum"]) < net and all(0.5 < mean[finer] / mean["water"] < 1.5 for finer in ("half step", "half cells"))
+        if swims != (entry["verdict"] == "✔"):
+            wrong.append(f"results/thesis/tables/lake.csv: {name}, seed {seed} has {entry['verdict']}; expected {'✔' if swims else 'none'}, by its rows")
+    return wrong
+
+
 def main():
     prune = sys.argv[1:] == ["--prune"]
     if sys.argv[1:] and not prune:
@@ -65,6 +95,7 @@ def main():
             wrong.append(f"{page.relative_to(ROOT)}: has no answer; expected, by its make.py, <!-- answer --> and a bold sentence")
         if answer and not any(f"]({page.parent.name}/README.md){colon} {answer[1]}" in index for colon in ("", ":")):
             wrong.append(f"results/README.md: does not have the answer of {page.parent.name}; expected: {answer[1]}")
+    wrong += lake()
     for file in files:
         fault = damage(file) if file.suffix in {".json", ".jsonl"} else None
         if fault:

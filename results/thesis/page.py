@@ -9,6 +9,7 @@ import statistics
 from scipy import stats
 
 import claims
+import lake
 import measured
 import plan
 import study
@@ -29,6 +30,7 @@ class Page:
     def __init__(self, found, vorticity):
         self.study, self.plan = found, found.plan
         self.claims = list(claims.every(found, vorticity))
+        self.resolved = lake.Lake(found.folder)
         self.gaits = [one for one in GAITS if one["creature"] in found.size.creatures]
 
     # Tables: a heading and rows of text.
@@ -40,7 +42,8 @@ class Page:
         found |= {"gaits": self.gait_table(), "claims": self.claim_numbers(), "agreement": self.agreement(), "beside-flex": self.beside_flex(),
                   "decisive": self.decisive(), "fish": self.fish("fits", True),
                   "fish-upright": self.fish("fitsOfBody", False), "attitudes": self.attitudes(), "parameters": self.parameters(),
-                  "potentiation": self.potentiation(), "two-clusters": self.two_clusters()}
+                  "potentiation": self.potentiation(), "two-clusters": self.two_clusters(),
+                  "lake": self.resolved.table(), "lake-motions": self.resolved.recorded(), "untested": self.untested()}
         return {name: table for name, table in found.items() if len(table) > 1}
 
     def known(self, water):
@@ -265,8 +268,8 @@ class Page:
         kept = in_each(lambda water: claims.kept(self.claims, water), "; ")
         if not published:
             return "**Nothing is measured yet.**"
-        return " ".join([f"**Of the thesis' gaits {published} swim by every control" + (f". Of the gaits that evolved here {evolved} do.**" if evolved
-                                                                                         else ".**")]
+        return " ".join([f"**Of the thesis' gaits {published} swim by every control" + (f". Of the gaits that evolved here {evolved} do." if evolved else ".")
+                         + self.resolved.answer() + "**"]
                         + ([f"The fastest that swims is {fastest}."] if fastest else [])
                         + ([f"Without water, where nothing can swim, the evolved gaits move at up to {without}."] if without else [])
                         + ([f"At half the spacing {finer} change by more than a tenth."] if finer else [])
@@ -297,10 +300,6 @@ class Page:
         seeds = self.swimming(self.study.evolved(water, creature))
         return self.told(self.study.best(creature, water)) + (f" ({seeds})" if seeds else "")
 
-    def until_walls(self):
-        ends = [f"creature {one.creature} after {self.seconds(one)}" for one in self.study.bests("open-water") if self.study.ends_at_wall(one)]
-        return f" In open water a speed is that until a wall is touched: by {', '.join(ends)}." if ends else ""
-
     # What README.md asks for by name.
 
     def reynolds(self):
@@ -328,6 +327,25 @@ class Page:
             f"{listed(sorted({one for one, _ in found}))}: {population} chromosomes over {spread([count for _, count in found])} generations, "
             f"{duration:g} s a run." for (water, population, duration), found in alike.items()) or "No evolution is finished."
 
+    def lake(self):
+        """What evolved in resolved water, beside the others."""
+        rows = [["creature", "flex", "open water", "lattice", "half step, half cells", "body lengths/s", "Re, St (over a larva's)", "like, by our rule", "vorticity at tail, behind"]]
+        for name, motion in self.resolved.motions.items():
+            one, creature = self.resolved.best(name), int(name[-1])
+            speed, (re, st) = self.resolved.speeds(one), self.resolved.numbers(one)
+            swim = [self.resolved.verdict((name, seed))[0] == "✔" for seed in self.resolved.seeds(name)]
+            rows.append([str(creature), *(self.told(self.study.best(creature, water)) for water in WATERS),
+                         f"{self.resolved.verdict(one)[0]} {with_error(speed.mean, speed.interval)} ({sum(swim)} of {len(swim)})",
+                         ", ".join(f"{100 * self.resolved.change(one, condition):+.0f} %" for condition in ("half step", "half cells")),
+                         fixed(speed.mean / motion["bodyLength"]), f"{re:.0f}, {fixed(st, 1)} ({fixed(st / study.larva(re), 1)})",
+                         ", ".join(self.resolved.like(motion)), ", ".join(fixed(motion["wake"][place], 1) for place in ("tail", "behind"))])
+        return rows
+
+    def lake_cost(self):
+        evaluations, generations, seconds, commits, machines = self.resolved.cost(self.study.folder)
+        return f"{len(generations)} evolutions over {spread(generations)} generations, {evaluations} evaluations in {seconds} s of one {machines}, by commit {commits}." \
+            if generations else ""
+
     def scale(self):
         logs = (self.study.measurements, self.study.processor, self.study.convergence, self.study.motions)
         backends = sorted({row["backend"] for row in self.study.measurements.rows.values()})
@@ -348,9 +366,6 @@ class Page:
 
     def untested(self):
         return [["the thesis says", "why it is not tested"], *map(list, claims.UNTESTED)]
-
-    def sources(self):
-        return "\n".join(f"- {one}" for one in plan.THESIS["about"])
 
 
 def in_each(of, between=" and "):

@@ -19,6 +19,7 @@ PAGE = ROOT / "results/thesis"
 sys.path += [str(ROOT / "results"), str(PAGE)]
 
 import claims  # noqa: E402
+import lake  # noqa: E402
 import measured  # noqa: E402
 from natator import motion  # noqa: E402
 import plan  # noqa: E402
@@ -146,6 +147,20 @@ class Verdicts(unittest.TestCase):
             sign, said = measured.judged(self.GOOD, 1.0, 4.0, None, finer)
             self.assertEqual(("–", True), (sign, words in said), said)
 
+    def test_each_control_of_a_lake_can_fail(self):
+        found, eel = lake.Lake(PAGE / "nowhere"), ("eel", 1)
+        found.motions = {"eel": {"bodyLength": 1.0}}
+        good = {"water": (0.8, 0.82), "resting": (0.0,), "vacuum": (0.0,), "half step": (0.7,), "half cells": (0.9,), "until walls": (0.8, 0.81)}
+        for changed, sign, words in (
+                ({}, "✔", "swims"), ({"water": (0.02, 0.03), "until walls": ()}, "✘", "no further"), ({"vacuum": (-0.5,)}, "✘", "in vacuum"),
+                ({"half step": (0.3,)}, "–", "37 % of its speed at half the step"), ({"half cells": (1.3,)}, "–", "161 % of its speed at half the cells"),
+                ({"water": (0.1, 1.6), "until walls": ()}, "–", "differ too much")):
+            found.runs = {eel: {name: swims(*ways, simulated=2.0) for name, ways in {**good, **changed}.items()}}
+            verdict = found.verdict(eel)
+            self.assertEqual((sign, True), (verdict[0], words in verdict[1]), (changed, verdict))
+        found.runs = {eel: {name: swims(*ways, simulated=2.0, **({"stopped": "touched-plane"} if name == "until walls" else {})) for name, ways in good.items()}}
+        self.assertEqual(("–", "it pushes off walls"), found.verdict(eel))
+
 
 class Motion(unittest.TestCase):
     def test_an_eel_is_an_eel(self):
@@ -225,6 +240,12 @@ class Asked(unittest.TestCase):
         self.assertEqual([], found.measurements.missing([one for experiment in found.experiments() for one in experiment.runs()]))
         winners = [measured.canonical(one.gait) for one in found.evolved()]
         self.assertEqual(40, len(set(winners)))
+
+    def test_gaits_evolved_in_the_lakes_that_are_asked_for(self):
+        for name in lake.LAKES:
+            for seed in lake.SEEDS:
+                config = json.loads((PAGE / f"lake/{name}/seed-{seed}/config.json").read_text(encoding="utf-8"))
+                self.assertEqual((lake.scene(name), lake.tank(name)), (config["scene"], config["overrides"]))
 
 
 if __name__ == "__main__":
