@@ -99,8 +99,8 @@ def swims():
             differ += abs(off) > both
             off = "" if k == finest else study.with_error(off, both, 3)
             rows.append([f"`{scheme}`, {scene}" if k == own.index[0] else "", str(own.substeps[k]), study.with_error(own.distance[k], interval[k], 3), off, f"{own.seconds[k]:.2g}"])
-        answers.append(f"{differ} of {len(own) - 1} in `{scheme}`")
-    return f"Whole swims go another distance than at the smallest time step by {', '.join(answers)} of the larger ones.", study.table(["swim", "substeps", "distance in 4 s", "off the finest", "processor s"], rows)
+        answers.append(f"in `{scheme}` {differ} of {len(own) - 1}")
+    return f"Time steps by which a whole swim goes another distance than by the smallest: {', '.join(answers)}.", study.table(["swim", "substeps", "distance in 4 s", "off the finest", "processor s"], rows)
 
 
 def make(folder):

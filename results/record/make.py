@@ -55,7 +55,7 @@ def fry():
     swims = [one["swimming"] for one in found[best, 1]]
     reynolds, strouhal = (statistics.fmean(one[name] for one in swims) for name in ("reynolds", "strouhal"))
     frequency = json.loads((HERE / f"lattice/seed-{best}-best.json").read_text(encoding="utf-8"))["gait"]["frequency"]
-    finer = found[best, 3][0]["swimming"]["strouhal"]
+    finer = statistics.fmean(one["swimming"]["strouhal"] for one in found[best, 3])
     does = f"- {frequency:.2f} beats/s, {study.fixed(base / frequency, 2)} lengths in each (eels 0.26 to 0.5: Kern and Koumoutsakos 2006)\n" \
            f"- Reynolds number {reynolds:.0f}, Strouhal number {study.fixed(strouhal, 2)} ({study.fixed(finer, 2)} in the finest cells): " \
            f"{study.fixed(strouhal / study.larva(reynolds), 1)} times a larva's\n" \

@@ -214,7 +214,7 @@ class Lake:
             return ""
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
         speed = self.speeds(one)
-        return f" In resolved water (`lattice`) {len(swim)} of {len(bests)} creatures do, the fastest {one[0].replace('-', ' ')} at " \
+        return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, the fastest {one[0].replace('-', ' ')} at " \
                f"{measured.with_error(speed.mean, speed.interval)} units/s."
 
     def cost(self, folder):
@@ -222,7 +222,7 @@ class Lake:
         folders = [folder / f"lake/{one}/seed-{seed}" for one, seed in self.runs]
         rows = [list(csv.DictReader((one / "timings.csv").read_text(encoding="utf-8").splitlines())) for one in folders]
         made = [json.loads((one / "environment.json").read_text(encoding="utf-8")) for one in folders]
-        return (sum(int(one["evaluations"]) for found in rows for one in found), [len(found) for found in rows], sum(LAKES[one][3] for one in {one for one, _ in self.runs}),
+        return (sum(int(one["evaluations"]) for found in rows for one in found), [len(found) - 1 for found in rows], sum(LAKES[one][3] for one in {one for one, _ in self.runs}),
                 ", ".join(sorted({one["commit"] for one in made})), ", ".join(sorted({one["gpu"].split(": ", 1)[1].split(",")[0] for one in made})))
 
 

@@ -343,7 +343,7 @@ class Page:
 
     def lake_cost(self):
         evaluations, generations, seconds, commits, machines = self.resolved.cost(self.study.folder)
-        return f"{len(generations)} evolutions over {spread(generations)} generations, {evaluations} evaluations in {seconds} s of one {machines}, by commit {commits}." \
+        return f"{len(generations)} evolutions over {spread(generations)} generations after the random one, {evaluations} evaluations in {seconds} s of one {machines}, by commit {commits}." \
             if generations else ""
 
     def scale(self):
