@@ -11,9 +11,11 @@ import csv
 import json
 import pathlib
 import statistics
-import subprocess
 import sys
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from lakes import answers, lake  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent / "lattice"
 SIDES = (2.85, 1.05, 1.35)
@@ -21,7 +23,7 @@ CELLS = (0.025, 0.01875)  # in the loop: 4 and 5 across the trunk behind, which 
 SEEDS, ACTUATORS, POPULATION, SECONDS = (1, 2, 3), 7, 10, 1.5
 LOW, HIGH = (0.5, 0, 0, 0.25), (3, 1, 1, 1.25)  # of a gait
 # Of fresh swims: width of cells, how many times the steps, starts.
-LEVELS = {"0.025": (0.025, 1, 4), "0.01875": (0.01875, 1, 8), "0.01875, half the step": (0.01875, 2, 2), "0.0125": (0.0125, 1, 2)}
+LEVELS = ((0.025, 1, 4), (0.01875, 1, 8), (0.01875, 2, 2), (0.0125, 1, 2))
 
 
 def gait_of(genes):
@@ -32,23 +34,14 @@ def gait_of(genes):
 
 
 def scene(cell, steps=1, seconds=SECONDS, sides=SIDES):
-    """Overrides of lake/fry: a tank that moves along, at a Mach number that is the same for all cells."""
-    length, height, width = sides
-    return {"duration": seconds, "stopping": {"noProgressAfter": 0, "planeContact": True}, "movingTank": {"along": "x", "step": 0.15},
-            "solver": {"substeps": round(0.9 / cell) * steps}, "creature": {"rearCentre": [0.575, height / 2, width / 2]},
-            "planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
-            "fluid": {"count": [round(side / cell) for side in sides], "spacing": cell, "origin": [cell / 2] * 3, "mass": {"bottom": 1000 * cell ** 3}}}
-
-
-def serve(requests, backend):
-    done = subprocess.run(["natator-sim", "serve", "--backend", backend], input="".join(json.dumps(one) + "\n" for one in requests), capture_output=True, text=True)
-    return {one["id"]: one for one in map(json.loads, done.stdout.splitlines())}
+    """Overrides of lake/fry."""
+    return lake(sides, cell, 0.575, steps, seconds, ends_at_walls=True)
 
 
 def slower(all_genes, start, backend):
     """Of each the least distance at both widths of cells; of one that became unstable 0."""
     def at(cell):
-        return serve([{"id": k, "scene": "lake/fry", "overrides": scene(cell), "gait": gait_of(genes), "start": start} for k, genes in enumerate(all_genes)], backend)
+        return answers([{"id": k, "scene": "lake/fry", "overrides": scene(cell), "gait": gait_of(genes), "start": start} for k, genes in enumerate(all_genes)], backend)
     with concurrent.futures.ThreadPoolExecutor() as pool:
         levels = list(pool.map(at, CELLS))
     return [min(level[k]["distance"] if level[k]["status"] == "ok" else 0 for level in levels) for k in range(len(all_genes))]
@@ -79,7 +72,7 @@ def best(seed):
 
 def requests(seeds):
     for seed in seeds:
-        for n, (cell, steps, starts) in enumerate(LEVELS.values()):
+        for n, (cell, steps, starts) in enumerate(LEVELS):
             for start in range(1, starts + 1):
                 yield {"id": 1000 * seed + 100 * n + start, "scene": "lake/fry", "overrides": scene(cell, steps, 4), "gait": best(seed), "start": 1000 + start}
         for n, change in ((901, {"amplitude": [0.0] * ACTUATORS}), (902, {})):  # at rest; in a wider tank

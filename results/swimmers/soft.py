@@ -2,7 +2,11 @@
 """Soft bodies in lakes under finer cells and steps: `soft.py requests [BODY]...` writes what `natator-sim serve` is to compute, `soft.py keep` what is kept
 of its answers, `soft.py table FILE` shows those. Each gait beats at f and is a wave of w lengths that runs to the tail, muscles driven from `first` at the head to `last` at the tail."""
 import json
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from lakes import lake  # noqa: E402
 
 THICK = [(2, 0.07, 0.42, 0.35), (2, 0.07, 0.42, 0.56), (2, 0.07, 0.42, 1.0), (2, 0.1, 0.6, 0.35), (1.5, 0.1, 0.6, 0.7), (2.5, 0.07, 0.4, 0.35)]
 FISH = [(2, *drive, waves) for drive in ((0.3, 0.3), (0.03, 0.3), (0.05, 0.5), (0.15, 0.15), (0.1, 0.2)) for waves in (0.5, 0.65, 0.8)]
@@ -17,14 +21,6 @@ def gait(actuators, f, first, last, waves):
     return {"frequency": f, "amplitude": [round(first + (last - first) * s, 4) for s in along], "phase": [round(-waves * s % 1, 6) for s in along]}
 
 
-def lake(cell, substeps):
-    length, height, width = BOX
-    return {"duration": 2, "stopping": {"noProgressAfter": 0, "planeContact": False}, "solver": {"substeps": substeps},
-            "movingTank": {"along": "x", "step": 0.15}, "creature": {"rearCentre": [length / 4, height / 2, width / 2]},
-            "planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
-            "fluid": {"count": [round(side / cell) for side in BOX], "spacing": cell, "origin": [cell / 2] * 3, "mass": {"bottom": 1000 * cell ** 3}}}
-
-
 def number(body, gait_number, name, start):
     return 1000 * list(BODIES).index(body) + 50 * gait_number + 10 * list(LEVELS).index(name) + start
 
@@ -35,7 +31,7 @@ def requests(bodies):
         for name, (finer, steps, starts) in LEVELS.items():
             for k, one in enumerate(gaits):
                 for start in range(1, starts + 1):
-                    yield {"id": number(body, k, name, start), "scene": "lake/" + body.removesuffix(", fine"), "overrides": lake(cell / finer, round(0.9 / cell) * steps),
+                    yield {"id": number(body, k, name, start), "scene": "lake/" + body.removesuffix(", fine"), "overrides": lake(BOX, cell / finer, BOX[0] / 4, steps // finer),
                            "gait": gait(actuators, *one), "start": start}
 
 

@@ -18,11 +18,12 @@ import sys
 
 import numpy as np
 
+import lakes
 import measured
 from measured import Sample
 
 HERE = pathlib.Path(__file__).resolve().parent
-CELL, SUBSTEPS, SEEDS = 0.025, 36, (1, 2, 3)
+CELL, SEEDS = 0.025, (1, 2, 3)
 LENGTH, HEIGHT = 2.85, 1.2  # of the tank, which goes along with its swimmer
 # Of each evolution: the tank's width, where the body's rear is in it, whether touching a wall ends a run, and how long evolution had, s.
 LAKES = {"creature-1": (1.2, 0.8, False, 360), "creature-2": (1.8, 0.72, True, 190), "creature-3": (1.2, 0.575, False, 360), "creature-4": (1.2, 0.645, False, 360),
@@ -37,12 +38,7 @@ UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, ran
 def tank(evolution, finer=1, steps=1, seconds=2, until_walls=None, length=LENGTH, width=None):
     """Overrides of an evolution's scene. A longer tank is longer behind its swimmer."""
     own, rear, touching, _ = LAKES[evolution]
-    width, cell = width or own, CELL / finer
-    return {"duration": seconds, "stopping": {"noProgressAfter": 0, "planeContact": touching if until_walls is None else until_walls},
-            "movingTank": {"along": "x", "step": 0.15}, "creature": {"rearCentre": [round(rear + length - LENGTH, 6), HEIGHT / 2, width / 2]},
-            "planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
-            "fluid": {"count": [round(side / cell) for side in (length, HEIGHT, width)], "spacing": cell, "origin": [cell / 2] * 3, "mass": {"bottom": 1000 * cell ** 3}},
-            "solver": {"substeps": SUBSTEPS * finer * steps}}
+    return lakes.lake((length, HEIGHT, width or own), CELL / finer, round(rear + length - LENGTH, 6), steps, seconds, touching if until_walls is None else until_walls)
 
 
 def scene(evolution):
