@@ -165,6 +165,9 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
          << (result.frames == 1 ? " frame, " : " frames, ") << to_string(result.stopped) << "\n";
     if (result.smagorinsky > 0)
         text << "eddies     by Smagorinsky's constant " << figure_text(result.smagorinsky) << "\n";
+    if (result.cells_per_step > 0)
+        text << "fastest    " << figure_text(result.cells_per_step)
+             << " cells a substep (above 0.1 more substeps may change the distance much)\n";
     if (result.instability) {
         text << "unstable   " << sentence_of(*result.instability) << "\n";
     } else if (scene.creature) {

@@ -1,11 +1,15 @@
 // Scheme lattice on the GPU: several bodies in one water, obstacles and a current, against the CPU.
 #include <algorithm>
 #include <iostream>
+#include <memory>
 
 #include "../native/coarse_lake.h"
 #include "../native/lattice_company.h"
 #include "gpu_test.h"
+#include "natator/batch.h"
+#include "natator/evaluate.h"
 #include "natator/load_scene.h"
+#include "natator/measure.h"
 #include "natator/simulation.h"
 
 namespace natator {
@@ -128,6 +132,71 @@ TEST_P(GpuLatticeCompany, GoesOnFromASavedMoment) {
     for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(whole.step());
     for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(second.step());
     EXPECT_EQ(whole.save(), second.save());
+}
+
+/// Swims of two viscosities that share the GPU, whose steps are asked for together; one is saved on the way.
+TEST_P(GpuLatticeCompany, SharingTheGpuEachHasItsOwnBits) {
+    const auto swim = [](int number, SharedGpu& gpu) {
+        json overrides = GetParam().overrides;
+        if (number % 2) overrides["solver"]["kinematicViscosity"] = 0.002;
+        const SimulationSetup setup{
+            .scene = GetParam().scene, .overrides = overrides.dump(), .gait = GetParam().gait, .start = number};
+        return std::make_unique<Simulation<float>>(setup, Execution{.gpu = 0, .shared = &gpu});
+    };
+    constexpr int frames = 6, swims = 5;
+    std::vector<std::string> alone;
+    for (int number = 0; number < swims; ++number) {
+        SharedGpu gpu;
+        const auto one = swim(number, gpu);
+        for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(one->step());
+        alone.push_back(one->save());
+    }
+    EXPECT_NE(alone[0], alone[2]);
+    SharedGpu gpu;
+    std::vector<std::unique_ptr<Simulation<float>>> all;
+    for (int number = 0; number < swims; ++number) all.push_back(swim(number, gpu));
+    std::string saved;
+    for (int frame = 0; frame < frames; ++frame) {
+        if (frame == 3) saved = all[2]->save();
+        std::vector<Simulation<float>*> together;
+        for (const auto& one : all) together.push_back(one.get());
+        for (const bool stable : step_together(together, 4)) ASSERT_TRUE(stable);
+    }
+    for (int number = 0; number < swims; ++number) EXPECT_EQ(all[number]->save(), alone[number]) << number;
+    EXPECT_TRUE(all[4]->restore(saved));
+    for (int frame = 3; frame < frames; ++frame) ASSERT_TRUE(all[4]->step());
+    EXPECT_EQ(state_hash(all[4]->state()), state_hash(all[2]->state()));
+}
+
+using GpuLatticeEnds = test::OnGpu<>;
+
+/// Of a batch some go too fast for their water: they end where the CPU's do, and the others go on as they do alone.
+TEST_F(GpuLatticeEnds, WhatGoesTooFastChangesNoOther) {
+    json overrides = test::coarse_lake;
+    overrides.merge_patch({{"duration", 0.4}, {"solver", {{"substeps", 5}}}});
+    const Scene scene = load_scene("lake/creature-2", overrides);
+    std::vector<BatchMember> members;
+    for (const double frequency : {0.5, 4.0, 1.0, 6.0, 0.7}) {
+        members.push_back({creature_wave, {}});
+        members.back().gait.frequency = frequency;
+    }
+    const std::vector<Evaluation> all = evaluate_on_gpu(scene, members, {.precision = Precision::double_precision});
+    int unstable = 0;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const Evaluation alone =
+            evaluate_on_gpu(scene, {members[k]}, {.precision = Precision::double_precision}).front();
+        const Evaluation there = evaluate(scene, members[k].gait, {.precision = Precision::double_precision});
+        EXPECT_EQ(all[k].hash, alone.hash) << k;
+        ASSERT_EQ(all[k].instability.has_value(), there.instability.has_value()) << k;
+        EXPECT_NEAR(all[k].cells_per_step, there.cells_per_step, 1e-4) << k;
+        if (!there.instability) continue;
+        ++unstable;
+        EXPECT_EQ(all[k].instability->law, "mach") << k;
+        EXPECT_EQ(all[k].instability->particle, there.instability->particle) << k;
+        EXPECT_NEAR(all[k].instability->time, there.instability->time, 1e-9) << k;
+    }
+    EXPECT_GT(unstable, 0);
+    EXPECT_LT(unstable, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GpuLatticeCompany,

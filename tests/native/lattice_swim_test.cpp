@@ -122,6 +122,14 @@ TEST(LatticeSwim, TooFewSubstepsBreakALaw) {
     EXPECT_NE(sentence_of(*evaluation.instability).find("needs more substeps"), std::string::npos);
 }
 
+TEST(LatticeSwim, TellsHowFarAPartGoesInASubstep) {
+    const Evaluation coarse = evaluate(lake(fine(12)), wave()), fine_in_time = evaluate(lake(fine(24)), wave());
+    EXPECT_GT(coarse.cells_per_step, 0.01);
+    EXPECT_NEAR(fine_in_time.cells_per_step, coarse.cells_per_step / 2, 0.1 * coarse.cells_per_step);
+    EXPECT_EQ(result_json(1, coarse, Scheme::lattice, Precision::single_precision).at("cellsPerSubstep"),
+              coarse.cells_per_step);
+}
+
 TEST(LatticeSwim, AMovingTankChangesLittle) {
     const json tank = {{"movingTank", {{"step", 0.15}}}, {"stopping", {{"noProgressAfter", 9}}}};
     const Scene still_tank = lake(json::object(), 1), moving = lake(tank, 1);

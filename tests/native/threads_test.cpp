@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
 
-#include "base/combiner.h"
 #include "natator/evaluate.h"
 #include "natator/measure.h"
 #include "natator/simulation.h"
@@ -57,44 +55,6 @@ TEST(ThreadTeamTest, WhatAPartThrowsIsThrownAndTheTeamGoesOn) {
     int sum = 0;
     team.for_parts(2, 2, [&](int, int begin, int end) { sum += end - begin; });
     EXPECT_EQ(sum, 2);
-}
-
-/// Each job is done once, by groups of at most three, of which two are under way at a time; what one throws, its group
-/// throws.
-TEST(CombinerTest, DoesEachJobOnceInGroups) {
-    constexpr int threads = 12, rounds = 200, bad = threads * rounds / 2;
-    std::vector<std::atomic<int>> done(threads * rounds);
-    std::atomic<int> under_way[2]{}, thrown = 0, lost = 0;
-    std::atomic<std::size_t> largest = 0;
-    std::atomic<bool> apart = true;
-    Combiner<int> combiner(3, 2, [&](const std::vector<const int*>& jobs, int place) {
-        if (++under_way[place] != 1) apart = false;
-        std::size_t seen = largest;
-        while (jobs.size() > seen && !largest.compare_exchange_weak(seen, jobs.size())) {
-        }
-        std::this_thread::yield();
-        bool fails = false;
-        for (const int* job : jobs) ++done[*job], fails = fails || *job == bad;
-        if (fails) lost = static_cast<int>(jobs.size());
-        --under_way[place];
-        if (fails) throw std::runtime_error("a job");
-    });
-    std::vector<std::thread> team;
-    for (int t = 0; t < threads; ++t)
-        team.emplace_back([&, t] {
-            for (int k = 0; k < rounds; ++k) try {
-                    combiner.run(t * rounds + k);
-                } catch (const std::runtime_error&) {
-                    ++thrown;
-                }
-        });
-    for (std::thread& one : team) one.join();
-    EXPECT_TRUE(std::all_of(done.begin(), done.end(), [](const auto& times) { return times == 1; }));
-    EXPECT_TRUE(apart);
-    EXPECT_GE(largest, 1u);
-    EXPECT_LE(largest, 3u);
-    EXPECT_EQ(thrown, lost);
-    EXPECT_GE(thrown, 1);
 }
 
 /// Fluid enough for three parts, with a swimmer in it.

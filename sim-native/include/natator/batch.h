@@ -56,14 +56,14 @@ struct BatchOptions {
     const SettledStateCache* starts = nullptr;
 };
 
-/// Evaluates gaits in one scene on a GPU. In scheme `lattice` the GPU computes the water, and a host thread per member
-/// its bodies. Small scenes of scheme `flex` run in a block of threads each, or in several blocks where members are
-/// few. Everything else runs side by side by kernels of the whole GPU: scheme `conserving`, `options.whole_gpu`, more
-/// than 65 535 particles, and more than 20 000 in double or with effects. Result k belongs to member k. The result of a
-/// member is the same, bit by bit, whatever the others and their number. A batch that does not fit into the device's
-/// memory is computed in parts. For an unstable member the CPU repeats the last substep, to name the stage that failed.
-/// May be called from several threads at once. Throws InputError when a gait does not fit the scene or the scene needs
-/// what the GPU's stages do not do, NoDevice without that GPU or if this library was built without CUDA.
+/// Evaluates gaits in one scene on a GPU. Small scenes of scheme `flex` run in a block of threads each, or in several
+/// blocks where members are few. Everything else runs side by side by kernels of the whole GPU: schemes `conserving`
+/// and `lattice`, `options.whole_gpu`, more than 65 535 particles, and more than 20 000 in double or with effects.
+/// Result k belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number.
+/// A batch that does not fit into the device's memory is computed in parts. For an unstable member the CPU repeats the
+/// last substep, to name the stage that failed. May be called from several threads at once. Throws InputError when a
+/// gait does not fit the scene or the scene needs what the GPU's stages do not do, NoDevice without that GPU or if this
+/// library was built without CUDA.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         const BatchOptions& options = {});
 

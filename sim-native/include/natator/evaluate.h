@@ -73,7 +73,10 @@ struct Evaluation {
     /// Work that the swimmer's muscles did by their changes of length (Solver::muscle_works), mass length^2/s^2; none
     /// in scheme `flex`, which has no forces, and without muscles.
     std::optional<double> work;
-    double smagorinsky = 0;                   ///< FluidBlock::smagorinsky, by which the water was computed
+    double smagorinsky = 0;  ///< FluidBlock::smagorinsky, by which the water was computed
+    /// Greatest speed of a part of a body in scheme `lattice`, cells a substep: above 0.1 a shorter substep may change
+    /// the distance much, above 0.3 a law is broken.
+    double cells_per_step = 0;
     std::optional<Course> course;             ///< where the body went; none without a body
     std::vector<GoalResult> goals;            ///< result of each goal, in the scene's order
     std::optional<WaterRenewal> renewal;      ///< what a moving tank took from its water; none in another tank

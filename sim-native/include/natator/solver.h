@@ -85,7 +85,7 @@ struct Execution {
     std::function<void(const Residuals&)> residuals{};
     /// keeps what Solver::forces gives; schemes conserving and lattice, a per cent of their time
     bool forces = false;
-    /// Computes on the GPU of this number (cuda_devices), in scheme `lattice` the water there and bodies on the CPU.
+    /// Computes on the GPU of this number (cuda_devices).
     /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
     std::optional<int> gpu{};
     /// With others on that GPU. In scheme `flex` by kernels of the whole GPU, whose last digits may differ (GpuPath);
@@ -232,6 +232,8 @@ public:
     /// moved. Does nothing in the other schemes, whose water is particles.
     void shift_water(const Eigen::Vector3d& by);
 
+    /// Scheme lattice: the greatest speed of a body's particle in a substep since its water began, cells; else 0.
+    double cells_per_step() const;
     /// The lattice's cells, of scheme `lattice`; at rest before the first update. In the other schemes it has no cells:
     /// water_field.
     WaterField lattice_water() const;
@@ -253,8 +255,7 @@ public:
 
     /// Whether a GPU computes.
     bool on_gpu() const;
-    /// What settles a Model alike, for a cache of starts: a GPU's name and which kernels; empty on a CPU, and in scheme
-    /// lattice.
+    /// What settles a Model alike, for a cache of starts: a GPU's name and which kernels; empty on a CPU.
     std::string device() const;
 
 private:

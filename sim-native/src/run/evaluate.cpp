@@ -1,5 +1,10 @@
 #include "natator/evaluate.h"
 
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "evaluate_frame_by_frame.h"
 #include "evaluation_run.h"
 #include "move_tank.h"
 #include "natator/cost.h"
@@ -21,49 +26,80 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
     return snapshot;
 }
 
-/// A State that run_frames advances on the CPU.
+/// States of a scene that run_frames advances by Solvers, frame by frame together.
 template <class Real>
-class CpuStepper {
+class SolverStepper {
 public:
-    /// `needs_body`: see EvaluationRun.
-    CpuStepper(const Scene& scene, const Model& model, const Gait& gait, const EvaluationOptions& options,
-               bool needs_body)
+    /// The snapshots and calls of `options` are of the first. `needs_body`: see EvaluationRun.
+    SolverStepper(const Scene& scene, const EvaluationOptions& options, bool needs_body)
         : scene_(scene),
-          model_(model),
-          gait_(gait),
           options_(options),
-          solver_(model, execution()),
           needs_body_(needs_body),
           snapshot_due_(static_cast<bool>(options.snapshot.take)) {}
 
-    /// Takes the State to its settled start.
-    void settle(const Model& start, const SettledStateCache* starts) {
-        state_ = settled_start(start, scene_.settling, solver_, starts, unsettled_);
+    /// One more. `start`: the model, or the model perturbed; it is taken to its settled start.
+    void add(const Model& model, const Model& start, const Gait& gait, const SettledStateCache* starts) {
+        One& one = *all_.emplace_back(std::make_unique<One>(model, gait, execution()));
+        one.state = settled_start(start, scene_.settling, one.solver, starts, one.unsettled);
         settled_ = true;
     }
-    std::vector<FrameEnd> start() { return {look(unsettled_)}; }
-    std::vector<FrameEnd> frame(int number, const std::vector<bool>&) {
-        if (auto instability = solver_.frame(state_, gait_)) return {look(std::move(instability))};
-        state_.time = (number + 1) * scene_.time_step;  // free of summed rounding
-        return {look(std::nullopt)};
+    std::vector<FrameEnd> start() {
+        std::vector<FrameEnd> ends;
+        for (const auto& one : all_) ends.push_back(look(*one, one->unsettled));
+        return ends;
     }
-    void record_frame(std::size_t, EvaluationRun& run) {
-        state_.origin = run.origin();
-        if (options_.on_frame) options_.on_frame(state_.time, body_places(model_.body, state_));
+    std::vector<FrameEnd> frame(int number, const std::vector<bool>& over) {
+        std::vector<std::size_t> running;
+        std::vector<typename Solver<Real>::Frame> frames;
+        for (std::size_t k = 0; k < all_.size(); ++k) {
+            if (over[k]) continue;
+            One& one = *all_[k];
+            running.push_back(k);
+            frames.push_back(
+                {&one.solver, &one.state, [&one](double time) { return drive(one.model, one.gait, time); }});
+        }
+        // By themselves with their gaits, which a GPU drives in scheme `flex`.
+        std::vector<std::optional<Instability>> found;
+        if (options_.execution.shared)
+            found = Solver<Real>::frames(std::move(frames), 1);
+        else
+            for (const std::size_t k : running) found.push_back(all_[k]->solver.frame(all_[k]->state, all_[k]->gait));
+        std::vector<FrameEnd> ends(all_.size());
+        for (std::size_t i = 0; i < running.size(); ++i) {
+            One& one = *all_[running[i]];
+            if (!found[i]) one.state.time = (number + 1) * scene_.time_step;  // free of summed rounding
+            ends[running[i]] = look(one, found[i]);
+        }
+        return ends;
+    }
+    void record_frame(std::size_t number, EvaluationRun& run) {
+        One& one = *all_[number];
+        one.state.origin = run.origin();
+        if (options_.on_frame) options_.on_frame(one.state.time, body_places(one.model.body, one.state));
         if (run.frames() == 0) return;
         const std::optional<double> at = options_.snapshot.at;
         const bool last = run.is_over() || run.frames() == frames_of(scene_);
-        if (snapshot_due_ && (at ? state_.time > *at - scene_.time_step / 1000 : last)) {
+        if (snapshot_due_ && (at ? one.state.time > *at - scene_.time_step / 1000 : last)) {
             snapshot_due_ = false;
-            options_.snapshot.take(model_, snapshot_of(state_, solver_.densities()));
+            options_.snapshot.take(one.model, snapshot_of(one.state, one.solver.densities()));
         }
-        if (run.tank_is_due()) move_tank(solver_, state_, [&] { run.move_tank(state_); });
+        if (run.tank_is_due()) move_tank(one.solver, one.state, [&] { run.move_tank(one.state); });
     }
 
-    const State<Real>& state() const { return state_; }
-    std::vector<Real> densities() { return solver_.densities(); }
+    const State<Real>& state(std::size_t number) const { return all_[number]->state; }
+    std::vector<Real> densities(std::size_t number) { return all_[number]->solver.densities(); }
 
 private:
+    struct One {
+        One(const Model& own, const Gait& its, const Execution& execution)
+            : model(own), gait(its), solver(own, execution) {}
+        const Model& model;
+        const Gait& gait;
+        Solver<Real> solver;
+        State<Real> state{};
+        std::optional<Instability> unsettled{};
+    };
+
     /// Residuals are those of frames: what settles may come from a cache.
     Execution execution() {
         Execution own = options_.execution;
@@ -73,42 +109,69 @@ private:
             };
         return own;
     }
-    FrameEnd look(std::optional<Instability> instability) {
+    FrameEnd look(const One& one, std::optional<Instability> instability) const {
         FrameEnd end{.instability = std::move(instability)};
-        end.frame.mean_x = mean_x(model_.body, state_);
-        end.frame.tail_z = tail_z(model_.body, state_);
-        if (needs_body_) end.frame.body = body_places_in_tank(model_.body, state_);
+        end.cells_per_step = one.solver.cells_per_step();
+        end.frame.mean_x = mean_x(one.model.body, one.state);
+        end.frame.tail_z = tail_z(one.model.body, one.state);
+        if (needs_body_) end.frame.body = body_places_in_tank(one.model.body, one.state);
         if (end.instability) return end;
-        end.laws = measure_laws(model_, state_);
-        end.work = solver_.muscle_works();
-        end.frame.touches_plane = scene_.stopping.plane_contact && touches_plane(model_, state_);
+        end.laws = measure_laws(one.model, one.state);
+        end.work = one.solver.muscle_works();
+        end.frame.touches_plane = scene_.stopping.plane_contact && touches_plane(one.model, one.state);
         return end;
     }
 
     const Scene& scene_;
-    const Model& model_;
-    const Gait& gait_;
     const EvaluationOptions& options_;
-    Solver<Real> solver_;
-    State<Real> state_;
-    std::optional<Instability> unsettled_;
+    std::vector<std::unique_ptr<One>> all_;
     bool settled_ = false;
     bool needs_body_;
     bool snapshot_due_;
 };
 
-/// Runs frame by frame to the duration or an early stop, from the places of `start`: the model, or the model perturbed.
+/// Volumes, and all else that is measured at rest, are those of the model.
+Model perturbed(Model model, const Perturbation& by) {
+    perturb(by, model);
+    return model;
+}
+
+/// Runs frame by frame to the duration or an early stop. Starts of perturbed ones are not kept: there are as many as
+/// seeds.
 template <class Real>
-Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& start, const Gait& gait,
-                       const EvaluationOptions& options) {
+std::vector<Evaluation> evaluate_as(const Scene& scene, const std::vector<BatchMember>& members,
+                                    const EvaluationOptions& options, const Computing& computing) {
+    std::map<std::optional<int>, Model> models;  // by arrangement
+    const auto model_of = [&](const BatchMember& member) -> const Model& {
+        Scene own = scene;
+        if (member.arrangement) own.fluid->disorder = *member.arrangement;
+        const auto [known, is_new] = models.try_emplace(member.arrangement);
+        if (is_new) {
+            known->second = build_model(own);
+            check_evaluation_cost(own, known->second, computing);
+        }
+        return known->second;
+    };
     std::vector<EvaluationRun> runs;
-    runs.emplace_back(scene, model, gait, LawWatch(model));
-    CpuStepper<Real> stepper(scene, model, gait, options, runs.front().needs_body());
+    for (const BatchMember& member : members) {
+        const Model& model = model_of(member);
+        runs.emplace_back(scene, model, member.gait, LawWatch(model));
+    }
+    SolverStepper<Real> stepper(scene, options, runs.front().needs_body());
     const bool has_frames = frames_of(scene) > 0;  // the figures of a run without frames are those of settling
-    stepper.settle(start, has_frames ? options.execution.starts : nullptr);
-    const State<Real> begin = model.companions.empty() ? State<Real>{} : stepper.state();
+    std::vector<State<Real>> begin(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const Model& model = model_of(members[k]);
+        const Perturbation& by = members[k].perturbation;
+        stepper.add(model, by.amplitude == 0 ? model : perturbed(model, by), members[k].gait,
+                    has_frames && by.amplitude == 0 ? options.execution.starts : nullptr);
+        if (!model.companions.empty()) begin[k] = stepper.state(k);
+    }
     run_frames(scene, stepper, runs);
-    return runs.front().finish(begin, stepper.state(), stepper.densities());
+    std::vector<Evaluation> evaluations;
+    for (std::size_t k = 0; k < members.size(); ++k)
+        evaluations.push_back(runs[k].finish(begin[k], stepper.state(k), stepper.densities(k)));
+    return evaluations;
 }
 
 }  // namespace
@@ -122,17 +185,17 @@ double Evaluation::fitness() const {
 }
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
-    check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
-    const Model model = build_model(scene);
-    check_evaluation_cost(scene, model,
-                          {.doubles = options.precision == Precision::double_precision,
-                           .several_threads = options.execution.threads > 1});
-    Model start = model;  // volumes, and all else that is measured at rest, are those of the model
-    perturb(options.perturbation, start);
-    EvaluationOptions own = options;
-    if (options.perturbation.amplitude != 0) own.execution.starts = nullptr;  // such starts are as many as seeds
-    return options.precision == Precision::double_precision ? evaluate_as<double>(scene, model, start, gait, own)
-                                                            : evaluate_as<float>(scene, model, start, gait, own);
+    return evaluate_frame_by_frame(scene, {{gait, options.perturbation}}, options).front();
+}
+
+std::vector<Evaluation> evaluate_frame_by_frame(const Scene& scene, const std::vector<BatchMember>& members,
+                                                const EvaluationOptions& options) {
+    for (const BatchMember& member : members) check_gait(member.gait, scene.creature ? scene.creature->actuators() : 0);
+    if (members.empty()) return {};
+    const Computing computing{.doubles = options.precision == Precision::double_precision,
+                              .several_threads = options.execution.threads > 1};
+    return computing.doubles ? evaluate_as<double>(scene, members, options, computing)
+                             : evaluate_as<float>(scene, members, options, computing);
 }
 
 }  // namespace natator

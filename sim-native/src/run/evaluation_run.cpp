@@ -35,6 +35,7 @@ void EvaluationRun::start(const FrameEnd& start) {
 
 void EvaluationRun::add(const FrameEnd& end) {
     result_.instability = end.instability;
+    result_.cells_per_step = end.cells_per_step;
     if (result_.instability) return;
     work_ = end.work.empty() ? 0 : end.work.front();
     ++result_.frames;

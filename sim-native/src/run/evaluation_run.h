@@ -16,6 +16,7 @@ namespace natator {
 struct FrameEnd {
     std::optional<Instability> instability{};  ///< what is not finite; then the rest means nothing
     physics::LawMeasures laws{};
+    double cells_per_step = 0;  ///< Solver::cells_per_step
     std::vector<double>
         work{};  ///< of the muscles since the start by swimmer (Solver::muscle_works), mass length^2/s^2
     SwimRecord::Frame frame{};

@@ -8,12 +8,11 @@
 namespace natator {
 
 /// The start of the scene at rest: from the cache if there is one and it is there, else settled and kept there. Sets
-/// `instability` if settling was unstable. What scheme lattice settles on a GPU is not kept.
+/// `instability` if settling was unstable.
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver,
                           const SettledStateCache* cache, std::optional<Instability>& instability) {
     const std::string by = solver.device();
-    if (solver.on_gpu() && by.empty()) cache = nullptr;
     if (cache)
         if (auto found = cache->find<Real>(model, settling, by)) return *found;
     State<Real> state = initial_state<Real>(model);

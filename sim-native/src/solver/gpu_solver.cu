@@ -15,6 +15,8 @@
 #include "cuda/kernel_choice.h"
 #include "cuda/refusal.h"
 #include "flex/cuda/batch_runner.h"
+#include "lattice/gpu_swim.h"
+#include "law_name.h"
 #include "model/check_gait.h"
 #include "model/check_model.h"
 #include "model/model_key.h"
@@ -101,13 +103,14 @@ public:
     std::string save() const {
         ByteWriter saved;
         for (const double work : muscle_work_) saved.add(work);
+        save_water(saved);
         return saved.take();
     }
     void restore(std::string_view saved) {
         ByteReader from(saved);
         std::vector<double> work(muscle_work_.size());
         for (double& of_swimmer : work) from.read(of_swimmer);
-        from.require_end();
+        restore_water(from);
         muscle_work_ = std::move(work);
     }
 
@@ -117,6 +120,9 @@ public:
         return counts;
     }
 
+    virtual void shift_water(const Eigen::Vector3d&) {}
+    virtual double cells_per_step() const { return 0; }
+    virtual WaterField lattice_water() const { return {}; }
     virtual std::vector<Real> pressures() const { return {}; }
     virtual std::vector<Vector3<Real>> forces() const { return {}; }
 
@@ -126,6 +132,8 @@ public:
     virtual bool shared() const { return false; }
 
 protected:
+    virtual void save_water(ByteWriter&) const {}
+    virtual void restore_water(const ByteReader& from) { from.require_end(); }
     virtual const cuda::DeviceModel<Real>& device_model() const = 0;
     /// One update of `state`, and of what is kept of it by device number; its time stays.
     virtual cuda::Progress run(State<Real>& state, double time_step, int substeps, const Muscles& muscles,
@@ -142,6 +150,10 @@ protected:
         state.time = progress.bad_time;
         const int bad =
             progress.bad_particle < model_.particles() ? device_model().particle_of()[progress.bad_particle] : 0;
+        if (progress.broken != physics::Law::finite)
+            return Instability{bad, "frame", state.time, name(progress.broken)};
+        if (model_.water_box && !(model_.inverse_mass[bad] > 0))  // an obstacle, which is no body that the CPU solves
+            return Instability{bad, "collision and streaming", state.time};
         return cuda::located(model_, state, drive, time_step, substeps, start, {bad, "velocities", state.time});
     }
 
@@ -203,10 +215,17 @@ template <class Real>
 class GpuSolver<Real>::GridSolver : public Implementation {
 public:
     /// With a runner of its own, or each time with one of the pool, which others use in between.
-    GridSolver(const Model& model, std::shared_ptr<cuda::GridPool<Real>> pool, bool shared)
+    GridSolver(const Model& model, std::shared_ptr<cuda::GridPool<Real>> pool, const GpuSolverOptions& options)
         : Implementation(model), pool_(std::move(pool)) {
-        if (!shared) own_.emplace(pool_->lend(1));
+        if (!options.shared) own_.emplace(pool_->lend(1));
+        if (model.water_box) swim_.emplace(model, options.device, options.forces);
     }
+
+    void shift_water(const Eigen::Vector3d& by) override {
+        if (swim_) swim_->shift(by);
+    }
+    double cells_per_step() const override { return swim_ ? swim_->fastest() : 0; }
+    WaterField lattice_water() const override { return swim_ ? swim_->field() : WaterField{}; }
 
     std::vector<Real> pressures() const override {
         const std::vector<Real> of_fluid = own_ && h_ > 0 ? (*own_)->pressures(h_) : std::vector<Real>{};
@@ -215,6 +234,7 @@ public:
         return pressures;
     }
     std::vector<Vector3<Real>> forces() const override {
+        if (swim_) return swim_->template forces<Real>();
         if (!(time_ > 0) || !own_ || !(*own_)->keeps_forces()) return {};
         std::vector<Vector3<Real>> forces(this->model_.particles(), Vector3<Real>::Zero());
         const std::vector<cuda::Vec4<Real>> impulses = (*own_)->impulses_on_solids();
@@ -253,6 +273,15 @@ public:
 
 private:
     using Muscles = typename Implementation::Muscles;
+    void save_water(ByteWriter& saved) const override {
+        if (swim_) swim_->save(saved);
+    }
+    void restore_water(const ByteReader& from) override {
+        if (swim_)
+            swim_->restore(from);
+        else
+            from.require_end();
+    }
     const cuda::DeviceModel<Real>& device_model() const override { return pool_->model(); }
     cuda::Progress run(State<Real>& state, double time_step, int substeps, const Muscles& muscles,
                        const cuda::Trace<Real>& trace) override {
@@ -267,6 +296,11 @@ private:
                                            const std::vector<State<Real>*>& states, double time_step, int substeps,
                                            const std::vector<Drive>& drives, const cuda::Trace<Real>& trace) {
         runner.upload_all({states.begin(), states.end()});
+        const bool in_lattice = solvers.front()->swim_.has_value();
+        for (int k = 0; in_lattice && k < runner.states(); ++k)
+            runner.set_water(k, k < static_cast<int>(states.size())
+                                    ? solvers[k]->swim_->begin(states[k]->time, time_step / substeps)
+                                    : nullptr);
         typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false};
         for (std::size_t k = 0; k < drives.size(); ++k) update.muscles.push_back({drives[k], states[k]->time});
         update.muscles.resize(drives.empty() ? 0 : runner.states());
@@ -276,6 +310,11 @@ private:
         const std::vector<int> neighbours = solvers.front()->own_ ? runner.neighbour_counts() : std::vector<int>{};
         std::vector<cuda::Progress> progress(states.size());
         for (std::size_t k = 0; k < states.size(); ++k) {
+            const int made = ends[k].finite                         ? substeps
+                             : ends[k].fault == cuda::fault_of_body ? ends[k].bad_substep
+                                                                    : ends[k].bad_substep + 1;
+            const double time = states[k]->time + made * time_step / substeps;
+            if (in_lattice) solvers[k]->swim_->end(time, time_step / substeps);
             if (ends[k].finite) {
                 solvers[k]->keep(k, time_step, substeps, densities, neighbours);
                 if (!drives.empty() && has_muscle_work(solvers[k]->model_))
@@ -285,7 +324,8 @@ private:
             }
             progress[k].stopped = static_cast<int>(StopReason::unstable);
             progress[k].bad_particle = ends[k].bad_particle;
-            progress[k].bad_time = states[k]->time + ends[k].bad_substep * time_step / substeps;
+            progress[k].bad_time = time;
+            if (ends[k].fault == cuda::fault_mach) progress[k].broken = physics::Law::mach;
         }
         return progress;
     }
@@ -306,7 +346,8 @@ private:
 
     std::shared_ptr<cuda::GridPool<Real>> pool_;
     std::optional<typename cuda::GridPool<Real>::Loan> own_;
-    Real time_ = 0, h_ = 0;  ///< of the last update and of its substeps, s; 0 before the first
+    std::optional<lattice::GpuSwim> swim_;  ///< of scheme lattice
+    Real time_ = 0, h_ = 0;                 ///< of the last update and of its substeps, s; 0 before the first
 };
 
 /// By Model, as long as a solver has one.
@@ -338,9 +379,6 @@ template <class Real>
 GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
     cuda::choose_device(options.device);
     check_model(model);
-    if (model.water_box)
-        throw InputError(
-            "backend cuda: a GpuSolver has no scheme lattice; a Solver has its water on a GPU by Execution::gpu");
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.shared ? GpuPath::whole_gpu : options.path;
     if (path == GpuPath::by_size) {
@@ -361,10 +399,10 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
         implementation_ = std::make_unique<BlockSolver>(model);
     else if (options.shared)
         implementation_ =
-            std::make_unique<GridSolver>(model, options.shared->pools().of<Real>(model, options.device), true);
+            std::make_unique<GridSolver>(model, options.shared->pools().of<Real>(model, options.device), options);
     else
         implementation_ = std::make_unique<GridSolver>(
-            model, std::make_shared<cuda::GridPool<Real>>(model, grid, options.device), false);
+            model, std::make_shared<cuda::GridPool<Real>>(model, grid, options.device), options);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;
@@ -396,6 +434,7 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
     constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
+    constexpr double cells_of_a_stream = 4e6;                        // of a lattice: fewer would not fill a GPU
     using Pool = cuda::GridPool<Real>;
     std::map<Pool*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -405,7 +444,12 @@ std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vecto
     std::vector<std::pair<Pool*, std::vector<std::size_t>>> parts;
     for (const auto& [pool, numbers] : by_pool) {
         const int most = particles_at_a_time / max_streams / pool->host_model().particles() + 1;
-        const cuda::Parts own(static_cast<int>(numbers.size()), most, max_streams);
+        const WaterBox* const box = pool->host_model().water_box ? &*pool->host_model().water_box : nullptr;
+        const double filled =
+            box ? static_cast<double>(numbers.size()) * box->cells.cast<double>().prod() / cells_of_a_stream
+                : max_streams;
+        const cuda::Parts own(static_cast<int>(numbers.size()), most,
+                              std::clamp(static_cast<int>(filled), 1, max_streams));
         for (int part = 0; part < own.count; ++part) {
             const auto first = numbers.begin() + own.first(part);
             parts.push_back({pool, {first, first + own.size_of(part)}});
@@ -455,6 +499,18 @@ std::string GpuSolver<Real>::save() const {
 template <class Real>
 void GpuSolver<Real>::restore(std::string_view saved) {
     implementation_->restore(saved);
+}
+template <class Real>
+void GpuSolver<Real>::shift_water(const Eigen::Vector3d& by) {
+    implementation_->shift_water(by);
+}
+template <class Real>
+double GpuSolver<Real>::cells_per_step() const {
+    return implementation_->cells_per_step();
+}
+template <class Real>
+WaterField GpuSolver<Real>::lattice_water() const {
+    return implementation_->lattice_water();
 }
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {

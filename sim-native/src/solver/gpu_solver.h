@@ -23,7 +23,7 @@ enum class GpuPath {
 struct GpuSolverOptions {
     int device = 0;  ///< number of the GPU, see cuda_devices in batch.h
     GpuPath path = GpuPath::by_size;
-    bool forces = false;          ///< keeps what GpuSolver::forces gives; scheme conserving only
+    bool forces = false;          ///< keeps what GpuSolver::forces gives; not in scheme flex
     SharedGpu* shared = nullptr;  ///< as Execution::shared; then by the whole GPU
 };
 
@@ -83,6 +83,9 @@ public:
     /// As Solver's.
     std::string save() const;
     void restore(std::string_view saved);
+    void shift_water(const Eigen::Vector3d& by);
+    double cells_per_step() const;
+    WaterField lattice_water() const;
 
     /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.

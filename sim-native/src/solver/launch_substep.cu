@@ -76,6 +76,7 @@ __device__ void work_on_grid(const ModelView<Real>& model, const Slots<Real>& sl
     for (int swimmer = 0; swimmer < model.swimmers; ++swimmer) {
         double sum = 0;
         const int end = model.swimmer_springs_begin[swimmer + 1];
+#pragma unroll 4
         for (int k = model.swimmer_springs_begin[swimmer] + static_cast<int>(threadIdx.x); k < end; k += 32)
             sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
                                         double(slots.rest_length()[k]) - double(before[k]));
@@ -83,6 +84,15 @@ __device__ void work_on_grid(const ModelView<Real>& model, const Slots<Real>& sl
         double& work = slots.shared().muscle_work[swimmer];
         if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
     }
+}
+
+template <class Real>
+__device__ void keep_on_grid(const ModelView<Real>& model, const Slots<Real>& slots, int s, Vec4<Real>* position,
+                             Vec4<Real>* velocity, ClusterFit<Real>* fits) {
+    const std::size_t state = blockIdx.y, place = state * model.particles + s;
+    position[place] = slots.arrays.state_position[s];
+    velocity[place] = slots.arrays.state_velocity[s];
+    for (int c = s; c < model.clusters; c += model.particles) fits[state * model.clusters + c] = slots.fit()[c];
 }
 
 template <class Real>
@@ -113,10 +123,10 @@ GridLaunch<Real> at_the_end(GridLaunch<Real> launch) {
 
 template <class Real>
 void launch_substep(const GridLaunch<Real>& launch) {
-    if (launch.model.scheme == Scheme::conserving)
-        launch_substep_of<Real, Scheme::conserving>(launch);
-    else
+    if (launch.model.scheme == Scheme::flex)
         launch_substep_of<Real, Scheme::flex>(launch);
+    else
+        launch_substep_of<Real, Scheme::conserving>(launch);
     if (launch.trace.velocity)
         check(cudaMemcpyAsync(launch.trace.velocity + std::size_t(launch.slots.substep) * launch.model.particles,
                               launch.slots.arrays.state_velocity, launch.model.particles * sizeof(Vec4<Real>),
@@ -166,6 +176,12 @@ void launch_work(const GridLaunch<Real>& launch) {
 }
 
 template <class Real>
+void launch_keep(const GridLaunch<Real>& launch, Vec4<Real>* position, Vec4<Real>* velocity, ClusterFit<Real>* fits) {
+    launch.template each_slot<keep_on_grid<Real>>(launch.model.particles, position, velocity, fits);
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
 void launch_rest(const GridLaunch<Real>& launch) {
     launch.template each_particle<rest_on_grid<Real>>();
     check(cudaGetLastError(), "launch");
@@ -176,16 +192,17 @@ void launch_far_slot(const GridLaunch<Real>& launch) {
     launch.template report_states<far_slot_on_grid<Real>, 1>();
 }
 
-#define NATATOR_INSTANTIATE(Real)                                              \
-    template void launch_substep(const GridLaunch<Real>&);                     \
-    template void record_positions(const GridLaunch<Real>&, Vec4<Real>*, int); \
-    template void launch_densities(const GridLaunch<Real>&, Real*);            \
-    template void launch_neighbour_counts(const GridLaunch<Real>&, int*);      \
-    template void launch_pressures(const GridLaunch<Real>&, Real*);            \
-    template void launch_body_places(const GridLaunch<Real>&, Vec4<Real>*);    \
-    template void launch_measure(const GridLaunch<Real>&);                     \
-    template void launch_work(const GridLaunch<Real>&);                        \
-    template void launch_rest(const GridLaunch<Real>&);                        \
+#define NATATOR_INSTANTIATE(Real)                                                                    \
+    template void launch_substep(const GridLaunch<Real>&);                                           \
+    template void record_positions(const GridLaunch<Real>&, Vec4<Real>*, int);                       \
+    template void launch_densities(const GridLaunch<Real>&, Real*);                                  \
+    template void launch_neighbour_counts(const GridLaunch<Real>&, int*);                            \
+    template void launch_pressures(const GridLaunch<Real>&, Real*);                                  \
+    template void launch_body_places(const GridLaunch<Real>&, Vec4<Real>*);                          \
+    template void launch_measure(const GridLaunch<Real>&);                                           \
+    template void launch_work(const GridLaunch<Real>&);                                              \
+    template void launch_keep(const GridLaunch<Real>&, Vec4<Real>*, Vec4<Real>*, ClusterFit<Real>*); \
+    template void launch_rest(const GridLaunch<Real>&);                                              \
     template void launch_far_slot(const GridLaunch<Real>&)
 NATATOR_INSTANTIATE(float);
 NATATOR_INSTANTIATE(double);

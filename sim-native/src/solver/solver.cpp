@@ -89,10 +89,6 @@ void check_values_of_drive(const Model& model, const std::vector<double>& driven
         if (!(std::abs(value) <= 2 + rounding)) check_drive(driven, static_cast<int>(driven.size()));
 }
 
-/// A substep, of scheme lattice: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is
-/// nothing.
-constexpr double max_cells_per_substep = 0.3;
-
 /// Does nothing behind a stage.
 struct NoHook {
     void operator()(Stage) const {}
@@ -124,7 +120,7 @@ public:
         : model_(model), execution_(execution), stages_(stages_for(model, plan_for(model, execution.skip))) {
         check_threads(execution.threads);
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
-        if (model.water_box) coupling_.emplace(model, execution.threads, execution.gpu);
+        if (model.water_box) coupling_.emplace(model, execution.threads);
         if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
         if (execution.forces && coupling_) coupling_->clear_forces();
     }
@@ -146,11 +142,11 @@ public:
     }
 
     const Model& model() const { return model_; }
-    bool on_gpu() const { return coupling_ && execution_.gpu; }
 
     void shift_water(const Eigen::Vector3d& by) {
         if (coupling_) coupling_->shift(by);
     }
+    double cells_per_step() const { return coupling_ ? coupling_->fastest() : 0; }
     WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
     const std::vector<double>& muscle_works() const { return muscle_work_; }
     void clear_muscle_work() { std::fill(muscle_work_.begin(), muscle_work_.end(), 0); }
@@ -235,7 +231,7 @@ private:
             state.time = end;
             if (coupling_) {
                 coupling_->follow(state, static_cast<double>(h), end);
-                if (coupling_->fastest() > max_cells_per_substep)
+                if (coupling_->fastest() > lattice::max_cells_per_substep)
                     return Instability{coupling_->fastest_particle(), "frame", end, name(physics::Law::mach)};
                 if (const auto particle = coupling_->first_not_finite())
                     return Instability{*particle, "collision and streaming", end};
@@ -257,7 +253,7 @@ private:
 
 template <class Real>
 Solver<Real>::Solver(const Model& model, const Execution& execution) {
-    if (execution.gpu && model.scheme != Scheme::lattice)
+    if (execution.gpu)
         gpu_ = std::make_unique<GpuSolver<Real>>(
             model, GpuSolverOptions{.device = *execution.gpu, .forces = execution.forces, .shared = execution.shared});
     else
@@ -327,12 +323,17 @@ std::vector<std::optional<Instability>> Solver<Real>::frames(std::vector<Frame> 
 
 template <class Real>
 void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
-    if (!gpu_) implementation_->shift_water(by);
+    gpu_ ? gpu_->shift_water(by) : implementation_->shift_water(by);
+}
+
+template <class Real>
+double Solver<Real>::cells_per_step() const {
+    return gpu_ ? gpu_->cells_per_step() : implementation_->cells_per_step();
 }
 
 template <class Real>
 WaterField Solver<Real>::lattice_water() const {
-    return gpu_ ? WaterField{} : implementation_->lattice_water();
+    return gpu_ ? gpu_->lattice_water() : implementation_->lattice_water();
 }
 
 template <class Real>
@@ -384,7 +385,7 @@ std::vector<int> Solver<Real>::neighbour_counts() const {
 
 template <class Real>
 bool Solver<Real>::on_gpu() const {
-    return gpu_ || implementation_->on_gpu();
+    return gpu_ != nullptr;
 }
 
 template <class Real>

@@ -7,9 +7,11 @@
 #include "natator/batch.h"
 #include "natator/model.h"
 #include "natator/settled_state_cache.h"
+#include "run/evaluate_frame_by_frame.h"
 #include "run/laws.h"
 #include "run/perturb.h"
 #include "solver/cuda/device.h"
+#include "solver/cuda/grid/parts.h"
 #include "solver/cuda/kernel_choice.h"
 #include "solver/cuda/refusal.h"
 #include "solver/flex/cuda/batch_runner.h"
@@ -216,28 +218,36 @@ std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const s
     return evaluate_in_parts(batch, members);
 }
 
-/// Scheme `lattice`: the water of each member on the device, its body by a thread of the host; as many at once as it
-/// has room for.
+/// Scheme `lattice`: some members at a time, by streams side by side, so that the host looks at some while the GPU goes
+/// on with others.
 std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox& box,
                                              const std::vector<BatchMember>& members, const BatchOptions& options) {
-    constexpr double bytes_of_cell = 2 * 27 * sizeof(float) + 2 * sizeof(int) + 16;  // populations, owners, room
+    // populations, owners, keys and what cells hand over
+    constexpr double bytes_of_cell = 2 * 27 * sizeof(float) + 4 * sizeof(int) + 8 + 16;
+    constexpr int max_streams = 3;
     std::size_t free = 0, all = 0;
     check(cudaMemGetInfo(&free, &all), "memory");
-    const double room = static_cast<double>(free) / (bytes_of_cell * box.cells.cast<double>().prod());
-    const auto at_once = static_cast<std::size_t>(std::clamp(room, 1.0, 1e6));
+    const double room = 0.95 * static_cast<double>(free) / (bytes_of_cell * box.cells.cast<double>().prod());
+    const Parts parts(static_cast<int>(members.size()), static_cast<int>(std::clamp(room / max_streams, 1.0, 1e6)),
+                      room < max_streams ? 1 : max_streams);
     std::vector<Evaluation> evaluations(members.size());
+    SharedGpu shared;
+    EvaluationOptions how;
+    how.precision = options.precision;
+    how.execution.gpu = options.device;
+    how.execution.shared = &shared;
+    how.execution.starts = options.starts;
     side_by_side(
-        members.size(),
-        [&](std::size_t k) {
-            Scene own = scene;
-            if (members[k].arrangement) own.fluid->disorder = *members[k].arrangement;
-            EvaluationOptions how;
-            how.precision = options.precision;
-            how.perturbation = members[k].perturbation;
-            how.execution.gpu = options.device;
-            evaluations[k] = natator::evaluate(own, members[k].gait, how);
+        parts.streams,
+        [&](std::size_t stream) {
+            for (int part = static_cast<int>(stream); part < parts.count; part += parts.streams) {
+                const auto first = members.begin() + parts.first(part);
+                const std::vector<Evaluation> some =
+                    evaluate_frame_by_frame(scene, {first, first + parts.size_of(part)}, how);
+                std::copy(some.begin(), some.end(), evaluations.begin() + parts.first(part));
+            }
         },
-        at_once, 4);  // most wait for the device
+        max_streams, max_streams);
     return evaluations;
 }
 

@@ -82,6 +82,18 @@ void GpuSolver<Real>::restore(std::string_view) {
     refuse_without_cuda();
 }
 template <class Real>
+void GpuSolver<Real>::shift_water(const Eigen::Vector3d&) {
+    refuse_without_cuda();
+}
+template <class Real>
+double GpuSolver<Real>::cells_per_step() const {
+    refuse_without_cuda();
+}
+template <class Real>
+WaterField GpuSolver<Real>::lattice_water() const {
+    refuse_without_cuda();
+}
+template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
     refuse_without_cuda();
 }

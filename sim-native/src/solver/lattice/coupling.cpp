@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "physics/lattice.h"
 
@@ -39,38 +41,106 @@ Immersed bodies_of(const Model& model, const std::vector<double>& spacings) {
 
 }  // namespace
 
-template <class Real>
-Coupling<Real>::Coupling(const Model& model, int threads, std::optional<int> gpu)
-    : model_(model),
-      threads_(threads),
-      gpu_(gpu),
-      spacing_(spacings_of(model)),
-      displaced_(displaced_by(model, spacing_)),
-      immersed_(bodies_of(model, spacing_)) {
+CoupledBodies::CoupledBodies(const Model& model)
+    : spacing_(spacings_of(model)), displaced_(displaced_by(model, spacing_)), immersed_(bodies_of(model, spacing_)) {
+    for (std::size_t i = 0; i < spacing_.size(); ++i) {
+        const double of_size = std::max(1.0, 2 * model.water_box->cell / spacing_[i]);
+        kept_.push_back(of_size * std::max(1.0, displaced_[i] * model.inverse_mass[i]));
+    }
     for (const WaterObstacle& one : model.water_box->obstacles)
         obstacles_.push_back(cubes_of(one.obstacle, *model.water_box));
 }
 
+int CoupledBodies::cubes() const {
+    std::size_t count = spacing_.size();
+    for (const std::vector<Cube>& obstacle : obstacles_) count += obstacle.size();
+    return static_cast<int>(count);
+}
+
+void Exchange::save(ByteWriter& to, const Water* water) const {
+    to.add(water != nullptr);
+    if (!water) return;
+    to.add(impulses);
+    for (const double value : {time, step, fastest}) to.add(value);
+    to.add(fastest_particle);
+    water->save(to);
+}
+
+bool Exchange::restore(ByteReader from, int particles, const std::function<Water&()>& make) {
+    bool has_water = false;
+    from.read(has_water);
+    if (!has_water) {
+        from.require_end();
+        return false;
+    }
+    Exchange read;
+    from.read(read.impulses);
+    for (double* value : {&read.time, &read.step, &read.fastest}) from.read(*value);
+    from.read(read.fastest_particle);
+    if (read.impulses.size() != static_cast<std::size_t>(particles) || read.fastest_particle < 0 ||
+        read.fastest_particle >= std::max(1, particles))
+        throw InputError("state: its water is not of these bodies");
+    make().restore(from);
+    *this = std::move(read);
+    return true;
+}
+
+WaterField field_of(const Box& box, const Water* water, double step) {
+    WaterField field;
+    field.cells = box.cells;
+    field.cell = box.cell;
+    field.corner = box.corner;
+    field.velocity.resize(box.cells.cast<std::size_t>().prod(), box.current.cast<float>());
+    field.density.resize(field.velocity.size(), 1);
+    field.pressure.resize(field.velocity.size(), 0);
+    if (!water || step == 0) return field;
+    const auto per_second = static_cast<float>(box.cell / step);
+    const auto stiffness = static_cast<float>(box.density) * per_second * per_second * physics::lattice_sound_squared;
+    std::size_t i = 0;
+    for (const Eigen::Vector4f& cell : water->cells()) {
+        field.density[i] = cell[0];
+        field.pressure[i] = stiffness * (cell[0] - 1);
+        field.velocity[i++] = per_second * cell.tail<3>();
+    }
+    return field;
+}
+
 template <class Real>
-std::unique_ptr<Water> Coupling<Real>::make_water() const {
-    return gpu_ ? Water::on_gpu(*model_.water_box, *gpu_) : Water::on_cpu(*model_.water_box, threads_);
+std::vector<Vector3<Real>> mean_forces(const Model& model, const CoupledBodies& bodies,
+                                       const std::vector<Eigen::Vector3d>& sums, double time) {
+    if (sums.empty()) return {};
+    std::vector<Vector3<Real>> mean(model.position.size(), Vector3<Real>::Zero());
+    if (!(time > 0)) return mean;
+    const std::size_t particles = bodies.displaced().size();
+    for (std::size_t i = 0; i < particles; ++i) mean[i] = (sums[i] / time).template cast<Real>();
+    auto cube = sums.begin() + static_cast<std::ptrdiff_t>(particles);
+    auto particle = mean.begin() + static_cast<std::ptrdiff_t>(particles);
+    for (std::size_t k = 0; k < bodies.obstacles().size(); ++k) {
+        const auto end = cube + static_cast<std::ptrdiff_t>(bodies.obstacles()[k].size());
+        const int shared_by = model.water_box->obstacles[k].particles;
+        const Eigen::Vector3d sum = std::accumulate(cube, end, Eigen::Vector3d::Zero().eval());
+        std::fill_n(particle, shared_by, (sum / std::max(1, shared_by) / time).template cast<Real>().eval());
+        cube = end;
+        particle += shared_by;
+    }
+    return mean;
 }
 
 template <class Real>
 void Coupling<Real>::begin(double h) {
-    water_ = make_water();
-    impulses_.assign(spacing_.size(), Eigen::Vector3d::Zero());
-    fastest_ = 0;
     const Box& box = *model_.water_box;
+    water_ = Water::on_cpu(box, threads_);
+    exchange_.impulses.assign(bodies_.displaced().size(), Eigen::Vector3d::Zero());
+    exchange_.fastest = 0;
     if (!box.current.isZero(0)) water_->set_cells({0, box.current * h / box.cell});
 }
 
 template <class Real>
 void Coupling<Real>::push(State<Real>& state, double h) {
-    if (!water_ || std::abs(state.time - time_) > h / 2) begin(h);
+    if (!water_ || std::abs(state.time - exchange_.time) > h / 2) begin(h);
     const bool plane = model_.water_box->is_plane();
-    for (std::size_t i = 0; i < impulses_.size(); ++i) {
-        Eigen::Vector3d given = impulses_[i] - displaced_[i] * h * model_.parameters.gravity;
+    for (std::size_t i = 0; i < exchange_.impulses.size(); ++i) {
+        Eigen::Vector3d given = exchange_.impulses[i] - bodies_.displaced()[i] * h * model_.parameters.gravity;
         if (plane) given.y() = 0;  // not even rounding
         state.velocity[i] += (model_.inverse_mass[i] * given).template cast<Real>();
     }
@@ -84,37 +154,44 @@ void Coupling<Real>::shift(const Eigen::Vector3d& by) {
 
 template <class Real>
 void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
+    const Box& box = *model_.water_box;
     places_.clear();
     velocities_.clear();
-    const double per_step = h / model_.water_box->cell;
-    for (std::size_t i = 0; i < spacing_.size(); ++i) {
+    const double per_step = h / box.cell;
+    std::vector<Eigen::Vector3d>& impulses = exchange_.impulses;
+    for (std::size_t i = 0; i < impulses.size(); ++i) {
         places_.push_back(state.position[i].template cast<double>());
         velocities_.push_back(state.velocity[i].template cast<double>());
         const double speed = velocities_.back().norm() * per_step;
-        if (!(speed > fastest_)) continue;
-        fastest_ = speed;
-        fastest_particle_ = static_cast<int>(i);
+        if (!(speed > exchange_.fastest)) continue;
+        exchange_.fastest = speed;
+        exchange_.fastest_particle = static_cast<int>(i);
     }
-    std::vector<Cube> cubes = immersed_.cubes(places_, velocities_, *model_.water_box, h);
-    for (const std::vector<Cube>& obstacle : obstacles_) cubes.insert(cubes.end(), obstacle.begin(), obstacle.end());
+    std::vector<Cube> cubes = bodies_.immersed().cubes(places_, velocities_, box, h);
+    for (const std::vector<Cube>& obstacle : bodies_.obstacles())
+        cubes.insert(cubes.end(), obstacle.begin(), obstacle.end());
     water_->advance(cubes, h, pushes_);
-    const std::vector<Eigen::Vector3d> given = immersed_.impulses(pushes_, *model_.water_box, h);
+    const std::vector<Eigen::Vector3d> given = bodies_.immersed().impulses(pushes_, box, h);
     for (std::size_t i = 0; i < given.size(); ++i) {
-        const double of_size = std::max(1.0, 2 * model_.water_box->cell / spacing_[i]);
-        const double kept = of_size * std::max(1.0, displaced_[i] * model_.inverse_mass[i]);
-        impulses_[i] = (given[i] + kept * impulses_[i]) / (1 + kept);
+        const double kept = bodies_.kept(static_cast<int>(i));
+        impulses[i] = (given[i] + kept * impulses[i]) / (1 + kept);
     }
-    if (!forces_.empty()) sum_forces(given, h);
-    time_ = time;
-    step_ = h;
+    for (std::size_t i = 0; i < forces_.size(); ++i)
+        if (i < given.size())
+            forces_[i] += given[i] - bodies_.displaced()[i] * h * model_.parameters.gravity;
+        else
+            forces_[i] += impulse_unit(box, h) * Eigen::Map<const Eigen::Vector3d>(pushes_[i].j);
+    force_time_ += h;
+    exchange_.time = time;
+    exchange_.step = h;
 }
 
 template <class Real>
 std::optional<int> Coupling<Real>::first_not_finite() const {
-    std::size_t push = spacing_.size();
+    std::size_t push = bodies_.displaced().size();
     auto particle = static_cast<int>(push);
-    for (std::size_t k = 0; k < obstacles_.size(); ++k) {
-        for (const std::size_t end = push + obstacles_[k].size(); push < end; ++push)
+    for (std::size_t k = 0; k < bodies_.obstacles().size(); ++k) {
+        for (const std::size_t end = push + bodies_.obstacles()[k].size(); push < end; ++push)
             if (!Eigen::Map<const Eigen::Vector3d>(pushes_[push].j).allFinite()) return particle;
         particle += model_.water_box->obstacles[k].particles;
     }
@@ -123,97 +200,41 @@ std::optional<int> Coupling<Real>::first_not_finite() const {
 
 template <class Real>
 void Coupling<Real>::clear_forces() {
-    forces_.assign(model_.position.size(), Eigen::Vector3d::Zero());
+    forces_.assign(bodies_.cubes(), Eigen::Vector3d::Zero());
     force_time_ = 0;
-}
-
-/// What an obstacle is given is shared evenly by its particles.
-template <class Real>
-void Coupling<Real>::sum_forces(const std::vector<Eigen::Vector3d>& given, double h) {
-    force_time_ += h;
-    for (std::size_t i = 0; i < given.size(); ++i)
-        forces_[i] += given[i] - displaced_[i] * h * model_.parameters.gravity;
-    std::size_t push = given.size(), particle = push;
-    for (std::size_t k = 0; k < obstacles_.size(); ++k) {
-        const int particles = model_.water_box->obstacles[k].particles;
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const std::size_t end = push + obstacles_[k].size(); push < end; ++push)
-            sum += Eigen::Map<const Eigen::Vector3d>(pushes_[push].j);
-        sum *= impulse_unit(*model_.water_box, h) / std::max(1, particles);
-        for (const std::size_t end = particle + static_cast<std::size_t>(particles); particle < end; ++particle)
-            forces_[particle] += sum;
-    }
 }
 
 template <class Real>
 std::vector<Vector3<Real>> Coupling<Real>::forces() const {
-    std::vector<Vector3<Real>> mean;
-    for (const Eigen::Vector3d& sum : forces_)
-        mean.push_back(force_time_ > 0 ? (sum / force_time_).template cast<Real>().eval()
-                                       : Vector3<Real>::Zero().eval());
-    return mean;
+    return mean_forces<Real>(model_, bodies_, forces_, force_time_);
 }
 
 template <class Real>
 void Coupling<Real>::save(ByteWriter& to) const {
-    to.add(water_ != nullptr);
-    if (!water_) return;
-    to.add(impulses_);
-    for (const double value : {time_, step_, fastest_}) to.add(value);
-    to.add(fastest_particle_);
-    water_->save(to);
+    exchange_.save(to, water_.get());
 }
 
 template <class Real>
 void Coupling<Real>::restore(ByteReader from) {
-    bool has_water = false;
-    from.read(has_water);
-    if (!has_water) {
-        from.require_end();
-        water_.reset();
-        return;
-    }
-    std::vector<Eigen::Vector3d> impulses;
-    double time = 0, step = 0, fastest = 0;
-    int particle = 0;
-    from.read(impulses);
-    for (double* value : {&time, &step, &fastest}) from.read(*value);
-    from.read(particle);
-    if (impulses.size() != spacing_.size() || particle < 0 || particle >= model_.particles())
-        throw InputError("state: its water is not of these bodies");
-    std::unique_ptr<Water> made = water_ ? nullptr : make_water();
-    (made ? made : water_)->restore(from);
+    std::unique_ptr<Water> made;
+    const bool has_water = exchange_.restore(from, bodies_.immersed().particles(), [&]() -> Water& {
+        if (!water_) made = Water::on_cpu(*model_.water_box, threads_);
+        return made ? *made : *water_;
+    });
     if (made) water_ = std::move(made);
-    impulses_ = std::move(impulses);
-    time_ = time;
-    step_ = step;
-    fastest_ = fastest;
-    fastest_particle_ = particle;
+    if (!has_water) water_.reset();
 }
 
 template <class Real>
 WaterField Coupling<Real>::field() const {
-    const Box& box = *model_.water_box;
-    WaterField field;
-    field.cells = box.cells;
-    field.cell = box.cell;
-    field.corner = box.corner;
-    field.velocity.resize(box.cells.cast<std::size_t>().prod(), box.current.cast<float>());
-    field.density.resize(field.velocity.size(), 1);
-    field.pressure.resize(field.velocity.size(), 0);
-    if (!water_ || step_ == 0) return field;
-    const auto per_second = static_cast<float>(box.cell / step_);
-    const auto stiffness = static_cast<float>(box.density) * per_second * per_second * physics::lattice_sound_squared;
-    std::size_t i = 0;
-    for (const Eigen::Vector4f& cell : water_->cells()) {
-        field.density[i] = cell[0];
-        field.pressure[i] = stiffness * (cell[0] - 1);
-        field.velocity[i++] = per_second * cell.tail<3>();
-    }
-    return field;
+    return field_of(*model_.water_box, water_.get(), exchange_.step);
 }
 
 template class Coupling<float>;
 template class Coupling<double>;
+template std::vector<Vector3<float>> mean_forces(const Model&, const CoupledBodies&,
+                                                 const std::vector<Eigen::Vector3d>&, double);
+template std::vector<Vector3<double>> mean_forces(const Model&, const CoupledBodies&,
+                                                  const std::vector<Eigen::Vector3d>&, double);
 
 }  // namespace natator::lattice

@@ -160,7 +160,7 @@ View CpuWater::view() {
 /// The rows change with the step alone.
 void CpuWater::let_in(double step) {
     if (std::exchange(step_let_in_, step) == step) return;
-    const Populations populations = inflow(step);
+    const Populations populations = inflow(box_, step);
     for (int i = 0; i < physics::lattice_populations; ++i)
         inflow_[i].assign(static_cast<std::size_t>(stride_), populations.of[i]);
 }
@@ -286,7 +286,7 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     remember();
     begun_ = true;
 
-    const physics::LatticeRates rates = rates_in(step);
+    const physics::LatticeRates rates = rates_in(box_, step);
     exchange(rates, pushes);
     if (!box_.current.isZero(0)) let_in(step);
     const View lattice = view();

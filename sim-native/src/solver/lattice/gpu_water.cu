@@ -1,145 +1,154 @@
+#include "gpu_water.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
-#include <mutex>
 
-#include "base/combiner.h"
-#include "cube_cells.h"
 #include "physics/lattice.h"
-#include "solver/cuda/device.h"
-#include "solver/cuda/host_buffer.h"
-#include "solver/cuda/stream.h"
-#include "water.h"
+#include "solver/solids/cuda/sums_of_warp.cuh"
 
 namespace natator::lattice {
 namespace {
 
 using namespace physics;
 
-constexpr int block = 128;  ///< threads
+constexpr int block = 128, push_block = 64, range_block = 256;  ///< threads
 constexpr unsigned warp = 32, all = ~0u;
-constexpr int cube_words = sizeof(Cube) / sizeof(float), push_numbers = sizeof(Push) / sizeof(double);
-static_assert(cube_words <= 32 && push_numbers <= 32, "a word each of a warp's threads");
+constexpr int push_numbers = sizeof(Push) / sizeof(double);
+static_assert(push_numbers <= 32, "a number each of a warp's threads");
 
-/// Who has a cell: how far out it is in the cube, as bits, which sort like numbers above 0, then the cube.
-using Key = unsigned long long;
 constexpr Key nobody = ~Key{0};
 
-/// Whose a cell is and was in the last step; -1: nobody's.
-struct Owners {
-    int now, before;
-};
+/// A water as the kernels of a step take it.
+struct Step {
+    const Lattice& lattice;
+    const WaterOnGpu& water;
 
-struct Lattice {
-    int cells[3];
-    unsigned count;
-    Face faces[3][2];
-    bool periodic[3];
-
-    NATATOR_HD unsigned at(int x, int y, int z) const {
-        return (static_cast<unsigned>(z) * cells[1] + y) * cells[0] + x;
-    }
-    NATATOR_HD int inside(int axis, int at) const { return periodic[axis] ? wrapped(at, cells[axis]) : at; }
-    NATATOR_HD unsigned at_inside(int x, int y, int z) const { return at(inside(0, x), inside(1, y), inside(2, z)); }
-    NATATOR_HD void place(unsigned at, int (&to)[3]) const {
-        const unsigned row = at / cells[0];
-        to[0] = static_cast<int>(at - row * cells[0]);
-        to[2] = static_cast<int>(row / cells[1]);
-        to[1] = static_cast<int>(row - static_cast<unsigned>(to[2]) * cells[1]);
-    }
-};
-
-/// What a cell has to do with water that bodies come to cover: nothing; it is covered and gives of its surplus to its
-/// neighbours, so much by weight; it takes from such.
-struct Handover {
-    enum { none, gives, takes } role;
-    float surplus[3];
-};
-
-/// The cells around all bodies, now and before, with their keys; along periodic axes all.
-struct Keys {
-    CellRange around;
-    Key* data;
-    Handover* handovers;
-
-    /// None of a cell outside.
-    NATATOR_HD Key* of(int x, int y, int z) const {
+    __device__ Step(const LatticeStep& of_all, const WaterOnGpu* waters)
+        : lattice(of_all.lattice), water(waters[blockIdx.y]) {}
+    __device__ const float* from() const { return water.populations[(water.steps - 1) % 2]; }
+    __device__ float* to() const { return water.populations[water.steps % 2]; }
+    __device__ bool begun() const { return water.steps > 1; }
+    /// Of a cell around the cubes, now and before; along periodic axes all are; else null.
+    __device__ Key* key_of(int x, int y, int z) const {
+        const CellRange& around = water.around;
         const int a = x - around.low[0], b = y - around.low[1], c = z - around.low[2];
         if (a < 0 || b < 0 || c < 0 || a >= around.count[0] || b >= around.count[1] || c >= around.count[2])
             return nullptr;
-        return data + (static_cast<unsigned>(c) * around.count[1] + b) * around.count[0] + a;
+        return water.keys + lattice.at(x, y, z);
     }
-    NATATOR_HD Handover& handover(const Key& key) const { return handovers[&key - data]; }
+    __device__ Handover& handover(const Key& key) const { return water.handovers[&key - water.keys]; }
 };
 __device__ int cube_of(Key key) {
     return static_cast<int>(key);
 }
 
-/// A step of one water, as the kernels take it.
-struct Step {
-    Lattice lattice;
-    LatticeRates rates;
-    Populations inflow;
-    Keys keys;
-    const float* from;       ///< populations before it
-    float* to;               ///< and after
-    const float* from_host;  ///< cubes
-    Cube* cubes;
-    Owners* owners;
-    double* to_host;  ///< pushes
-    int count;        ///< of cubes
-    bool begun;
-};
+/// The range of cells from the least to the greatest of both.
+__device__ CellRange together(const CellRange& a, const CellRange& b) {
+    if (a.size() == 0) return b;
+    if (b.size() == 0) return a;
+    CellRange both = a;
+    for (int k = 0; k < 3; ++k) {
+        both.low[k] = min(a.low[k], b.low[k]);
+        both.count[k] = max(a.low[k] + a.count[k], b.low[k] + b.count[k]) - both.low[k];
+    }
+    return both;
+}
 
-/// Steps of several waters, which the blocks share by y: small ones would leave most of a GPU idle, and a launch for
-/// each takes longer than its work.
-constexpr int max_steps = 32;
-struct Steps {
-    Step of[max_steps];
-};
+/// Counts the step and finds the cells around the cubes. A block a water.
+__global__ void __launch_bounds__(range_block)
+    begin_step(const __grid_constant__ LatticeStep step, WaterOnGpu* waters) {
+    WaterOnGpu& water = waters[blockIdx.y];
+    if (!water.goes_on) return;
+    constexpr float far = std::numeric_limits<float>::infinity();
+    __shared__ float ends[6][range_block];  // the least, then the greatest negated
+    for (auto& end : ends) end[threadIdx.x] = far;
+    for (int p = static_cast<int>(threadIdx.x); p < step.cubes; p += range_block) {
+        const Cube& cube = water.cubes[p];
+        for (int a = 0; a < 3; ++a) {
+            ends[a][threadIdx.x] = fminf(ends[a][threadIdx.x], cube.x[a] - cube.reach[a]);
+            ends[3 + a][threadIdx.x] = fminf(ends[3 + a][threadIdx.x], -(cube.x[a] + cube.reach[a]));
+        }
+    }
+    for (unsigned half = range_block / 2; half > 0; half /= 2) {
+        __syncthreads();
+        if (threadIdx.x < half)
+            for (auto& end : ends) end[threadIdx.x] = fminf(end[threadIdx.x], end[threadIdx.x + half]);
+    }
+    if (threadIdx.x != 0) return;
+    Cube whole{};
+    for (int a = 0; a < 3; ++a) {
+        const float low = ends[a][0], high = -ends[3 + a][0];
+        whole.x[a] = (low + high) / 2;
+        whole.reach[a] = (high - low) / 2 + 1;
+    }
+    const bool none[3] = {};
+    CellRange own{};
+    if (step.cubes > 0) {
+        own = cells_around(whole, step.lattice.cells, none);
+        for (int a = 0; a < 3; ++a)
+            if (step.lattice.periodic[a]) own.low[a] = 0, own.count[a] = step.lattice.cells[a];
+        if (own.size() == 0) own = {};
+    }
+    water.around = together(own, water.last);
+    water.last = own;
+    ++water.steps;
+}
 
 /// The warp's cube; none beyond the last.
 __device__ int cube_of_warp(int cubes) {
     const int cube = static_cast<int>((blockIdx.x * block + threadIdx.x) / warp);
     return cube < cubes ? cube : -1;
 }
-/// Does something with each cell around a cube, and so many beyond, by a warp's threads in turn: work(x, y, z, key),
-/// which count on beyond periodic ends.
-template <class Work>
-__device__ void each_cell_around(const Lattice& lattice, const Keys& keys, const Cube& cube, float more,
-                                 const Work& work) {
-    Cube wide = cube;
-    for (float& reach : wide.reach) reach += more;
-    const CellRange range = cells_around(wide, lattice.cells, lattice.periodic);
-    const unsigned size = range.size();
-    for (unsigned k = threadIdx.x % warp; k < size; k += warp) {
+/// The cells around a cube, and so many beyond.
+struct CellsAround {
+    CellRange range;
+    unsigned size;
+
+    __device__ CellsAround(const Lattice& lattice, const Cube& cube, float more) {
+        Cube wide = cube;
+        for (float& reach : wide.reach) reach += more;
+        range = cells_around(wide, lattice.cells, lattice.periodic);
+        size = range.size();
+    }
+    /// Number k: where it is, counted on beyond periodic ends, and inside them; its key.
+    __device__ Key* cell(const Step& step, unsigned k, int (&x)[3], int (&here)[3]) const {
         const unsigned row = k / range.count[0], plane = row / range.count[1];
-        const int x = range.low[0] + static_cast<int>(k - row * range.count[0]),
-                  y = range.low[1] + static_cast<int>(row - plane * range.count[1]),
-                  z = range.low[2] + static_cast<int>(plane);
-        Key* const key = keys.of(lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z));
-        if (key) work(x, y, z, *key);
+        x[0] = range.low[0] + static_cast<int>(k - row * range.count[0]);
+        x[1] = range.low[1] + static_cast<int>(row - plane * range.count[1]);
+        x[2] = range.low[2] + static_cast<int>(plane);
+        for (int a = 0; a < 3; ++a) here[a] = step.lattice.inside(a, x[a]);
+        return step.key_of(here[0], here[1], here[2]);
+    }
+};
+/// Does something with each of them by a warp's threads in turn: work(x, here, key).
+template <class Work>
+__device__ void each_cell_around(const Step& step, const Cube& cube, float more, const Work& work) {
+    const CellsAround around(step.lattice, cube, more);
+    for (unsigned k = threadIdx.x % warp; k < around.size; k += warp) {
+        int x[3], here[3];
+        if (Key* const key = around.cell(step, k, x, here)) work(x, here, *key);
     }
 }
-
-/// Takes the cubes over from the host and finds the cells that they hold.
-__global__ void hold(const __grid_constant__ Steps steps) {
-    const Step& step = steps.of[blockIdx.y];
-    const Lattice& lattice = step.lattice;
-    __shared__ Cube of_block[block / warp];
-    const int p = cube_of_warp(step.count);
-    if (p < 0) return;
-    Cube& cube = of_block[threadIdx.x / warp];
-    if (const int word = threadIdx.x % warp; word < cube_words) {
-        const float value = step.from_host[p * cube_words + word];
-        reinterpret_cast<float*>(&cube)[word] = value;
-        reinterpret_cast<float*>(step.cubes + p)[word] = value;
+/// Whether all cells beside that of a place in a cube are in the cube as well.
+__device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
+    if (cube.round) return false;
+    for (int a = 0; a < 3; ++a) {
+        const float* const row = cube.to_rest + 3 * a;
+        if (!(fabsf(place.xi[a]) + fabsf(row[0]) + fabsf(row[1]) + fabsf(row[2]) <= cube.edge)) return false;
     }
-    __syncwarp();
-    each_cell_around(lattice, step.keys, cube, 0, [&](int x, int y, int z, Key& key) {
-        const PlaceInCube in = place_in(cube, x, y, z);
+    return true;
+}
+
+/// Finds the cells that each cube holds.
+__global__ void hold(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+    const Step step(of_all, waters);
+    const int p = cube_of_warp(of_all.cubes);
+    if (p < 0 || !step.water.goes_on) return;
+    const Cube cube = step.water.cubes[p];
+    each_cell_around(step, cube, 0, [&](const int(&x)[3], const int(&)[3], Key& key) {
+        const PlaceInCube in = place_in(cube, x[0], x[1], x[2]);
         if (in.out <= cube.edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
     });
 }
@@ -151,38 +160,56 @@ __device__ void load_moments(const float* populations, long count, unsigned at, 
     moments_of(f, m);
 }
 
+/// A cell that a cube comes to cover hands its surplus on to the water beside it.
+__device__ void hand_on(const Step& step, const Cube& cube, const int (&x)[3], const int (&here)[3], const Key& key) {
+    const Lattice& lattice = step.lattice;
+    float sum = 0;
+    for (int i = 0; i < lattice_populations; ++i) {
+        int to[3];
+        if (!neighbour(i, here, lattice.cells, lattice.periodic, to)) continue;
+        const Key* const taker = step.key_of(to[0], to[1], to[2]);
+        if (!taker || *taker != nobody) continue;
+        step.handover(*taker).role = Handover::takes;
+        sum += neighbour_weight(i);
+    }
+    if (sum == 0) return;
+    float m[lattice_moments];
+    load_moments(step.from(), lattice.count, lattice.at(here[0], here[1], here[2]), m);
+    const Velocity3 told = velocity_in(cube, place_in(cube, x[0], x[1], x[2]).xi);
+    const float density = 1 + m[0] + divergence_of(cube), part = (1 - covered_share) / sum;
+    step.handover(key) = {
+        Handover::gives,
+        {(m[1] - density * told.x) * part, (m[2] - density * told.y) * part, (m[3] - density * told.z) * part}};
+}
+
 /// Where bodies come to cover cells, these have more momentum than the body there. The water's part of that is to go to
 /// the cells beside them.
-__global__ void cover(const __grid_constant__ Steps steps) {
-    const Step& step = steps.of[blockIdx.y];
-    const Lattice& lattice = step.lattice;
-    const Keys& keys = step.keys;
-    const int p = cube_of_warp(step.count);
-    if (p < 0 || !step.begun) return;
-    const Cube& cube = step.cubes[p];
-    each_cell_around(lattice, keys, cube, 0, [&](int x, int y, int z, const Key& key) {
-        if (key == nobody || cube_of(key) != p) return;
-        const unsigned at = lattice.at_inside(x, y, z);
-        if (step.owners[at].now >= 0) return;
-        const int here[3] = {lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z)};
-        float sum = 0;
-        for (int i = 0; i < lattice_populations; ++i) {
-            int to[3];
-            if (!neighbour(i, here, lattice.cells, lattice.periodic, to)) continue;
-            const Key* const taker = keys.of(to[0], to[1], to[2]);
-            if (!taker || *taker != nobody) continue;
-            keys.handover(*taker).role = Handover::takes;
-            sum += neighbour_weight(i);
+__global__ void cover(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+    constexpr int at_once = 4;  // whose loads are under way together
+    const Step step(of_all, waters);
+    const int p = cube_of_warp(of_all.cubes);
+    if (p < 0 || !step.water.goes_on || !step.begun()) return;
+    const Cube& cube = step.water.cubes[p];
+    const CellsAround around(step.lattice, cube, 0);
+    for (unsigned first = threadIdx.x % warp; first < around.size; first += at_once * warp) {
+        int x[3], here[3];
+        const Key* held[at_once];
+        bool comes[at_once];
+#pragma unroll
+        for (int k = 0; k < at_once; ++k) {
+            const unsigned number = first + k * warp;
+            held[k] = number < around.size ? around.cell(step, number, x, here) : nullptr;
+            if (held[k] && (*held[k] == nobody || cube_of(*held[k]) != p)) held[k] = nullptr;
         }
-        if (sum == 0) return;
-        float m[lattice_moments];
-        load_moments(step.from, lattice.count, at, m);
-        const Velocity3 told = velocity_in(cube, place_in(cube, x, y, z).xi);
-        const float density = 1 + m[0] + divergence_of(cube), part = (1 - covered_share) / sum;
-        keys.handover(key) = {
-            Handover::gives,
-            {(m[1] - density * told.x) * part, (m[2] - density * told.y) * part, (m[3] - density * told.z) * part}};
-    });
+#pragma unroll
+        for (int k = 0; k < at_once; ++k) comes[k] = held[k] && step.water.owners[held[k] - step.water.keys].now < 0;
+#pragma unroll 1
+        for (int k = 0; k < at_once; ++k) {
+            if (!comes[k]) continue;
+            const Key* const key = around.cell(step, first + k * warp, x, here);
+            hand_on(step, cube, x, here, *key);
+        }
+    }
 }
 
 /// Where the populations of a cell go, and what comes in for those that go out at open ends.
@@ -245,25 +272,25 @@ struct Put {
     }
 };
 
-/// Collides and streams: a thread a cell. Of steps whose rates have eddies, or of those without.
+/// Collides and streams: a thread a cell.
 template <bool eddies>
-__global__ void __launch_bounds__(block) advance_cells(const __grid_constant__ Steps steps) {
-    const Step& step = steps.of[blockIdx.y];
+__global__ void __launch_bounds__(block)
+    advance_cells(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+    const Step step(of_all, waters);
     const Lattice& lattice = step.lattice;
-    const Keys& keys = step.keys;
-    const Cube* __restrict__ const cubes = step.cubes;
-    Owners* __restrict__ const owners = step.owners;
-    const float* __restrict__ const from = step.from;
     const unsigned cell = blockIdx.x * block + threadIdx.x;
-    if (cell >= lattice.count || (step.rates.eddies > 0) != eddies) return;
+    if (cell >= lattice.count || !step.water.goes_on) return;
+    const Cube* __restrict__ const cubes = step.water.cubes;
+    Owners* __restrict__ const owners = step.water.owners;
+    const float* __restrict__ const from = step.from();
     float m[lattice_moments];
     load_moments(from, lattice.count, cell, m);
     int place[3];
     lattice.place(cell, place);
-    const Ways ways(lattice, cell, place, step.inflow, step.to);
+    const Ways ways(lattice, cell, place, of_all.inflow, step.to());
     Velocity3 told{};
     bool held = false;
-    if (const Key* const key = keys.of(place[0], place[1], place[2])) {
+    if (const Key* const key = step.key_of(place[0], place[1], place[2])) {
         const Key of_cell = *key;
         held = of_cell != nobody;
         owners[cell] = {held ? cube_of(of_cell) : -1, owners[cell].now};
@@ -273,84 +300,219 @@ __global__ void __launch_bounds__(block) advance_cells(const __grid_constant__ S
                 place[a] = nearest_copy(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
             told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
             m[0] += divergence_of(cube);
-        } else if (Handover& own = keys.handover(*key); own.role == Handover::takes) {
+        } else if (Handover& own = step.handover(*key); own.role == Handover::takes) {
             own.role = Handover::none;
             for (int i = 0; i < lattice_populations; ++i) {
                 int from[3];
                 if (!neighbour(i, place, lattice.cells, lattice.periodic, from)) continue;
-                const Key* const other = keys.of(from[0], from[1], from[2]);
-                if (!other || keys.handover(*other).role != Handover::gives) continue;
-                for (int a = 0; a < 3; ++a) m[1 + a] += neighbour_weight(i) * keys.handover(*other).surplus[a];
+                const Key* const other = step.key_of(from[0], from[1], from[2]);
+                if (!other || step.handover(*other).role != Handover::gives) continue;
+                for (int a = 0; a < 3; ++a) m[1 + a] += neighbour_weight(i) * step.handover(*other).surplus[a];
             }
         }
     }
     const float inverse = 1.0f / (m[0] + 1.0f);
     const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse,
                 uz = held ? told.z : m[3] * inverse;
-    collide<eddies>(m, ux, uy, uz, step.rates, Put{ways});
+    collide<eddies>(m, ux, uy, uz, of_all.rates, Put{ways});
+}
+
+/// Cells of a cube that have others beside them which are not its, as a warp goes through them.
+struct SurfaceCells {
+    static constexpr unsigned room = 2 * warp;
+    struct {
+        int here[3], flag;  ///< number of its flag
+        float xi[3], u[3];
+    } cell[room];
+    unsigned count;
+};
+
+/// What is known of the cells around a part of a cube.
+struct Flags {
+    enum Flag : unsigned char { held = 1, own = 2, was_held = 4, was_own = 8 };
+    static constexpr int edge = 8;  ///< of the part; around it lies one more on each side
+    CellRange range;
+    unsigned char of[(edge + 2) * (edge + 2) * (edge + 2)];
+
+    __device__ int number(int x, int y, int z) const {
+        return ((z - range.low[2]) * range.count[1] + y - range.low[1]) * range.count[0] + x - range.low[0];
+    }
+    __device__ void place(int k, int (&x)[3]) const {
+        const int row = k / range.count[0], plane = row / range.count[1];
+        x[0] = range.low[0] + k - row * range.count[0];
+        x[1] = range.low[1] + row - plane * range.count[1];
+        x[2] = range.low[2] + plane;
+    }
+};
+
+/// Adds j at xi to a Push.
+__device__ void add_push(const float (&j)[3], const float (&xi)[3], double (&sums)[push_numbers]) {
+    for (int a = 0; a < 3; ++a) {
+        sums[a] += j[a];
+        for (int b = 0; b < 3; ++b) sums[3 + 3 * a + b] += static_cast<double>(j[a]) * xi[b];
+    }
+}
+
+/// The flags of the cells from `low` on, and one beside, inside `within`. Those outside count as held: no water comes
+/// from there.
+__device__ void find_flags(const Step& step, int p, const CellRange& within, const int (&low)[3], Flags& flags) {
+    CellRange range;
+    for (int a = 0; a < 3; ++a) {
+        range.low[a] = max(low[a] - 1, within.low[a]);
+        range.count[a] = min(low[a] + Flags::edge + 1, within.low[a] + within.count[a]) - range.low[a];
+    }
+    const unsigned lane = threadIdx.x % warp;
+    if (lane == 0) flags.range = range;
+    __syncwarp();
+    const int size = range.size();
+#pragma unroll 4
+    for (int k = static_cast<int>(lane); k < size; k += warp) {
+        int x[3];
+        flags.place(k, x);
+        for (int a = 0; a < 3; ++a) x[a] = step.lattice.inside(a, x[a]);
+        const Owners owners = step.water.owners[step.lattice.at(x[0], x[1], x[2])];
+        flags.of[k] = static_cast<unsigned char>(
+            (owners.now >= 0 ? Flags::held : 0) | (owners.now == p ? Flags::own : 0) |
+            (owners.before >= 0 ? Flags::was_held : 0) | (owners.before == p ? Flags::was_own : 0));
+    }
+    __syncwarp();
+}
+
+/// Adds what goes between cells and the water beside them, a thread a cell.
+__device__ void add_links(const Step& step, const Flags& flags, SurfaceCells& surface, double (&sums)[push_numbers]) {
+    const Lattice& lattice = step.lattice;
+    const float* const after = step.to();
+    const long cells = lattice.count;
+    for (unsigned k = threadIdx.x % warp; k < surface.count; k += warp) {
+        const auto& of = surface.cell[k];
+        const float* const here = after + lattice.at(of.here[0], of.here[1], of.here[2]);
+        // To the cells beside, down and up each axis: cells and flags; bits: ends without any.
+        int by[3][2], by_flags[3][2];
+        unsigned ends = 0;
+        for (int a = 0, stride = 1, of_flags = 1; a < 3; ++a) {
+            const bool alone = lattice.periodic[a] && lattice.cells[a] == 1;  // its own neighbour
+            for (int up = 0; up < 2; ++up) {
+                const int to = lattice.inside(a, of.here[a] + 2 * up - 1);
+                if (to < 0 || to >= lattice.cells[a]) ends |= 1u << (2 * a + up);
+                by[a][up] = (to - of.here[a]) * stride;
+                by_flags[a][up] = alone ? 0 : (2 * up - 1) * of_flags;
+            }
+            stride *= lattice.cells[a];
+            of_flags *= flags.range.count[a];
+        }
+        float j[3] = {};
+#pragma unroll
+        for (int part = 0; part < 3; ++part) {  // of the links, so that their loads are under way together
+            float in[9], out[9];
+            unsigned free = 0;
+#pragma unroll
+            for (int e = 0; e < 9; ++e) {
+                const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+                int from = 0, flag = of.flag;
+                unsigned crosses = i == opposite ? ~0u : 0;
+                for (int a = 0; a < 3; ++a) {
+                    if (c[a] == 0) continue;
+                    const int up = c[a] < 0 ? 1 : 0;  // where it comes from
+                    from += by[a][up];
+                    flag += by_flags[a][up];
+                    crosses |= 1u << (2 * a + up);
+                }
+                if (i == opposite || (crosses & ends) != 0 || (flags.of[flag] & Flags::held)) continue;
+                free |= 1u << e;
+                in[e] = here[i * cells];
+                out[e] = here[opposite * cells + from];
+            }
+#pragma unroll
+            for (int e = 0; e < 9; ++e) {
+                const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+                if (!(free & 1u << e)) continue;
+                const float in_ = in[e] - moving_population(i, of.u), out_ = out[e] - moving_population(opposite, of.u);
+                for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(c[a]), of.u[a]);
+            }
+        }
+        add_push(j, of.xi, sums);
+    }
 }
 
 /// Sums what each cube is pushed by, in a fixed order, and forgets who has its cells.
-__global__ void push(const __grid_constant__ Steps steps) {
-    const Step& step = steps.of[blockIdx.y];
+__global__ void __launch_bounds__(push_block)
+    push(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+    __shared__ SurfaceCells surface_of_warp[push_block / warp];
+    __shared__ Flags flags_of_warp[push_block / warp];
+    const Step step(of_all, waters);
     const Lattice& lattice = step.lattice;
-    const Keys& keys = step.keys;
-    const float *const before = step.from, *const after = step.to;
-    const Owners* const owners = step.owners;
-    const int p = cube_of_warp(step.count);
-    if (p < 0) return;
-    const Cube& cube = step.cubes[p];
-    const long cells = lattice.count;
-    double sums[push_numbers] = {};  // as Push has them
-    each_cell_around(lattice, keys, cube, 1, [&](int x, int y, int z, Key& key) {
-        const unsigned at = lattice.at_inside(x, y, z);
-        const Owners own = owners[at];
-        const bool holds = own.now == p, comes = holds && step.begun && own.before < 0,
-                   leaves = own.now < 0 && own.before == p;
-        if (!holds && !leaves) return;
-        const PlaceInCube in = place_in(cube, x, y, z);
-        const Velocity3 told = velocity_in(cube, in.xi);
-        const float u[3] = {told.x, told.y, told.z};
-        float j[3] = {};
-        bool handed = false;
-        if (holds) {
-            key = nobody;
-            Handover& own_handover = keys.handover(key);
-            handed = own_handover.role == Handover::gives;
-            own_handover.role = Handover::none;
-            const int here[3] = {lattice.inside(0, x), lattice.inside(1, y), lattice.inside(2, z)};
-            for (int i = 0; i < lattice_populations; ++i) {
-                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, opposite = lattice_populations - 1 - i;
-                int from[3];
-                if (!neighbour(opposite, here, lattice.cells, lattice.periodic, from)) continue;
-                const unsigned source = lattice.at(from[0], from[1], from[2]);
-                if (owners[source].now >= 0) continue;
-                const float in_ = after[i * cells + at] - moving_population(i, u),
-                            out = after[opposite * cells + source] - moving_population(opposite, u);
-                for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out, static_cast<float>(c[a]), u[a]);
-            }
-        }
-        if (comes || leaves) {
-            float m[lattice_moments];
-            load_moments(before, lattice.count, at, m);
-            const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0);
-            float part = -1;  // of a cell that it leaves
-            if (comes) part = handed ? covered_share : 1;
-            for (int a = 0; a < 3; ++a) j[a] += part * (m[1 + a] - density * u[a]);
-        }
-        for (int a = 0; a < 3; ++a) {
-            sums[a] += j[a];
-            for (int b = 0; b < 3; ++b) sums[3 + 3 * a + b] += static_cast<double>(j[a]) * in.xi[b];
-        }
-    });
+    const int p = static_cast<int>((blockIdx.x * push_block + threadIdx.x) / warp);
+    if (p >= of_all.cubes || !step.water.goes_on) return;
+    const Cube& cube = step.water.cubes[p];
+    const bool begun = step.begun();
     const unsigned lane = threadIdx.x % warp;
-    double own = 0;
-    for (int k = 0; k < push_numbers; ++k) {
-        double sum = sums[k];
-        for (unsigned other = warp / 2; other > 0; other /= 2) sum += __shfl_xor_sync(all, sum, other);
-        if (lane == static_cast<unsigned>(k)) own = sum;
-    }
-    if (lane < push_numbers) step.to_host[p * push_numbers + lane] = own;
+    SurfaceCells& surface = surface_of_warp[threadIdx.x / warp];
+    Flags& flags = flags_of_warp[threadIdx.x / warp];
+    double sums[push_numbers] = {};  // as Push has them
+    const CellRange around = CellsAround(lattice, cube, 1).range;
+    const auto in_part = [&](const int(&low)[3]) {
+        find_flags(step, p, around, low, flags);
+        if (lane == 0) surface.count = 0;
+        int count[3];
+        for (int a = 0; a < 3; ++a) count[a] = min(Flags::edge, around.low[a] + around.count[a] - low[a]);
+        const int size = count[0] * count[1] * count[2];
+        for (int first = 0; first < size; first += warp) {
+            const int k = first + static_cast<int>(lane), row = k / count[0], plane = row / count[1];
+            const int x[3] = {low[0] + k - row * count[0], low[1] + row - plane * count[1], low[2] + plane};
+            const int flag = k < size ? flags.number(x[0], x[1], x[2]) : 0;
+            const unsigned known = k < size ? flags.of[flag] : unsigned{Flags::held};
+            const bool holds = known & Flags::own, comes = holds && begun && !(known & Flags::was_held),
+                       leaves = !(known & Flags::held) && (known & Flags::was_own);
+            PlaceInCube in{};
+            Velocity3 told{};
+            int here[3] = {};
+            if (holds || leaves) {
+                in = place_in(cube, x[0], x[1], x[2]);
+                told = velocity_in(cube, in.xi);
+                for (int a = 0; a < 3; ++a) here[a] = lattice.inside(a, x[a]);
+            }
+            bool handed = false;
+            if (holds) {
+                const unsigned at = lattice.at(here[0], here[1], here[2]);
+                step.water.keys[at] = nobody;
+                Handover& own_handover = step.water.handovers[at];
+                handed = comes && own_handover.role == Handover::gives;
+                if (handed) own_handover.role = Handover::none;
+            }
+            if (comes || leaves) {
+                float m[lattice_moments];
+                load_moments(step.from(), lattice.count, lattice.at(here[0], here[1], here[2]), m);
+                const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0);
+                float part = -1;  // of a cell that it leaves
+                if (comes) part = handed ? covered_share : 1;
+                add_push({part * (m[1] - density * told.x), part * (m[2] - density * told.y),
+                          part * (m[3] - density * told.z)},
+                         in.xi, sums);
+            }
+            const bool at_surface = holds && !has_neighbours_in(cube, in);
+            const unsigned lanes = __ballot_sync(all, at_surface), before = surface.count;
+            if (at_surface)
+                surface.cell[before + __popc(lanes & ((1u << lane) - 1))] = {
+                    {here[0], here[1], here[2]}, flag, {in.xi[0], in.xi[1], in.xi[2]}, {told.x, told.y, told.z}};
+            __syncwarp();
+            if (lane == 0) surface.count = before + __popc(lanes);
+            __syncwarp();
+            if (surface.count <= SurfaceCells::room - warp && first + static_cast<int>(warp) < size) continue;
+            add_links(step, flags, surface, sums);
+            __syncwarp();
+            if (lane == 0) surface.count = 0;
+            __syncwarp();
+        }
+    };
+    for (int z = 0; z < around.count[2]; z += Flags::edge)
+        for (int y = 0; y < around.count[1]; y += Flags::edge)
+            for (int x = 0; x < around.count[0]; x += Flags::edge)
+                in_part({around.low[0] + x, around.low[1] + y, around.low[2] + z});
+    const double own = cuda::share_sums_of_warp<push_numbers>(sums, static_cast<int>(lane));
+    if (const int e = cuda::value_of_lane<push_numbers>(static_cast<int>(lane)); e >= 0)
+        step.water.pushes[p * push_numbers + e] = own;
 }
 
 __global__ void __launch_bounds__(block)
@@ -396,190 +558,125 @@ unsigned blocks_of(std::size_t threads) {
     return static_cast<unsigned>((threads + block - 1) / block);
 }
 
-/// Makes the steps of all waters of a GPU, those together that are asked for at the same time.
-class Stepper {
-public:
-    /// The GPU's, which all waters there share. `device` is the current one.
-    static std::shared_ptr<Stepper> of(int device);
+}  // namespace
 
-    void make(const Step& step) { combiner_.run(step); }
-
-private:
-    static void launch(const std::vector<const Step*>& steps, cudaStream_t stream);
-
-    static constexpr int places = 2;
-    cuda::Stream streams_[places];  ///< one group's steps begin while another's are under way
-    Combiner<Step> combiner_{max_steps, places, [this](const std::vector<const Step*>& steps, int one) {
-                                 launch(steps, streams_[one].get());
-                             }};
-};
-
-std::shared_ptr<Stepper> Stepper::of(int device) {
-    static std::mutex mutex;
-    static std::map<int, std::weak_ptr<Stepper>> all;
-    const std::lock_guard lock(mutex);
-    std::shared_ptr<Stepper> found = all[device].lock();
-    if (!found) all[device] = found = std::make_shared<Stepper>();
-    return found;
-}
-
-void Stepper::launch(const std::vector<const Step*>& all, cudaStream_t stream) {
-    Steps steps;
-    unsigned cells = 0, cubes = 0;
-    bool with_eddies = false, without = false, begun = false;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Step& step = steps.of[k] = *all[k];
-        cells = std::max(cells, step.lattice.count);
-        cubes = std::max(cubes, static_cast<unsigned>(step.count));
-        begun = begun || step.begun;
-        (step.rates.eddies > 0 ? with_eddies : without) = true;
-    }
-    const auto size = static_cast<unsigned>(all.size());
-    const dim3 by_cell(blocks_of(cells), size), by_cube(blocks_of(cubes * warp), size);
-    if (cubes > 0) hold<<<by_cube, block, 0, stream>>>(steps);
-    if (cubes > 0 && begun) cover<<<by_cube, block, 0, stream>>>(steps);
-    if (without) advance_cells<false><<<by_cell, block, 0, stream>>>(steps);
-    if (with_eddies) advance_cells<true><<<by_cell, block, 0, stream>>>(steps);
-    if (cubes > 0) push<<<by_cube, block, 0, stream>>>(steps);
-    cuda::check(cudaGetLastError(), "launch");
-    cuda::check(cudaStreamSynchronize(stream), "lattice");
-}
-
-/// Keeps the populations that have come to each cell. What a body's cells are told, and what its cubes are given, is
-/// found by kernels.
-class GpuWater : public Water {
-public:
-    GpuWater(const Box& box, int device);
-
-    void advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) override;
-    void shift(const Eigen::Vector3i& by) override;
-    Cell cell(const Eigen::Vector3i& at) const override;
-    std::vector<Eigen::Vector4f> cells() const override;
-    void set_cell(const Eigen::Vector3i& at, const Cell& cell) override;
-    void set_cells(const Cell& all) override;
-    void save(ByteWriter& to) const override;
-    void restore(ByteReader from) override;
-
-private:
-    /// Chooses a device before anything is made there.
-    struct Chosen {
-        explicit Chosen(int device) { cuda::choose_device(device); }
-    };
-    void choose() const { cuda::check(cudaSetDevice(device_), "choose device"); }
-    void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
-    float* now() const { return populations_[now_].data(); }
-    float* next() const { return populations_[1 - now_].data(); }
-    float* at(const Eigen::Vector3i& place) const { return now() + lattice_.at(place.x(), place.y(), place.z()); }
-    Keys keys_around(const std::vector<Cube>& cubes);
-
-    int device_;
-    Chosen chosen_{device_};
-    std::shared_ptr<Stepper> stepper_ = Stepper::of(device_);
-    Lattice lattice_;
-    cuda::Stream stream_;  ///< for all but steps
-    cuda::DeviceBuffer<float> populations_[2];
-    cuda::DeviceBuffer<Owners> owners_[2];    ///< the second is for shifts
-    cuda::DeviceBuffer<Key> keys_;            ///< nobody's between steps
-    cuda::DeviceBuffer<Handover> handovers_;  ///< by key; none between steps
-    cuda::DeviceBuffer<Cube> cubes_;
-    cuda::HostBuffer<Cube> cubes_on_host_;
-    cuda::HostBuffer<Push> pushes_;
-    int now_ = 0;
-    bool begun_ = false;  ///< else the water in bodies begins with their velocity
-    CellRange around_{};  ///< the bodies of the last step
-};
-
-GpuWater::GpuWater(const Box& box, int device) : Water(box), device_(device) {
+Lattice lattice_of(const Box& box) {
     const auto count = static_cast<std::size_t>(box.cells.cast<double>().prod());
     if (count > std::numeric_limits<int>::max()) throw std::bad_alloc();  // more than any GPU has room for
-    lattice_.count = static_cast<unsigned>(count);
+    Lattice lattice{};
+    lattice.count = static_cast<unsigned>(count);
     for (int a = 0; a < 3; ++a) {
-        lattice_.cells[a] = box.cells[a];
-        for (int end = 0; end < 2; ++end) lattice_.faces[a][end] = box.faces[a][end];
-        lattice_.periodic[a] = box.faces[a][0] == Face::periodic;
+        lattice.cells[a] = box.cells[a];
+        for (int end = 0; end < 2; ++end) lattice.faces[a][end] = box.faces[a][end];
+        lattice.periodic[a] = box.faces[a][0] == Face::periodic;
     }
-    for (auto& populations : populations_) populations = cuda::DeviceBuffer<float>(lattice_populations * count);
-    for (auto& owners : owners_) owners = cuda::DeviceBuffer<Owners>(count);
-    populations_[now_].clear();
-    cuda::check(cudaMemset(owners_[0].data(), 0xff, count * sizeof(Owners)), "clear");
-    cuda::wait_for_uploads();
+    return lattice;
 }
 
-Keys GpuWater::keys_around(const std::vector<Cube>& cubes) {
-    constexpr float far = std::numeric_limits<float>::infinity();
-    Cube all{};
-    float low[3] = {far, far, far}, high[3] = {-far, -far, -far};
-    for (const Cube& cube : cubes)
-        for (int a = 0; a < 3; ++a) {
-            low[a] = std::min(low[a], cube.x[a] - cube.reach[a]);
-            high[a] = std::max(high[a], cube.x[a] + cube.reach[a]);
-        }
-    for (int a = 0; a < 3; ++a) all.x[a] = (low[a] + high[a]) / 2, all.reach[a] = (high[a] - low[a]) / 2 + 1;
-    const bool none[3] = {};
-    const CellRange last = around_;
-    around_ = cubes.empty() ? CellRange{} : cells_around(all, lattice_.cells, none);
-    for (int a = 0; a < 3; ++a)
-        if (lattice_.periodic[a] && !cubes.empty()) around_.low[a] = 0, around_.count[a] = lattice_.cells[a];
-    if (around_.size() == 0) around_ = {};
-    CellRange both = around_.size() > 0 ? around_ : last;
-    if (around_.size() > 0 && last.size() > 0)
-        for (int a = 0; a < 3; ++a) {
-            both.low[a] = std::min(around_.low[a], last.low[a]);
-            both.count[a] = std::max(around_.low[a] + around_.count[a], last.low[a] + last.count[a]) - both.low[a];
-        }
-    const auto size = static_cast<std::size_t>(both.size());
-    if (keys_.size() < size) {
-        keys_ = {};
-        handovers_ = {};
-        keys_ = cuda::DeviceBuffer<Key>(std::min<std::size_t>(size + size / 2, lattice_.count));
-        handovers_ = cuda::DeviceBuffer<Handover>(keys_.size());
-        cuda::check(cudaMemsetAsync(keys_.data(), 0xff, keys_.size() * sizeof(Key), stream_.get()), "clear");
-        cuda::check(cudaMemsetAsync(handovers_.data(), 0, handovers_.size() * sizeof(Handover), stream_.get()),
-                    "clear");
-        wait();
+LatticeStep lattice_step(const Box& box, double h, int cubes) {
+    return {lattice_of(box), rates_in(box, h), inflow(box, h), cubes};
+}
+
+void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream) {
+    const auto size = static_cast<unsigned>(count);
+    const dim3 by_cell(blocks_of(step.lattice.count), size), by_cube(blocks_of(step.cubes * warp), size);
+    begin_step<<<dim3(1, size), range_block, 0, stream>>>(step, waters);
+    if (step.cubes > 0) hold<<<by_cube, block, 0, stream>>>(step, waters);
+    if (step.cubes > 0) cover<<<by_cube, block, 0, stream>>>(step, waters);
+    // Behind all else: the small kernels of other waters would wait for all of its blocks.
+    cudaLaunchAttribute last{};
+    last.id = cudaLaunchAttributePriority;
+    last.val.priority = cuda::Stream::lowest_priority();
+    cudaLaunchConfig_t of_cells{by_cell, dim3(block), 0, stream, &last, 1};
+    cuda::check(cudaLaunchKernelEx(&of_cells, step.rates.eddies > 0 ? advance_cells<true> : advance_cells<false>, step,
+                                   static_cast<const WaterOnGpu*>(waters)),
+                "launch");
+    const auto push_blocks = static_cast<unsigned>((step.cubes * warp + push_block - 1) / push_block);
+    if (step.cubes > 0) push<<<dim3(push_blocks, size), push_block, 0, stream>>>(step, waters);
+    cuda::check(cudaGetLastError(), "launch");
+}
+
+GpuWater::GpuWater(const Box& box, int device) : Water(box), device_(device), lattice_(lattice_of(box)) {
+    const std::size_t count = lattice_.count;
+    for (auto& populations : populations_) populations = cuda::DeviceBuffer<float>(lattice_populations * count);
+    for (auto& owners : owners_) owners = cuda::DeviceBuffer<Owners>(count);
+    keys_ = cuda::DeviceBuffer<Key>(count);
+    handovers_ = cuda::DeviceBuffer<Handover>(count);
+    begin();
+}
+
+void GpuWater::begin() {
+    choose();
+    const auto fill = [&](const auto& buffer, int byte) {
+        if (buffer.size() > 0)
+            cuda::check(cudaMemsetAsync(buffer.data(), byte, buffer.size() * sizeof(*buffer.data()), stream_.get()),
+                        "clear");
+    };
+    on_gpu_.steps = 0;
+    on_gpu_.last = on_gpu_.around = {};
+    on_gpu_.fastest = 0;
+    on_gpu_.goes_on = 1;
+    fill(now(), 0);
+    fill(owners_[0], 0xff);
+    fill(keys_, 0xff);
+    fill(handovers_, 0);
+    point_to_buffers();
+    wait();
+}
+
+void GpuWater::point_to_buffers() {
+    for (int k = 0; k < 2; ++k) on_gpu_.populations[k] = populations_[k].data();
+    on_gpu_.owners = owners_[0].data();
+    on_gpu_.keys = keys_.data();
+    on_gpu_.handovers = handovers_.data();
+    on_gpu_.cubes = cubes_.data();
+    on_gpu_.pushes = pushes_.data();
+}
+
+void GpuWater::make_room(int cubes, const std::vector<Cube>& last) {
+    choose();
+    if (cubes_.size() < static_cast<std::size_t>(cubes)) {
+        cubes_ = cuda::DeviceBuffer<Cube>(cubes);
+        pushes_ = cuda::DeviceBuffer<double>(static_cast<std::size_t>(cubes) * push_numbers);
+        point_to_buffers();
     }
-    return {both, keys_.data(), handovers_.data()};
+    if (last.empty()) return;
+    cuda::check(cudaMemcpyAsync(cubes_.data() + cubes - last.size(), last.data(), last.size() * sizeof(Cube),
+                                cudaMemcpyHostToDevice, stream_.get()),
+                "upload");
+    wait();
 }
 
 void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
-    choose();
     const int count = static_cast<int>(cubes.size());
-    const Keys keys = keys_around(cubes);
-    if (cubes_.size() < cubes.size()) {
-        cubes_ = cuda::DeviceBuffer<Cube>(cubes.size());
-        cubes_on_host_ = cuda::HostBuffer<Cube>(cubes.size());
-        pushes_ = cuda::HostBuffer<Push>(cubes.size());
-    }
-    std::ranges::copy(cubes, cubes_on_host_.data());
-    stepper_->make({.lattice = lattice_,
-                    .rates = rates_in(step),
-                    .inflow = inflow(step),
-                    .keys = keys,
-                    .from = now(),
-                    .to = next(),
-                    .from_host = reinterpret_cast<const float*>(cubes_on_host_.data()),
-                    .cubes = cubes_.data(),
-                    .owners = owners_[0].data(),
-                    .to_host = reinterpret_cast<double*>(pushes_.data()),
-                    .count = count,
-                    .begun = begun_});
-    now_ = 1 - now_;
-    begun_ = true;
-    pushes.assign(pushes_.data(), pushes_.data() + count);
+    make_room(count, cubes);
+    const auto copy = [&](void* to, const void* from, std::size_t bytes) {
+        if (bytes > 0) cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_.get()), "copy");
+    };
+    copy(own_step_.data(), &on_gpu_, sizeof on_gpu_);
+    launch_step(lattice_step(box_, step, count), own_step_.data(), 1, stream_.get());
+    copy(&on_gpu_, own_step_.data(), sizeof on_gpu_);
+    pushes.resize(cubes.size());
+    copy(pushes.data(), pushes_.data(), cubes.size() * sizeof(Push));
+    wait();
 }
 
 void GpuWater::shift(const Eigen::Vector3i& by) {
     choose();
-    shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), next(), owners_[0].data(),
-                                                                        owners_[1].data(), by.x(), by.y(), by.z());
+    const int of_now = on_gpu_.steps % 2;
+    shift_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(
+        lattice_, now().data(), populations_[1 - of_now].data(), owners_[0].data(), owners_[1].data(), by.x(), by.y(),
+        by.z());
     cuda::check(cudaGetLastError(), "launch");
     wait();
-    now_ = 1 - now_;
+    std::swap(populations_[0], populations_[1]);
     std::swap(owners_[0], owners_[1]);
+    point_to_buffers();
+    CellRange& last = on_gpu_.last;
     for (int a = 0; a < 3; ++a) {
-        const int low = std::max(around_.low[a] - by[a], 0);
-        around_.count[a] = std::max(std::min(around_.low[a] + around_.count[a] - by[a], lattice_.cells[a]) - low, 0);
-        around_.low[a] = low;
+        const int low = std::max(last.low[a] - by[a], 0);
+        last.count[a] = std::max(std::min(last.low[a] + last.count[a] - by[a], lattice_.cells[a]) - low, 0);
+        last.low[a] = low;
     }
 }
 
@@ -597,7 +694,7 @@ Cell GpuWater::cell(const Eigen::Vector3i& place) const {
 std::vector<Eigen::Vector4f> GpuWater::cells() const {
     choose();
     cuda::DeviceBuffer<float4> read(lattice_.count);
-    read_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now(), read.data());
+    read_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now().data(), read.data());
     cuda::check(cudaGetLastError(), "launch");
     std::vector<Eigen::Vector4f> all(lattice_.count);
     static_assert(sizeof(Eigen::Vector4f) == sizeof(float4));
@@ -607,6 +704,8 @@ std::vector<Eigen::Vector4f> GpuWater::cells() const {
     wait();
     return all;
 }
+
+namespace {
 
 Populations in_equilibrium(const Cell& cell) {
     Populations made;
@@ -619,6 +718,8 @@ Populations in_equilibrium(const Cell& cell) {
     return made;
 }
 
+}  // namespace
+
 void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
     choose();
     const Populations made = in_equilibrium(cell);
@@ -630,7 +731,7 @@ void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
 
 void GpuWater::set_cells(const Cell& all) {
     choose();
-    fill_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, in_equilibrium(all), now());
+    fill_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, in_equilibrium(all), now().data());
     cuda::check(cudaGetLastError(), "launch");
     wait();
 }
@@ -638,9 +739,9 @@ void GpuWater::set_cells(const Cell& all) {
 void GpuWater::save(ByteWriter& to) const {
     choose();
     to.add(lattice_populations);
-    to.add(begun_);
-    for (int a = 0; a < 3; ++a) to.add(around_.low[a]), to.add(around_.count[a]);
-    to.add_all(std::span<const float>(populations_[now_].download()));
+    to.add(on_gpu_.steps > 0);
+    for (int a = 0; a < 3; ++a) to.add(on_gpu_.last.low[a]), to.add(on_gpu_.last.count[a]);
+    to.add_all(std::span<const float>(now().download()));
     to.add_all(std::span<const Owners>(owners_[0].download()));
 }
 
@@ -665,14 +766,13 @@ void GpuWater::restore(ByteReader from) {
     std::memcpy(owners.data(), from.take(of_owners).data(), of_owners);
     if (!std::ranges::all_of(populations, [](float value) { return std::isfinite(value); })) refuse_saved();
     choose();
-    populations_[now_].upload(populations);
+    begin();
+    populations_[0].upload(populations);
     owners_[0].upload(owners);
     cuda::wait_for_uploads();
-    begun_ = begun;
-    around_ = around;
+    on_gpu_.steps = begun ? 2 : 0;  // one is as good as any number
+    on_gpu_.last = around;
 }
-
-}  // namespace
 
 std::unique_ptr<Water> Water::on_gpu(const Box& box, int device) {
     return std::make_unique<GpuWater>(box, device);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "box.h"
+#include "physics/vec3.h"
 
 namespace natator::lattice {
 
@@ -39,6 +40,20 @@ struct Push {
 /// Mass length/s that is 1 in a Push, in a step of so long, s.
 double impulse_unit(const Box& box, double step);
 
+/// A neighbour of a particle at rest.
+struct NearAtRest {
+    int particle;
+    physics::Vec3<double> weight;  ///< of its distance or velocity in the gradient by xi
+};
+
+/// A particle at rest.
+struct CubeAtRest {
+    double half = 0;                  ///< of its spacing, length
+    int begin = 0, end = 0;           ///< its neighbours, in the order of their numbers
+    int missing = 0;                  ///< axes that they do not span
+    physics::Vec3<double> axis[3]{};  ///< of space; the missing ones are the last
+};
+
 /// Bodies of particles in water. Each particle's cube follows its neighbours at rest by moving least squares, so that a
 /// body's affine motions are exact; what pushes its cells is given to it and them by the transposed weights, which keep
 /// momentum.
@@ -51,7 +66,10 @@ public:
     Immersed(const std::vector<Eigen::Vector3d>& rest, const std::vector<int>& body, const std::vector<double>& spacing,
              double reach, double extension);
 
-    int particles() const { return static_cast<int>(near_.size()); }
+    int particles() const { return static_cast<int>(rest_.size()); }
+    const std::vector<CubeAtRest>& rest() const { return rest_; }
+    const std::vector<NearAtRest>& near() const { return near_; }
+    double extension() const { return extension_; }
     /// At these places, length, with these velocities, length/s, in a step of so long, s.
     std::vector<Cube> cubes(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& velocities,
                             const Box& box, double step) const;
@@ -59,14 +77,9 @@ public:
     std::vector<Eigen::Vector3d> impulses(const std::vector<Push>& pushes, const Box& box, double step) const;
 
 private:
-    struct Neighbour {
-        int particle;
-        Eigen::Vector3d weight;  ///< of its distance or velocity in the gradient by xi
-    };
-    std::vector<double> spacing_;
     double extension_;
-    std::vector<std::vector<Neighbour>> near_;
-    std::vector<Eigen::Matrix3d> missing_;  ///< projector on what a particle's neighbours do not span
+    std::vector<CubeAtRest> rest_;
+    std::vector<NearAtRest> near_;  ///< one particle's behind the other's
 };
 
 }  // namespace natator::lattice

@@ -26,12 +26,12 @@ void equilibrium(const Cell& cell, float (&to)[17]) {
     for (int e = 0; e < 17; ++e) to[e] = static_cast<float>(values[e]);
 }
 
-physics::LatticeRates Water::rates_in(double step) const {
-    return physics::lattice_rates(box_.viscosity * step / (box_.cell * box_.cell), box_.smagorinsky);
+physics::LatticeRates rates_in(const Box& box, double step) {
+    return physics::lattice_rates(box.viscosity * step / (box.cell * box.cell), box.smagorinsky);
 }
 
-Populations Water::inflow(double step) const {
-    const Eigen::Vector3f current = (box_.current * step / box_.cell).cast<float>();
+Populations inflow(const Box& box, double step) {
+    const Eigen::Vector3f current = (box.current * step / box.cell).cast<float>();
     const float u[3] = {current.x(), current.y(), current.z()};
     Populations populations;
     physics::moving_populations(u, populations.of);

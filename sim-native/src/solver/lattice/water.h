@@ -27,6 +27,11 @@ struct Populations {
 /// Moments of a cell (physics/lattice.h) in equilibrium.
 void equilibrium(const Cell& cell, float (&to)[17]);
 
+/// In a step of so long, s.
+physics::LatticeRates rates_in(const Box& box, double step);
+/// What comes in at open ends in a step of so long, s.
+Populations inflow(const Box& box, double step);
+
 /// Water on a D3Q27 lattice, with bodies whose cells are told their velocity (physics/lattice.h).
 ///
 /// A cell whose centre lies in a body moves as the body does there: after each collision its water has the body's
@@ -69,10 +74,6 @@ public:
 
 protected:
     explicit Water(const Box& box) : box_(box) {}
-    /// In a step of so long, s.
-    physics::LatticeRates rates_in(double step) const;
-    /// What comes in at open ends in a step of so long, s.
-    Populations inflow(double step) const;
     [[noreturn]] static void refuse_saved() {
         throw InputError("state: its water is not of this lattice on this kind of processor");
     }

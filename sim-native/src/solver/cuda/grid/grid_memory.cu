@@ -185,6 +185,11 @@ void GridMemory<Real>::keep_before() const {
 }
 
 template <class Real>
+void GridMemory<Real>::keep_running(const GridLaunch<Real>& launch) const {
+    launch_keep(launch, before_.position.data(), before_.velocity.data(), before_.fit.data());
+}
+
+template <class Real>
 void GridMemory<Real>::restore_before(int k) const {
     const Slots<Real> slots = slots_.state(k);
     const auto restore = [&](auto* to, const auto& from, std::size_t count) {

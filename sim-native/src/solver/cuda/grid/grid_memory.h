@@ -7,6 +7,7 @@
 #include "slots.cuh"
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
+#include "substep.cuh"
 
 namespace natator::cuda {
 
@@ -43,6 +44,8 @@ public:
 
     /// Keeps all States as they are before an update.
     void keep_before() const;
+    /// Of scheme lattice, whose water does not go back: keeps those that go on as they are before a substep.
+    void keep_running(const GridLaunch<Real>& launch) const;
     /// Takes State k back to that; what else there is of it is made anew in every substep.
     void restore_before(int k) const;
 

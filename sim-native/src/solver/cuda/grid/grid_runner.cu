@@ -39,6 +39,7 @@ GridRunner<Real>::GridRunner(const Model& model, int states, const GridOptions& 
             .stream = stream_.get(),
             .keeps_forces = options.keeps_forces && device_model_.view().plan.water},
       memory_(model, device_model_, states, options, base_.stream),
+      lattice_(LatticeBodies<Real>::of(model, states)),
       muscles_(states),
       end_(states) {
     base_.slots = memory_.slots();
@@ -149,8 +150,15 @@ void GridRunner<Real>::launch_substeps(const Update& update, int substeps, Stage
         GridLaunch<Real> substep = launch_of(update, k);
         substep.clock = clock;
         substep.trace = trace;
+        if (lattice_) {
+            memory_.keep_running(substep);
+            lattice_->launch_push(substep);
+        }
         launch_substep(substep);
         if (!update.settling) launch_work(substep);
+        if (!lattice_) continue;
+        lattice_->launch_follow(substep);
+        substep.mark(Stage::water_motion);
     }
 }
 
@@ -158,8 +166,12 @@ template <class Real>
 void GridRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
     const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
     copy_row(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
-    memory_.keep_before();
+    if (lattice_)
+        lattice_->launch_begin(base_);
+    else
+        memory_.keep_before();
     launch_substeps(update, update.substeps, clock, trace);
+    if (lattice_) lattice_->launch_end(base_);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
     copy_row(end_.data(), base_.slots.arrays.shared, base_.states, base_.stream);
@@ -180,7 +192,7 @@ cudaGraphExec_t GridRunner<Real>::graph_of(const Update& update) {
     }
     check(cudaStreamEndCapture(base_.stream, &captured.graph), "capture");
     auto graph = std::make_unique<Graph>();
-    check(cudaGraphInstantiate(&graph->exec, captured.graph, 0), "graph");
+    check(cudaGraphInstantiate(&graph->exec, captured.graph, cudaGraphInstantiateFlagUseNodePriority), "graph");
     known = std::move(graph);
     return known->exec;
 }
@@ -211,6 +223,7 @@ typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
     end.touches_plane = end_[k].touches != 0;
     if (end_[k].bad == none_bad) return end;
     end.finite = false;
+    end.fault = end_[k].fault;
     end.bad_substep = static_cast<int>(end_[k].bad >> 32);
     end.bad_particle = static_cast<int>(end_[k].bad & 0xffffffffu);
     return end;
@@ -221,6 +234,7 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
                                                                   const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
+    if (lattice_) lattice_->begin();
     for (;;) {
         clock.reset();
         if (profile) clock.emplace(base_.stream);
@@ -233,11 +247,12 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
         for (int k = 0; k < base_.states; ++k)
             memory_.restore_before(k);  // and once more, with room for all neighbours
     }
+    if (lattice_) lattice_->end();
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;
     for (int k = 0; k < base_.states; ++k) ends.push_back(end_of(k));
     for (int k = 0; k < base_.states; ++k)
-        if (!ends[k].finite) go_to(k, ends[k].bad_substep, update);
+        if (!ends[k].finite && ends[k].fault == fault_of_body) go_to(k, ends[k].bad_substep, update);
     return ends;
 }
 
@@ -246,7 +261,7 @@ template <class Real>
 void GridRunner<Real>::go_to(int k, int substep, const Update& update) {
     memory_.restore_before(k);
     wait();
-    if (substep == 0) return;
+    if (substep == 0 || lattice_) return;
     const std::vector<bool> idle = memory_.idle();
     std::vector<bool> others(idle.size(), true);
     others[k] = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid_memory.h"
+#include "lattice_bodies.h"
 #include "natator/model.h"
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
@@ -56,12 +57,15 @@ public:
     struct End {
         bool finite = true;
         int bad_substep = 0, bad_particle = 0;  ///< of one that is not; the State is that before this substep
+        unsigned fault = fault_of_body;         ///< another one: the State is that behind it
         double mean_x = 0;                      ///< of the body
         double tail_z = 0;                      ///< of its last slice
         std::vector<double> muscle_work;  ///< in the update, by swimmer, see Solver::muscle_works; none in scheme flex
         bool touches_plane = false;
         physics::LawMeasures laws{};  ///< of particles by device number
     };
+    /// Of scheme lattice: see LatticeBodies::set_water.
+    void set_water(int k, lattice::WaterOnGpu* water) { lattice_->set_water(k, water); }
     /// States that updates leave as they are.
     void set_idle(const std::vector<bool>& idle) { memory_.set_idle(idle); }
     /// Makes ready what updates of this kind need, so that the first is as fast as the others.
@@ -113,6 +117,7 @@ private:
     Stream stream_;
     GridLaunch<Real> base_;
     GridMemory<Real> memory_;
+    std::unique_ptr<LatticeBodies<Real>> lattice_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;

@@ -22,6 +22,7 @@ inline int law_blocks(int particles) {
 template <class Real>
 struct GridShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
+    unsigned fault;          ///< of scheme lattice: what is wrong in that substep; `fault_of_body` of the others
     int high;                ///< scheme conserving: some density is far above rest in this substep
     int touches;             ///< the body touches a plane
     int rows;                ///< of the water's lists that slots have got in this substep
@@ -47,6 +48,7 @@ struct SpringTerms {
     int incidence_of_a, incidence_of_b;
 };
 
+inline constexpr unsigned fault_mach = 0, fault_of_water = 1, fault_of_body = ~0u;  // of several the first
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
 
 // What only the States of a grid have, in device memory: X(type, name, how many), see arrays.cuh. A number is a

@@ -88,9 +88,10 @@ struct GridLaunch {
     /// The same for what is asked about all States, also those that are not advanced any more.
     template <auto work, class... More>
     void report_slots(int count, More... more) const {
+        const int block = block_for(count, grid_threads);
         if (count > 0)
             for_each_slot<work, Of::all, 1, grid_threads, 0>
-                <<<grid(blocks_for(count, grid_threads)), grid_threads, 0, stream>>>(model, slots, count, more...);
+                <<<grid(blocks_for(count, block)), block, 0, stream>>>(model, slots, count, more...);
         check(cudaGetLastError(), "launch");
     }
     template <auto work, int block>
@@ -153,6 +154,10 @@ void launch_work(const GridLaunch<Real>& launch);
 /// Mean x of the body, mean z of its tail, and whether it touches a plane, into what all share.
 template <class Real>
 void launch_measure(const GridLaunch<Real>& launch);
+
+/// Copies the States that go on, one behind the other.
+template <class Real>
+void launch_keep(const GridLaunch<Real>& launch, Vec4<Real>* position, Vec4<Real>* velocity, ClusterFit<Real>* fits);
 
 /// Sets all velocities of the State to 0.
 template <class Real>

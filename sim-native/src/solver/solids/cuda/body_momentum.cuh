@@ -18,6 +18,7 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Rea
     for (int k = warp; k < model.free_bodies; k += slots.size() / 32) {
         // Calls work(slot, solid, mass) for this lane's share of the body.
         const auto for_own = [&](const auto& work) {
+#pragma unroll 4
             for (int e = model.free_body_begin[k] + lane; e < model.free_body_begin[k + 1]; e += 32) {
                 const int solid = model.free_body_particle[e];
                 work(slots.slot_of_solid()[solid], solid,

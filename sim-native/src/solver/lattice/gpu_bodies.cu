@@ -1,0 +1,231 @@
+#include "body_cubes.h"
+#include "coupling.h"
+#include "gpu_water.h"
+#include "solver/cuda/grid/lattice_bodies.h"
+
+namespace natator::lattice {
+namespace {
+
+using cuda::DeviceBuffer;
+using cuda::GridLaunch;
+using cuda::ModelView;
+using cuda::Slots;
+
+/// A particle as its water pushes it.
+struct PushedParticle {
+    Vec3<double> weight;  ///< of the water in its place, mass length/s^2
+    double inverse_mass;
+    double kept;          ///< of the last impulse in the running mean, where the present one counts 1
+    Vec3<double> handed;  ///< weight of what it hands on itself
+    int begin, end;       ///< of those that hand on to it, see Bodies::given
+};
+
+/// The bodies of a Model in device memory.
+struct Bodies {
+    int particles, cubes;
+    bool plane;
+    const CubeAtRest* rest;
+    const NearAtRest* near;
+    const PushedParticle* pushed;
+    const NearAtRest* given;  ///< by particle: who hands on what it is pushed by, by which weight
+    const int* of_cube;       ///< behind the bodies': the obstacle's first particle
+    CubeBox box;
+};
+
+template <class Real>
+__device__ Vec3<double> of_particle(const Slots<Real>& slots, const cuda::Vec4<Real>* by_slot, int particle) {
+    return physics::cast<double>(xyz(by_slot[slots.slot_of_solid()[particle]]));
+}
+
+template <class Real>
+__device__ void push_bodies(const ModelView<Real>&, const Slots<Real>& slots, int p, const Bodies bodies,
+                            const WaterOnGpu* waters) {
+    const PushedParticle& pushed = bodies.pushed[p];
+    Vec3<double> given = waters[blockIdx.y].impulses[p] - static_cast<double>(slots.h) * pushed.weight;
+    if (bodies.plane) given.y = 0;  // not even rounding
+    cuda::Vec4<Real>& velocity = slots.arrays.state_velocity[slots.slot_of_solid()[p]];
+    velocity = cuda::quad(xyz(velocity) + physics::cast<Real>(pushed.inverse_mass * given), velocity.w);
+}
+
+/// Whether the bodies of a State went on in this substep.
+template <class Real>
+__device__ bool is_over(const Slots<Real>& slots) {
+    return static_cast<int>(slots.shared().bad >> 32 & 0x7fffffff) <= slots.substep;
+}
+
+/// Also in States that are over, whose water stays as it is.
+template <class Real>
+__device__ void lay_out_cubes(const ModelView<Real>&, const Slots<Real>& slots, int p, const Bodies bodies,
+                              WaterOnGpu* waters) {
+    WaterOnGpu& water = waters[blockIdx.y];
+    if (*slots.arrays.idle) return;
+    if (is_over(slots)) {
+        if (p == 0) water.goes_on = 0;
+        return;
+    }
+    const auto place = [&](int other) { return of_particle(slots, slots.arrays.state_position, other); };
+    const auto velocity = [&](int other) { return of_particle(slots, slots.arrays.state_velocity, other); };
+    const auto h = static_cast<double>(slots.h);
+    water.cubes[p] = cube_of(bodies.rest[p], bodies.near, p, place, velocity, bodies.box, h);
+    const auto speed = static_cast<float>(norm(velocity(p)) * h / bodies.box.cell);
+    const unsigned long long fastest =
+        static_cast<unsigned long long>(__float_as_uint(speed)) << 32 | ~static_cast<unsigned>(p);
+    if (fastest > water.fastest) atomicMax(&water.fastest, fastest);
+}
+
+__device__ Vec3<double> impulse_of(const Push& push, double unit) {
+    return {unit * push.j[0], unit * push.j[1], unit * push.j[2]};
+}
+/// What a cube hands on, of a weight.
+__device__ Vec3<double> handed_on(const Push& push, double unit, const Vec3<double>& weight) {
+    const double* const m = push.moment;
+    return {unit * m[0] * weight.x + unit * m[1] * weight.y + unit * m[2] * weight.z,
+            unit * m[3] * weight.x + unit * m[4] * weight.y + unit * m[5] * weight.z,
+            unit * m[6] * weight.x + unit * m[7] * weight.y + unit * m[8] * weight.z};
+}
+
+inline constexpr int push_lanes = 8;
+
+/// Takes what the cubes are pushed by to the particles, as Immersed::impulses and Coupling::follow do; and looks whether
+/// the State can go on.
+template <class Real>
+__device__ void take_pushes(const ModelView<Real>&, const Slots<Real>& slots, int c, const Bodies bodies,
+                            const WaterOnGpu* waters, double unit) {
+    const WaterOnGpu& water = waters[blockIdx.y];
+    if (!water.goes_on) return;
+    const int lane = static_cast<int>(threadIdx.x) % push_lanes;
+    const Push* const pushes = reinterpret_cast<const Push*>(water.pushes);
+    const unsigned long long now = static_cast<unsigned long long>(slots.substep) << 32;
+    const bool of_obstacle = c >= bodies.particles;
+    Vec3<double> given{};
+    if (lane == 0) given = impulse_of(pushes[c], unit);
+    if (!of_obstacle) {
+        const PushedParticle& pushed = bodies.pushed[c];
+        if (lane == 0) given -= handed_on(pushes[c], unit, pushed.handed);
+        for (int k = pushed.begin + lane; k < pushed.end; k += push_lanes)
+            given += handed_on(pushes[bodies.given[k].particle], unit, bodies.given[k].weight);
+    }
+    // The lanes of a particle are all there, or none.
+    const unsigned together = ((1u << push_lanes) - 1) << (threadIdx.x % 32 / push_lanes * push_lanes);
+    for (int other = push_lanes / 2; other > 0; other /= 2)
+        given += {__shfl_xor_sync(together, given.x, other), __shfl_xor_sync(together, given.y, other),
+                  __shfl_xor_sync(together, given.z, other)};
+    if (lane != 0) return;
+    if (of_obstacle) {
+        if (!isfinite(given.x + given.y + given.z)) {
+            atomicMin(&slots.shared().bad, now | static_cast<unsigned>(bodies.of_cube[c - bodies.particles]));
+            atomicMin(&slots.shared().fault, cuda::fault_of_water);
+        }
+        if (water.forces) water.forces[c] += given;
+        return;
+    }
+    const PushedParticle& pushed = bodies.pushed[c];
+    Vec3<double>& impulse = water.impulses[c];
+    impulse = (given + pushed.kept * impulse) / (1 + pushed.kept);
+    if (water.forces) water.forces[c] += given - static_cast<double>(slots.h) * pushed.weight;
+    if (c == 0 && __uint_as_float(static_cast<unsigned>(water.fastest >> 32)) > max_cells_per_substep) {
+        atomicMin(&slots.shared().bad, now | ~static_cast<unsigned>(water.fastest));
+        atomicMin(&slots.shared().fault, cuda::fault_mach);
+    }
+}
+
+template <class Real>
+class GpuBodies : public cuda::LatticeBodies<Real> {
+public:
+    GpuBodies(const Model& model, int states)
+        : box_(*model.water_box), coupling_(model), waters_(states), staged_(states), of_state_(states) {
+        const Immersed& immersed = coupling_.immersed();
+        const int particles = immersed.particles();
+        std::vector<PushedParticle> pushed(particles);
+        std::vector<std::vector<NearAtRest>> given(particles);
+        for (int p = 0; p < particles; ++p)
+            for (int k = immersed.rest()[p].begin; k < immersed.rest()[p].end; ++k) {
+                const auto& [other, weight] = immersed.near()[k];
+                given[other].push_back({p, weight});
+                pushed[p].handed += weight;
+            }
+        std::vector<NearAtRest> all_given;
+        for (int p = 0; p < particles; ++p) {
+            const Eigen::Vector3d weight = coupling_.displaced()[p] * model.parameters.gravity;
+            const auto begin = static_cast<int>(all_given.size());
+            all_given.insert(all_given.end(), given[p].begin(), given[p].end());
+            pushed[p] = {{weight.x(), weight.y(), weight.z()},
+                         model.inverse_mass[p],
+                         coupling_.kept(p),
+                         pushed[p].handed,
+                         begin,
+                         static_cast<int>(all_given.size())};
+        }
+        std::vector<int> of_cube;
+        int particle = particles;
+        for (std::size_t k = 0; k < coupling_.obstacles().size(); ++k) {
+            of_cube.insert(of_cube.end(), coupling_.obstacles()[k].size(), particle);
+            particle += box_.obstacles[k].particles;
+        }
+        rest_ = DeviceBuffer<CubeAtRest>(immersed.rest());
+        near_ = DeviceBuffer<NearAtRest>(immersed.near());
+        pushed_ = DeviceBuffer<PushedParticle>(pushed);
+        given_ = DeviceBuffer<NearAtRest>(all_given);
+        of_cube_ = DeviceBuffer<int>(of_cube);
+        bodies_ = {particles,      coupling_.cubes(), box_.is_plane(), rest_.data(), near_.data(), pushed_.data(),
+                   given_.data(), of_cube_.data(),   cube_box(box_, immersed.extension())};
+        cuda::wait_for_uploads();
+    }
+
+    void set_water(int k, WaterOnGpu* water) override { of_state_[k] = water; }
+    void begin() override {
+        for (std::size_t k = 0; k < of_state_.size(); ++k) staged_[k] = of_state_[k] ? *of_state_[k] : WaterOnGpu{};
+    }
+    void end() override {
+        for (std::size_t k = 0; k < of_state_.size(); ++k)
+            if (of_state_[k]) *of_state_[k] = staged_[k];
+    }
+    void launch_begin(const GridLaunch<Real>& launch) const override {
+        copy(waters_.data(), staged_.data(), launch.stream);
+    }
+    void launch_end(const GridLaunch<Real>& launch) const override {
+        copy(staged_.data(), waters_.data(), launch.stream);
+    }
+    void launch_push(const GridLaunch<Real>& launch) const override {
+        launch.template each_slot<push_bodies<Real>>(bodies_.particles, bodies_, static_cast<const WaterOnGpu*>(waters_.data()));
+    }
+    void launch_follow(const GridLaunch<Real>& launch) const override {
+        const auto h = static_cast<double>(launch.slots.h);
+        launch.template report_slots<lay_out_cubes<Real>>(bodies_.particles, bodies_, waters_.data());
+        launch_step(lattice_step(box_, h, bodies_.cubes), waters_.data(), launch.states, launch.stream);
+        launch.template each_slot<take_pushes<Real>, push_lanes>(bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()),
+                                                     impulse_unit(box_, h));
+        cuda::check(cudaGetLastError(), "launch");
+    }
+
+private:
+    void copy(WaterOnGpu* to, const WaterOnGpu* from, cudaStream_t stream) const {
+        cuda::check(cudaMemcpyAsync(to, from, waters_.size() * sizeof *to, cudaMemcpyDefault, stream), "copy");
+    }
+
+    Box box_;
+    CoupledBodies coupling_;
+    DeviceBuffer<WaterOnGpu> waters_;
+    cuda::HostBuffer<WaterOnGpu> staged_;
+    std::vector<WaterOnGpu*> of_state_;
+    DeviceBuffer<CubeAtRest> rest_;
+    DeviceBuffer<NearAtRest> near_, given_;
+    DeviceBuffer<PushedParticle> pushed_;
+    DeviceBuffer<int> of_cube_;
+    Bodies bodies_{};
+};
+
+}  // namespace
+}  // namespace natator::lattice
+
+namespace natator::cuda {
+
+template <class Real>
+std::unique_ptr<LatticeBodies<Real>> LatticeBodies<Real>::of(const Model& model, int states) {
+    return model.water_box ? std::make_unique<lattice::GpuBodies<Real>>(model, states) : nullptr;
+}
+
+template class LatticeBodies<float>;
+template class LatticeBodies<double>;
+
+}  // namespace natator::cuda
