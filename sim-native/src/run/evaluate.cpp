@@ -6,6 +6,7 @@
 
 #include "evaluate_frame_by_frame.h"
 #include "evaluation_run.h"
+#include "model_on_gpu.h"
 #include "move_tank.h"
 #include "natator/cost.h"
 #include "natator/measure.h"
@@ -37,9 +38,11 @@ public:
           needs_body_(needs_body),
           snapshot_due_(static_cast<bool>(options.snapshot.take)) {}
 
-    /// One more. `start`: the model, or the model perturbed; it is taken to its settled start.
-    void add(const Model& model, const Model& start, const Gait& gait, const SettledStateCache* starts) {
-        One& one = *all_.emplace_back(std::make_unique<One>(model, gait, execution()));
+    /// One more. `computed`: the model as the solver has it; `start`: the model, or the model perturbed, which is taken
+    /// to its settled start.
+    void add(const Model& model, const Model& computed, const Model& start, const Gait& gait,
+             const SettledStateCache* starts) {
+        One& one = *all_.emplace_back(std::make_unique<One>(model, computed, gait, execution()));
         one.state = settled_start(start, scene_.settling, one.solver, starts, one.unsettled);
         settled_ = true;
     }
@@ -91,8 +94,8 @@ public:
 
 private:
     struct One {
-        One(const Model& own, const Gait& its, const Execution& execution)
-            : model(own), gait(its), solver(own, execution) {}
+        One(const Model& own, const Model& computed, const Gait& its, const Execution& execution)
+            : model(own), gait(its), solver(computed, execution) {}
         const Model& model;
         const Gait& gait;
         Solver<Real> solver;
@@ -141,29 +144,34 @@ Model perturbed(Model model, const Perturbation& by) {
 template <class Real>
 std::vector<Evaluation> evaluate_as(const Scene& scene, const std::vector<BatchMember>& members,
                                     const EvaluationOptions& options, const Computing& computing) {
-    std::map<std::optional<int>, Model> models;  // by arrangement
-    const auto model_of = [&](const BatchMember& member) -> const Model& {
+    struct Models {
+        Model own;
+        std::optional<Model> on_gpu;
+    };
+    std::map<std::optional<int>, Models> models;  // by arrangement
+    const auto models_of = [&](const BatchMember& member) -> const Models& {
         Scene own = scene;
         if (member.arrangement) own.fluid->disorder = *member.arrangement;
         const auto [known, is_new] = models.try_emplace(member.arrangement);
         if (is_new) {
-            known->second = build_model(own);
-            check_evaluation_cost(own, known->second, computing);
+            known->second.own = build_model(own);
+            check_evaluation_cost(own, known->second.own, computing);
+            if (options.execution.gpu) known->second.on_gpu = model_on_gpu(own, known->second.own);
         }
         return known->second;
     };
     std::vector<EvaluationRun> runs;
     for (const BatchMember& member : members) {
-        const Model& model = model_of(member);
+        const Model& model = models_of(member).own;
         runs.emplace_back(scene, model, member.gait, LawWatch(model));
     }
     SolverStepper<Real> stepper(scene, options, runs.front().needs_body());
     const bool has_frames = frames_of(scene) > 0;  // the figures of a run without frames are those of settling
     std::vector<State<Real>> begin(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
-        const Model& model = model_of(members[k]);
+        const auto& [model, on_gpu] = models_of(members[k]);
         const Perturbation& by = members[k].perturbation;
-        stepper.add(model, by.amplitude == 0 ? model : perturbed(model, by), members[k].gait,
+        stepper.add(model, on_gpu ? *on_gpu : model, by.amplitude == 0 ? model : perturbed(model, by), members[k].gait,
                     has_frames && by.amplitude == 0 ? options.execution.starts : nullptr);
         if (!model.companions.empty()) begin[k] = stepper.state(k);
     }

@@ -8,7 +8,7 @@ bool differ_in_places_alone(const Model& a, const Model& b) {
 
 Model model_on_gpu(Scene scene, const Model& own) {
     const int usual = FluidBlock{}.disorder;
-    if (own.scheme != Scheme::conserving || !scene.fluid || scene.fluid->disorder == usual) return own;
+    if (own.scheme == Scheme::flex || !scene.fluid || scene.fluid->disorder == usual) return own;
     scene.fluid->disorder = usual;
     Model model = build_model(scene);
     return differ_in_places_alone(own, model) ? model : own;
