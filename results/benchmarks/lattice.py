@@ -13,7 +13,7 @@ import lakes  # noqa: E402
 
 SIDES = (2.85, 1.2, 1.2)
 # Width of cells, units; frames of the shorter run of one swim, and of 150.
-SIZES = ((0.0375, 120, 12), (0.025, 60, 12), (0.0125, 30, 3), (0.00625, 8, 0), (0.0035, 3, 0))
+SIZES = ((0.0375, 120, 12), (0.025, 60, 12), (0.0125, 30, 3), (0.00625, 8, 0))
 REPEATS = 3
 
 

@@ -42,7 +42,10 @@ def peers():
 
 def make(folder):
     answer, table = peers()
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, peers=table), encoding="utf-8")
+    lattice = pandas.read_csv(HERE / "lattice.csv").pivot(index="cells", columns="swims", values="updates_per_s")
+    cells = study.table(["cells", *("one swim" if swims == 1 else f"{swims} swims" for swims in lattice)],
+                        [[f"{number:,}".replace(",", " "), *("" if np.isnan(rate) else f"{rate / 1e9:.3g}" for rate in rates)] for number, *rates in lattice.itertuples()])
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, peers=table, lattice=cells), encoding="utf-8")
     table = pandas.read_csv(HERE / "throughput.csv")
     for scheme in ("flex", "conserving"):
         throughput(table, scheme, folder / f"throughput-{scheme}.png")

@@ -121,6 +121,26 @@ TEST_F(GpuLattice, PushesABarAsOnTheCpu) {
     expect_same_pushes(Face::no_slip, false);
     expect_same_pushes(Face::open, false);
 }
+/// A box whose face lies between cells so that rounding decides who is its neighbour: 5.9 + 8.5 cells.
+TEST_F(GpuLattice, PushesABoxAsOnTheCpu) {
+    Box box = box_of(24, 26, 28, Face::no_slip);
+    box.cell = 0.02;
+    box.viscosity = 4e-6;
+    Obstacle obstacle;
+    obstacle.shape = Obstacle::Shape::box;
+    obstacle.centre = {0.118, 0.26, 0.28};
+    obstacle.size = {0.34, 0.16, 0.12};
+    const std::vector<Cube> cubes = cubes_of(obstacle, box);
+    const auto cpu = Water::on_cpu(box, 1), gpu = Water::on_gpu(box, 0);
+    stir(*cpu);
+    stir(*gpu);
+    for (int k = 0; k < 20; ++k) {
+        std::vector<Push> by_cpu, by_gpu;
+        cpu->advance(cubes, 1, by_cpu);
+        gpu->advance(cubes, 1, by_gpu);
+        ASSERT_LT(max_difference(by_cpu, by_gpu), 1e-4) << k;
+    }
+}
 TEST_F(GpuLattice, TellsAllOfItsCells) {
     Box box = box_of(13, 10, 7);
     box.viscosity = 0.01;

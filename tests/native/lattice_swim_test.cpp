@@ -15,6 +15,7 @@
 #include "protocol/protocol.h"
 #include "refusal_of.h"
 #include "run/converge/level.h"
+#include "run/evaluate_frame_by_frame.h"
 #include "run/perturb.h"
 #include "scene/scene_json.h"
 
@@ -120,6 +121,31 @@ TEST(LatticeSwim, TooFewSubstepsBreakALaw) {
     ASSERT_TRUE(evaluation.instability);
     EXPECT_EQ(evaluation.instability->law, "mach");
     EXPECT_NE(sentence_of(*evaluation.instability).find("needs more substeps"), std::string::npos);
+}
+
+/// Of one scene, some begin in other arrangements or are perturbed, one ends early.
+TEST(LatticeSwim, MembersThatGoTogetherHaveTheBitsOfEachAlone) {
+    const Scene scene = lake({{"solver", {{"substeps", 8}}}, {"stopping", {{"noProgressAfter", 0}}}}, 0.3);
+    Gait fast = wave(), too_fast = wave();
+    fast.frequency = 2.6;
+    too_fast.frequency = 20;
+    for (double& amplitude : too_fast.amplitude) amplitude = 0.9;
+    const std::vector<BatchMember> members{
+        {wave(), {}}, {too_fast, {}}, {fast, {}, 3}, {wave(), {1e-3, 5}}, {fast, {}, 3}};
+    const std::vector<Evaluation> all = evaluate_frame_by_frame(scene, members, {});
+    ASSERT_EQ(all.size(), members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Scene own = scene;
+        if (members[k].arrangement) own.fluid->disorder = *members[k].arrangement;
+        const Evaluation alone = evaluate(own, members[k].gait, {.perturbation = members[k].perturbation});
+        EXPECT_EQ(all[k].hash, alone.hash) << k;
+        EXPECT_EQ(all[k].frames, alone.frames) << k;
+        EXPECT_EQ(all[k].cells_per_step, alone.cells_per_step) << k;
+    }
+    EXPECT_EQ(all[1].stopped, StopReason::unstable);
+    EXPECT_GT(all[1].frames, 0);
+    EXPECT_EQ(all[0].stopped, StopReason::completed);
+    EXPECT_NE(all[0].hash, all[3].hash);
 }
 
 TEST(LatticeSwim, TellsHowFarAPartGoesInASubstep) {

@@ -89,7 +89,7 @@ struct Execution {
     /// Results agree with the CPU's to rounding. All else here, but `forces`, is the CPU's.
     std::optional<int> gpu{};
     /// With others on that GPU. In scheme `flex` by kernels of the whole GPU, whose last digits may differ (GpuPath);
-    /// no pressures and forces
+    /// no pressures and, but in scheme lattice, no forces
     SharedGpu* shared = nullptr;
     bool skip = true;  ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };

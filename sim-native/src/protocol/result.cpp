@@ -63,6 +63,7 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
     result["scheme"] = to_string(scheme);
     result["precision"] = to_string(precision);
     result["hash"] = hash_text(evaluation.hash);
+    if (evaluation.cells_per_step > 0) result["cellsPerSubstep"] = evaluation.cells_per_step;
     if (stable) {
         const ConservationErrors& laws = evaluation.errors;
         result["laws"] = {{"linearMomentum", laws.linear_momentum},
@@ -72,7 +73,6 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
         if (evaluation.swimming) result["swimming"] = swimming_json(*evaluation.swimming);
         if (evaluation.work) result["work"] = *evaluation.work;
         if (evaluation.smagorinsky > 0) result["smagorinsky"] = evaluation.smagorinsky;
-        if (evaluation.cells_per_step > 0) result["cellsPerSubstep"] = evaluation.cells_per_step;
         if (const auto& course = evaluation.course) result["course"] = course_json(*course);
         if (!evaluation.goals.empty()) result["goals"] = goals_json(evaluation.goals);
         if (!evaluation.companions.empty()) result["companions"] = companions_json(evaluation.companions);

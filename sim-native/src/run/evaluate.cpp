@@ -44,9 +44,9 @@ public:
              const SettledStateCache* starts) {
         One& one = *all_.emplace_back(std::make_unique<One>(model, computed, gait, execution()));
         one.state = settled_start(start, scene_.settling, one.solver, starts, one.unsettled);
-        settled_ = true;
     }
     std::vector<FrameEnd> start() {
+        settled_ = true;
         std::vector<FrameEnd> ends;
         for (const auto& one : all_) ends.push_back(look(*one, one->unsettled));
         return ends;
@@ -78,11 +78,11 @@ public:
     void record_frame(std::size_t number, EvaluationRun& run) {
         One& one = *all_[number];
         one.state.origin = run.origin();
-        if (options_.on_frame) options_.on_frame(one.state.time, body_places(one.model.body, one.state));
+        if (options_.on_frame && number == 0) options_.on_frame(one.state.time, body_places(one.model.body, one.state));
         if (run.frames() == 0) return;
         const std::optional<double> at = options_.snapshot.at;
         const bool last = run.is_over() || run.frames() == frames_of(scene_);
-        if (snapshot_due_ && (at ? one.state.time > *at - scene_.time_step / 1000 : last)) {
+        if (snapshot_due_ && number == 0 && (at ? one.state.time > *at - scene_.time_step / 1000 : last)) {
             snapshot_due_ = false;
             options_.snapshot.take(one.model, snapshot_of(one.state, one.solver.densities()));
         }

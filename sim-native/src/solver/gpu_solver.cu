@@ -154,7 +154,11 @@ protected:
             return Instability{bad, "frame", state.time, name(progress.broken)};
         if (model_.water_box && !(model_.inverse_mass[bad] > 0))  // an obstacle, which is no body that the CPU solves
             return Instability{bad, "collision and streaming", state.time};
-        return cuda::located(model_, state, drive, time_step, substeps, start, {bad, "velocities", state.time});
+        const Instability found{bad, "velocities", state.time};
+        if (!model_.water_box) return cuda::located(model_, state, drive, time_step, substeps, start, found);
+        Model bodies = model_;  // the CPU would have to make all water anew
+        bodies.water_box.reset();
+        return cuda::located(bodies, state, drive, time_step, substeps, start, found);
     }
 
     const Model& model_;
@@ -297,10 +301,10 @@ private:
                                            const std::vector<Drive>& drives, const cuda::Trace<Real>& trace) {
         runner.upload_all({states.begin(), states.end()});
         const bool in_lattice = solvers.front()->swim_.has_value();
+        const auto h = static_cast<double>(static_cast<Real>(time_step) / static_cast<Real>(substeps));
         for (int k = 0; in_lattice && k < runner.states(); ++k)
-            runner.set_water(k, k < static_cast<int>(states.size())
-                                    ? solvers[k]->swim_->begin(states[k]->time, time_step / substeps)
-                                    : nullptr);
+            runner.set_water(
+                k, k < static_cast<int>(states.size()) ? solvers[k]->swim_->begin(states[k]->time, h) : nullptr);
         typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false};
         for (std::size_t k = 0; k < drives.size(); ++k) update.muscles.push_back({drives[k], states[k]->time});
         update.muscles.resize(drives.empty() ? 0 : runner.states());
@@ -314,7 +318,7 @@ private:
                              : ends[k].fault == cuda::fault_of_body ? ends[k].bad_substep
                                                                     : ends[k].bad_substep + 1;
             const double time = states[k]->time + made * time_step / substeps;
-            if (in_lattice) solvers[k]->swim_->end(time, time_step / substeps);
+            if (in_lattice) solvers[k]->swim_->end(time, h);
             if (ends[k].finite) {
                 solvers[k]->keep(k, time_step, substeps, densities, neighbours);
                 if (!drives.empty() && has_muscle_work(solvers[k]->model_))
@@ -386,7 +390,7 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
         path = blocks ? GpuPath::block : GpuPath::whole_gpu;
     }
     if (path == GpuPath::block && model.scheme != Scheme::flex)
-        throw InputError("backend cuda: scheme conserving by blocks; must be on the whole GPU");
+        throw InputError("backend cuda: schemes conserving and lattice by blocks; must be on the whole GPU");
     if (path == GpuPath::block && model.particles() > cuda::max_particles_of_a_block)
         throw InputError("backend cuda: " + std::to_string(model.particles()) +
                          " particles by blocks; must be at most " + std::to_string(cuda::max_particles_of_a_block));

@@ -91,11 +91,11 @@ public:
     /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;
     /// Pressure of each fluid particle in the last substep, mass/(length s^2) (Solver::pressures). Empty before the
-    /// first update, without water, in scheme flex, and where the GPU is shared; there forces are, too, and neighbours
-    /// are not counted.
+    /// first update, without water, in scheme flex, and where the GPU is shared; there forces are, too, but in scheme
+    /// lattice, and neighbours are not counted.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2 (Solver::forces). Empty without
-    /// GpuSolverOptions::forces, and before the first update.
+    /// GpuSolverOptions::forces, and before the first update, when they are 0 in scheme lattice.
     std::vector<Vector3<Real>> forces() const;
     /// Number of fluid and contact neighbours of each particle in the last substep; 0 before the first.
     std::vector<int> neighbour_counts() const;

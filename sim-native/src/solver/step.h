@@ -7,8 +7,8 @@
 // One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them:
 // on the host cpu/substep.h with flex/cpu/ or solids/cpu/, flex/cuda/update.cuh by a team of threads, cuda/grid/ by
 // kernels that the host launches. after(stage) is called behind each. In scheme `lattice` these are the stages of its
-// solids; its water pushes them before (lattice::Coupling::push) and steps after them (Coupling::follow), both called
-// in solver.cpp.
+// solids; its water pushes them before (lattice::Coupling::push, on a GPU cuda::LatticeBodies) and steps after them
+// (Coupling::follow).
 #if defined(__CUDACC__)
 #define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of
 #define NATATOR_STEP __host__ __device__

@@ -15,6 +15,7 @@
 #include "solver/cuda/kernel_choice.h"
 #include "solver/cuda/refusal.h"
 #include "solver/flex/cuda/batch_runner.h"
+#include "solver/lattice/gpu_water.h"
 #include "solver/law_name.h"
 #include "uses_grid_kernels.h"
 
@@ -196,16 +197,15 @@ private:
 };
 
 /// In halves where the whole does not fit into the device's memory.
-template <class Real>
-std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<BatchMember>& members) {
+std::vector<Evaluation> evaluate_in_parts(const EvaluateTogether& evaluate, const std::vector<BatchMember>& members) {
     try {
-        return batch.evaluate(members);
+        return evaluate(members);
     } catch (const std::bad_alloc&) {
         if (members.size() < 2) throw;
     }
     const auto middle = members.begin() + static_cast<std::ptrdiff_t>(members.size() / 2);
-    std::vector<Evaluation> all = evaluate_in_parts(batch, {members.begin(), middle});
-    const std::vector<Evaluation> rest = evaluate_in_parts(batch, {middle, members.end()});
+    std::vector<Evaluation> all = evaluate_in_parts(evaluate, {members.begin(), middle});
+    const std::vector<Evaluation> rest = evaluate_in_parts(evaluate, {middle, members.end()});
     all.insert(all.end(), rest.begin(), rest.end());
     return all;
 }
@@ -215,21 +215,22 @@ std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const s
                                  const BatchOptions& options) {
     if (uses_grid_kernels(scene, model, options)) return evaluate_on_grid<Real>(scene, model, members, options);
     Batch<Real> batch(scene, model, options);
-    return evaluate_in_parts(batch, members);
+    return evaluate_in_parts([&](const std::vector<BatchMember>& some) { return batch.evaluate(some); }, members);
 }
 
 /// Scheme `lattice`: some members at a time, by streams side by side, so that the host looks at some while the GPU goes
 /// on with others.
 std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox& box,
                                              const std::vector<BatchMember>& members, const BatchOptions& options) {
-    // populations, owners, keys and what cells hand over
-    constexpr double bytes_of_cell = 2 * 27 * sizeof(float) + 4 * sizeof(int) + 8 + 16;
+    constexpr double usable = 0.9;  // beside the bodies
     constexpr int max_streams = 3;
     std::size_t free = 0, all = 0;
     check(cudaMemGetInfo(&free, &all), "memory");
-    const double room = 0.95 * static_cast<double>(free) / (bytes_of_cell * box.cells.cast<double>().prod());
-    const Parts parts(static_cast<int>(members.size()), static_cast<int>(std::clamp(room / max_streams, 1.0, 1e6)),
-                      room < max_streams ? 1 : max_streams);
+    const double of_water = static_cast<double>(lattice::bytes_of_cell) * box.cells.cast<double>().prod(),
+                 room = usable * static_cast<double>(free) / of_water;
+    const int streams = static_cast<int>(std::clamp<double>(room, 1, max_streams));
+    const Parts parts(static_cast<int>(members.size()), static_cast<int>(std::clamp(room / streams, 1.0, 1e6)),
+                      streams);
     std::vector<Evaluation> evaluations(members.size());
     SharedGpu shared;
     EvaluationOptions how;
@@ -242,8 +243,9 @@ std::vector<Evaluation> evaluate_in_lattices(const Scene& scene, const WaterBox&
         [&](std::size_t stream) {
             for (int part = static_cast<int>(stream); part < parts.count; part += parts.streams) {
                 const auto first = members.begin() + parts.first(part);
-                const std::vector<Evaluation> some =
-                    evaluate_frame_by_frame(scene, {first, first + parts.size_of(part)}, how);
+                const std::vector<Evaluation> some = evaluate_in_parts(
+                    [&](const std::vector<BatchMember>& own) { return evaluate_frame_by_frame(scene, own, how); },
+                    {first, first + parts.size_of(part)});
                 std::copy(some.begin(), some.end(), evaluations.begin() + parts.first(part));
             }
         },

@@ -23,6 +23,12 @@ CubeBox cube_box(const Box& box, double extension);
 constexpr double overlap = 1.02;     ///< by this cubes that meet overlap, so that rounding leaves no gaps between them
 constexpr double min_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
 
+/// What a particle is pushed by, where the last impulse counts `kept` and the present one 1.
+template <class Vector>
+NATATOR_HD Vector running_mean(const Vector& given, double kept, const Vector& last) {
+    return (given + kept * last) / (1 + kept);
+}
+
 /// Rows.
 struct Matrix3 {
     Vec3<double> row[3];
@@ -56,9 +62,8 @@ NATATOR_HD void complete(Matrix3& gradient, const CubeAtRest& rest) {
         const double cosine = dot(e[0], along);
         for (const Vec3<double>& across : {e[1], e[2]}) {
             const Vec3<double> turned =
-                cosine > -1 + 1e-12
-                    ? cosine * across + cross(turn, across) + (dot(turn, across) / (1 + cosine)) * turn
-                    : -1.0 * across;
+                cosine > -1 + 1e-12 ? cosine * across + cross(turn, across) + (dot(turn, across) / (1 + cosine)) * turn
+                                    : -1.0 * across;
             add_outer(gradient, rest.half * turned, across);
         }
     }
@@ -85,7 +90,7 @@ NATATOR_HD Cube cube_of(const CubeAtRest& rest, const NearAtRest* near, int part
     const double of_place[3] = {x.x - box.corner.x, x.y - box.corner.y, x.z - box.corner.z};
     const double of_velocity[3] = {v.x, v.y, v.z};
     for (Vec3<double>& row : shape.row) row = {row.x / box.cell, row.y / box.cell, row.z / box.cell};
-    const Vec3<double> *const s = shape.row, across = cross(s[1], s[2]);
+    const Vec3<double>*const s = shape.row, across = cross(s[1], s[2]);
     const double volume = dot(s[0], across);
     const bool crushed = !(volume > min_volume * half * half * half);
     const Vec3<double> columns[3] = {across, cross(s[2], s[0]), cross(s[0], s[1])};  // of the inverse, times the volume

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "body_cubes.h"
 #include "physics/lattice.h"
 
 namespace natator::lattice {
@@ -51,10 +52,19 @@ CoupledBodies::CoupledBodies(const Model& model)
         obstacles_.push_back(cubes_of(one.obstacle, *model.water_box));
 }
 
+std::vector<Cube> CoupledBodies::obstacle_cubes() const {
+    std::vector<Cube> all;
+    for (const std::vector<Cube>& one : obstacles_) all.insert(all.end(), one.begin(), one.end());
+    return all;
+}
 int CoupledBodies::cubes() const {
     std::size_t count = spacing_.size();
-    for (const std::vector<Cube>& obstacle : obstacles_) count += obstacle.size();
+    for (const std::vector<Cube>& one : obstacles_) count += one.size();
     return static_cast<int>(count);
+}
+
+Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box) {
+    return (length / box.cell).array().round().matrix().cast<int>();
 }
 
 void Exchange::save(ByteWriter& to, const Water* water) const {
@@ -78,7 +88,7 @@ bool Exchange::restore(ByteReader from, int particles, const std::function<Water
     for (double* value : {&read.time, &read.step, &read.fastest}) from.read(*value);
     from.read(read.fastest_particle);
     if (read.impulses.size() != static_cast<std::size_t>(particles) || read.fastest_particle < 0 ||
-        read.fastest_particle >= std::max(1, particles))
+        read.fastest_particle >= std::max(1, particles) || read.fastest < 0)
         throw InputError("state: its water is not of these bodies");
     make().restore(from);
     *this = std::move(read);
@@ -148,8 +158,7 @@ void Coupling<Real>::push(State<Real>& state, double h) {
 
 template <class Real>
 void Coupling<Real>::shift(const Eigen::Vector3d& by) {
-    const Eigen::Vector3d cells = by / model_.water_box->cell;
-    if (water_) water_->shift(cells.array().round().matrix().template cast<int>());
+    if (water_) water_->shift(whole_cells(by, *model_.water_box));
 }
 
 template <class Real>
@@ -168,14 +177,12 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
         exchange_.fastest_particle = static_cast<int>(i);
     }
     std::vector<Cube> cubes = bodies_.immersed().cubes(places_, velocities_, box, h);
-    for (const std::vector<Cube>& obstacle : bodies_.obstacles())
-        cubes.insert(cubes.end(), obstacle.begin(), obstacle.end());
+    const std::vector<Cube> obstacles = bodies_.obstacle_cubes();
+    cubes.insert(cubes.end(), obstacles.begin(), obstacles.end());
     water_->advance(cubes, h, pushes_);
     const std::vector<Eigen::Vector3d> given = bodies_.immersed().impulses(pushes_, box, h);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        const double kept = bodies_.kept(static_cast<int>(i));
-        impulses[i] = (given[i] + kept * impulses[i]) / (1 + kept);
-    }
+    for (std::size_t i = 0; i < given.size(); ++i)
+        impulses[i] = running_mean(given[i], bodies_.kept(static_cast<int>(i)), impulses[i]);
     for (std::size_t i = 0; i < forces_.size(); ++i)
         if (i < given.size())
             forces_[i] += given[i] - bodies_.displaced()[i] * h * model_.parameters.gravity;
@@ -222,7 +229,9 @@ void Coupling<Real>::restore(ByteReader from) {
         return made ? *made : *water_;
     });
     if (made) water_ = std::move(made);
-    if (!has_water) water_.reset();
+    if (has_water) return;
+    water_.reset();
+    exchange_ = {};
 }
 
 template <class Real>

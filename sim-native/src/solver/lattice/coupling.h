@@ -26,13 +26,16 @@ public:
     double kept(int particle) const { return kept_[particle]; }
     /// Of each obstacle its cubes.
     const std::vector<std::vector<Cube>>& obstacles() const { return obstacles_; }
-    int cubes() const;  ///< of all
+    std::vector<Cube> obstacle_cubes() const;  ///< of all obstacles, one behind the other
+    int cubes() const;                         ///< of all
 
 private:
     std::vector<double> spacing_, displaced_, kept_;
     Immersed immersed_;
     std::vector<std::vector<Cube>> obstacles_;
 };
+
+Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box);
 
 /// All that goes from one substep to the next beside the water.
 struct Exchange {

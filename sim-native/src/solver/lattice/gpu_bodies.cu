@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "body_cubes.h"
 #include "coupling.h"
 #include "gpu_water.h"
@@ -47,13 +49,13 @@ __device__ void push_bodies(const ModelView<Real>&, const Slots<Real>& slots, in
     velocity = cuda::quad(xyz(velocity) + physics::cast<Real>(pushed.inverse_mass * given), velocity.w);
 }
 
-/// Whether the bodies of a State went on in this substep.
+/// Whether a State has become unstable, in this substep or before.
 template <class Real>
 __device__ bool is_over(const Slots<Real>& slots) {
     return static_cast<int>(slots.shared().bad >> 32 & 0x7fffffff) <= slots.substep;
 }
 
-/// Also in States that are over, whose water stays as it is.
+/// Makes the cubes of the particles as they are now. The water of States that are over stays as it is.
 template <class Real>
 __device__ void lay_out_cubes(const ModelView<Real>&, const Slots<Real>& slots, int p, const Bodies bodies,
                               WaterOnGpu* waters) {
@@ -63,6 +65,7 @@ __device__ void lay_out_cubes(const ModelView<Real>&, const Slots<Real>& slots, 
         if (p == 0) water.goes_on = 0;
         return;
     }
+    if (p >= bodies.particles) return;
     const auto place = [&](int other) { return of_particle(slots, slots.arrays.state_position, other); };
     const auto velocity = [&](int other) { return of_particle(slots, slots.arrays.state_velocity, other); };
     const auto h = static_cast<double>(slots.h);
@@ -86,8 +89,8 @@ __device__ Vec3<double> handed_on(const Push& push, double unit, const Vec3<doub
 
 inline constexpr int push_lanes = 8;
 
-/// Takes what the cubes are pushed by to the particles, as Immersed::impulses and Coupling::follow do; and looks whether
-/// the State can go on.
+/// Takes what the cubes are pushed by to the particles, as Immersed::impulses and Coupling::follow do; and looks
+/// whether the State can go on.
 template <class Real>
 __device__ void take_pushes(const ModelView<Real>&, const Slots<Real>& slots, int c, const Bodies bodies,
                             const WaterOnGpu* waters, double unit) {
@@ -121,7 +124,7 @@ __device__ void take_pushes(const ModelView<Real>&, const Slots<Real>& slots, in
     }
     const PushedParticle& pushed = bodies.pushed[c];
     Vec3<double>& impulse = water.impulses[c];
-    impulse = (given + pushed.kept * impulse) / (1 + pushed.kept);
+    impulse = running_mean(given, pushed.kept, impulse);
     if (water.forces) water.forces[c] += given - static_cast<double>(slots.h) * pushed.weight;
     if (c == 0 && __uint_as_float(static_cast<unsigned>(water.fastest >> 32)) > max_cells_per_substep) {
         atomicMin(&slots.shared().bad, now | ~static_cast<unsigned>(water.fastest));
@@ -133,8 +136,8 @@ template <class Real>
 class GpuBodies : public cuda::LatticeBodies<Real> {
 public:
     GpuBodies(const Model& model, int states)
-        : box_(*model.water_box), coupling_(model), waters_(states), staged_(states), of_state_(states) {
-        const Immersed& immersed = coupling_.immersed();
+        : box_(*model.water_box), coupled_(model), waters_(states), staged_(states), of_state_(states) {
+        const Immersed& immersed = coupled_.immersed();
         const int particles = immersed.particles();
         std::vector<PushedParticle> pushed(particles);
         std::vector<std::vector<NearAtRest>> given(particles);
@@ -146,20 +149,17 @@ public:
             }
         std::vector<NearAtRest> all_given;
         for (int p = 0; p < particles; ++p) {
-            const Eigen::Vector3d weight = coupling_.displaced()[p] * model.parameters.gravity;
+            const Eigen::Vector3d weight = coupled_.displaced()[p] * model.parameters.gravity;
             const auto begin = static_cast<int>(all_given.size());
             all_given.insert(all_given.end(), given[p].begin(), given[p].end());
-            pushed[p] = {{weight.x(), weight.y(), weight.z()},
-                         model.inverse_mass[p],
-                         coupling_.kept(p),
-                         pushed[p].handed,
-                         begin,
-                         static_cast<int>(all_given.size())};
+            pushed[p] = {
+                {weight.x(), weight.y(), weight.z()}, model.inverse_mass[p], coupled_.kept(p), pushed[p].handed, begin,
+                static_cast<int>(all_given.size())};
         }
         std::vector<int> of_cube;
         int particle = particles;
-        for (std::size_t k = 0; k < coupling_.obstacles().size(); ++k) {
-            of_cube.insert(of_cube.end(), coupling_.obstacles()[k].size(), particle);
+        for (std::size_t k = 0; k < coupled_.obstacles().size(); ++k) {
+            of_cube.insert(of_cube.end(), coupled_.obstacles()[k].size(), particle);
             particle += box_.obstacles[k].particles;
         }
         rest_ = DeviceBuffer<CubeAtRest>(immersed.rest());
@@ -167,34 +167,37 @@ public:
         pushed_ = DeviceBuffer<PushedParticle>(pushed);
         given_ = DeviceBuffer<NearAtRest>(all_given);
         of_cube_ = DeviceBuffer<int>(of_cube);
-        bodies_ = {particles,      coupling_.cubes(), box_.is_plane(), rest_.data(), near_.data(), pushed_.data(),
-                   given_.data(), of_cube_.data(),   cube_box(box_, immersed.extension())};
+        bodies_ = {particles,     coupled_.cubes(), box_.is_plane(),
+                   rest_.data(),  near_.data(),     pushed_.data(),
+                   given_.data(), of_cube_.data(),  cube_box(box_, immersed.extension())};
         cuda::wait_for_uploads();
     }
 
     void set_water(int k, WaterOnGpu* water) override { of_state_[k] = water; }
-    void begin() override {
+    void stage() override {
         for (std::size_t k = 0; k < of_state_.size(); ++k) staged_[k] = of_state_[k] ? *of_state_[k] : WaterOnGpu{};
     }
-    void end() override {
+    void take_back() override {
         for (std::size_t k = 0; k < of_state_.size(); ++k)
             if (of_state_[k]) *of_state_[k] = staged_[k];
     }
-    void launch_begin(const GridLaunch<Real>& launch) const override {
+    void launch_upload(const GridLaunch<Real>& launch) const override {
         copy(waters_.data(), staged_.data(), launch.stream);
     }
-    void launch_end(const GridLaunch<Real>& launch) const override {
+    void launch_download(const GridLaunch<Real>& launch) const override {
         copy(staged_.data(), waters_.data(), launch.stream);
     }
     void launch_push(const GridLaunch<Real>& launch) const override {
-        launch.template each_slot<push_bodies<Real>>(bodies_.particles, bodies_, static_cast<const WaterOnGpu*>(waters_.data()));
+        launch.template each_slot<push_bodies<Real>>(bodies_.particles, bodies_,
+                                                     static_cast<const WaterOnGpu*>(waters_.data()));
     }
     void launch_follow(const GridLaunch<Real>& launch) const override {
         const auto h = static_cast<double>(launch.slots.h);
-        launch.template report_slots<lay_out_cubes<Real>>(bodies_.particles, bodies_, waters_.data());
+        // At least by one thread, which looks whether the State is over.
+        launch.template report_slots<lay_out_cubes<Real>>(std::max(1, bodies_.particles), bodies_, waters_.data());
         launch_step(lattice_step(box_, h, bodies_.cubes), waters_.data(), launch.states, launch.stream);
-        launch.template each_slot<take_pushes<Real>, push_lanes>(bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()),
-                                                     impulse_unit(box_, h));
+        launch.template each_slot<take_pushes<Real>, push_lanes>(
+            bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()), impulse_unit(box_, h));
         cuda::check(cudaGetLastError(), "launch");
     }
 
@@ -204,7 +207,7 @@ private:
     }
 
     Box box_;
-    CoupledBodies coupling_;
+    CoupledBodies coupled_;
     DeviceBuffer<WaterOnGpu> waters_;
     cuda::HostBuffer<WaterOnGpu> staged_;
     std::vector<WaterOnGpu*> of_state_;

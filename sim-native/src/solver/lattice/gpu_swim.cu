@@ -14,9 +14,7 @@ GpuSwim::GpuSwim(const Model& model, int device, bool forces) : model_(model), d
 GpuWater& GpuSwim::water() {
     if (water_) return *water_;
     auto made = std::make_unique<GpuWater>(*model_.water_box, device_);
-    std::vector<Cube> obstacles;
-    for (const std::vector<Cube>& one : bodies_.obstacles()) obstacles.insert(obstacles.end(), one.begin(), one.end());
-    made->make_room(bodies_.cubes(), obstacles);
+    made->make_room(bodies_.cubes(), bodies_.obstacle_cubes());
     made->on_gpu().impulses = impulses_.data();
     made->on_gpu().forces = forces_.data();
     water_ = std::move(made);
@@ -33,6 +31,7 @@ WaterOnGpu* GpuSwim::begin(double time, double h) {
     }
     forces_.clear();
     exchange_.time = time;
+    exchange_.step = 0;  // until the update has been made
     cuda::wait_for_uploads();
     water_->on_gpu().goes_on = 1;
     return &water_->on_gpu();
@@ -49,8 +48,7 @@ void GpuSwim::end(double time, double h) {
 }
 
 void GpuSwim::shift(const Eigen::Vector3d& by) {
-    const Eigen::Vector3d cells = by / model_.water_box->cell;
-    if (water_) water_->shift(cells.array().round().matrix().template cast<int>());
+    if (water_) water_->shift(whole_cells(by, *model_.water_box));
 }
 
 GpuSwim::Numbers GpuSwim::numbers_of(const OnDevice& buffer) {
@@ -61,7 +59,7 @@ GpuSwim::Numbers GpuSwim::numbers_of(const OnDevice& buffer) {
 
 void GpuSwim::save(ByteWriter& to) const {
     Exchange all = exchange_;
-    all.impulses = numbers_of(impulses_);
+    if (water_) all.impulses = numbers_of(impulses_);
     all.save(to, water_.get());
 }
 
@@ -70,6 +68,7 @@ void GpuSwim::restore(ByteReader from) {
     try {
         if (!exchange_.restore(from, bodies_.immersed().particles(), [&]() -> Water& { return water(); })) {
             water_.reset();
+            exchange_ = {};
             return;
         }
     } catch (...) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "physics/lattice.h"
 #include "solver/solids/cuda/sums_of_warp.cuh"
@@ -131,12 +132,12 @@ __device__ void each_cell_around(const Step& step, const Cube& cube, float more,
         if (Key* const key = around.cell(step, k, x, here)) work(x, here, *key);
     }
 }
-/// Whether all cells beside that of a place in a cube are in the cube as well.
+/// Whether all cells beside that of a place in a cube are in the cube as well, and not only so by rounding.
 __device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
     if (cube.round) return false;
     for (int a = 0; a < 3; ++a) {
         const float* const row = cube.to_rest + 3 * a;
-        if (!(fabsf(place.xi[a]) + fabsf(row[0]) + fabsf(row[1]) + fabsf(row[2]) <= cube.edge)) return false;
+        if (!(fabsf(place.xi[a]) + fabsf(row[0]) + fabsf(row[1]) + fabsf(row[2]) <= cube.edge - 1e-4f)) return false;
     }
     return true;
 }
@@ -353,8 +354,7 @@ __device__ void add_push(const float (&j)[3], const float (&xi)[3], double (&sum
     }
 }
 
-/// The flags of the cells from `low` on, and one beside, inside `within`. Those outside count as held: no water comes
-/// from there.
+/// The flags of the cells from `low` on, and one beside, inside `within`, where all lie that are beside a held one.
 __device__ void find_flags(const Step& step, int p, const CellRange& within, const int (&low)[3], Flags& flags) {
     CellRange range;
     for (int a = 0; a < 3; ++a) {
@@ -453,8 +453,8 @@ __global__ void __launch_bounds__(push_block)
     double sums[push_numbers] = {};  // as Push has them
     const CellRange around = CellsAround(lattice, cube, 1).range;
     const auto in_part = [&](const int(&low)[3]) {
-        find_flags(step, p, around, low, flags);
         if (lane == 0) surface.count = 0;
+        find_flags(step, p, around, low, flags);
         int count[3];
         for (int a = 0; a < 3; ++a) count[a] = min(Flags::edge, around.low[a] + around.count[a] - low[a]);
         const int size = count[0] * count[1] * count[2];
@@ -636,8 +636,9 @@ void GpuWater::point_to_buffers() {
 void GpuWater::make_room(int cubes, const std::vector<Cube>& last) {
     choose();
     if (cubes_.size() < static_cast<std::size_t>(cubes)) {
-        cubes_ = cuda::DeviceBuffer<Cube>(cubes);
+        cuda::DeviceBuffer<Cube> more_cubes(cubes);
         pushes_ = cuda::DeviceBuffer<double>(static_cast<std::size_t>(cubes) * push_numbers);
+        cubes_ = std::move(more_cubes);
         point_to_buffers();
     }
     if (last.empty()) return;
@@ -770,7 +771,7 @@ void GpuWater::restore(ByteReader from) {
     populations_[0].upload(populations);
     owners_[0].upload(owners);
     cuda::wait_for_uploads();
-    on_gpu_.steps = begun ? 2 : 0;  // one is as good as any number
+    on_gpu_.steps = begun ? 2 : 0;  // an even number: the first buffer
     on_gpu_.last = around;
 }
 

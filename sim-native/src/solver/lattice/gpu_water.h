@@ -74,6 +74,10 @@ LatticeStep lattice_step(const Box& box, double h, int cubes);
 /// Asks for a step of so many waters.
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream);
 
+/// That a cell takes: populations, owners and the room for shifts of both, a key and what is handed over.
+constexpr std::size_t bytes_of_cell =
+    2 * physics::lattice_populations * sizeof(float) + 2 * sizeof(Owners) + sizeof(Key) + sizeof(Handover);
+
 /// A water in memory of a GPU.
 class GpuWater : public Water {
 public:
@@ -104,7 +108,9 @@ private:
     void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
     cuda::DeviceBuffer<float>& now() { return populations_[on_gpu_.steps % 2]; }
     const cuda::DeviceBuffer<float>& now() const { return populations_[on_gpu_.steps % 2]; }
-    float* at(const Eigen::Vector3i& place) const { return now().data() + lattice_.at(place.x(), place.y(), place.z()); }
+    float* at(const Eigen::Vector3i& place) const {
+        return now().data() + lattice_.at(place.x(), place.y(), place.z());
+    }
     void point_to_buffers();
 
     int device_;

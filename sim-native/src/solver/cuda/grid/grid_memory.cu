@@ -331,6 +331,7 @@ template <class Real>
 void GridMemory<Real>::set_idle(const std::vector<bool>& idle) {
     idle_.assign(idle.begin(), idle.end());
     device_idle_.upload(idle_);
+    wait_for_uploads();
 }
 
 template class GridMemory<float>;

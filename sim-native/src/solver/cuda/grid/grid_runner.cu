@@ -167,11 +167,11 @@ void GridRunner<Real>::launch(const Update& update, StageClock* clock, const Tra
     const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
     copy_row(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
     if (lattice_)
-        lattice_->launch_begin(base_);
+        lattice_->launch_upload(base_);
     else
         memory_.keep_before();
     launch_substeps(update, update.substeps, clock, trace);
-    if (lattice_) lattice_->launch_end(base_);
+    if (lattice_) lattice_->launch_download(base_);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
     copy_row(end_.data(), base_.slots.arrays.shared, base_.states, base_.stream);
@@ -234,7 +234,7 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
                                                                   const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
-    if (lattice_) lattice_->begin();
+    if (lattice_) lattice_->stage();
     for (;;) {
         clock.reset();
         if (profile) clock.emplace(base_.stream);
@@ -247,7 +247,7 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
         for (int k = 0; k < base_.states; ++k)
             memory_.restore_before(k);  // and once more, with room for all neighbours
     }
-    if (lattice_) lattice_->end();
+    if (lattice_) lattice_->take_back();
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;
     for (int k = 0; k < base_.states; ++k) ends.push_back(end_of(k));

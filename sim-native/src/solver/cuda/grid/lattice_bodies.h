@@ -23,15 +23,15 @@ public:
     /// as it is. Each update leaves there what it has come to.
     virtual void set_water(int k, lattice::WaterOnGpu* water) = 0;
     /// Asks for these on the stream of a launch: before the first substep of an update, and behind the last.
-    virtual void launch_begin(const GridLaunch<Real>& launch) const = 0;
-    virtual void launch_end(const GridLaunch<Real>& launch) const = 0;
+    virtual void launch_upload(const GridLaunch<Real>& launch) const = 0;
+    virtual void launch_download(const GridLaunch<Real>& launch) const = 0;
     /// Before a substep of the bodies: gives them what the water gave them, and their weight in it; behind it: the
     /// water's step.
     virtual void launch_push(const GridLaunch<Real>& launch) const = 0;
     virtual void launch_follow(const GridLaunch<Real>& launch) const = 0;
-    /// To be called between updates: hands what they begin with over to the device's side, and back.
-    virtual void begin() = 0;
-    virtual void end() = 0;
+    /// To be called before an update and behind it: where uploads take from, and downloads put, what the waters are.
+    virtual void stage() = 0;
+    virtual void take_back() = 0;
 };
 
 }  // namespace natator::cuda
