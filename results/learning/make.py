@@ -10,13 +10,17 @@ from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
-LEVELS = {"scene": {}, "step": {"solver": {"substeps": 48}}}
+HALF_CELLS = {"count": [320, 1, 160], "spacing": 0.01, "origin": [0.005, 0.01, 0.005], "mass": {"bottom": 0.25}}
+LEVELS = {"scene": {}, "step": {"solver": {"substeps": 48}}, "cells": {"solver": {"substeps": 48}, "fluid": HALF_CELLS}}
+LEARNED = (1, 2, 3)  # seeds
 STARTS, SEEDS = range(1000, 1016), range(500, 516)
 REST, STRAIGHT = [-1.0] * 5 + [0.0] * 5, [1.0] * 5 + [0.0] * 5
+TASKS = ("turn", "station", "ahead")
 BENDS = (0.1, 0.2, 0.4)  # largest actions of the rule that steers
 HEAD = ["task", "swimmer", "level", "start", "return", "time", "reached", "unstable", "away"]
-NAMES = {"turn-1": "learned", "steered-0.1": "evolved gait, steered by at most 0.05", "steered-0.2": "by at most 0.1",
-         "steered-0.4": "by at most 0.2", "station-1": "learned", "rest": "resting body", "evolved": "evolved gait", "ahead-1": "learned"}
+NAMES = {"steered-0.2": "evolved gait, steered by at most 0.1",
+         "steered-0.4": "by at most 0.2", "rest": "resting body", "evolved": "evolved gait",
+         **{f"{task}-{seed}": f"learned, seed {seed}" for task in TASKS for seed in LEARNED}}
 
 
 def rows(name):
@@ -45,15 +49,15 @@ def swimmers(task):
     evolved.environment["gait"] = json.loads((HERE / "../schools/gait.json").read_text(encoding="utf-8"))
     gaits = {"turn": [(f"steered-{largest}", steered(largest)) for largest in BENDS],
              "station": [("rest", constant(REST)), ("evolved", constant(STRAIGHT))], "ahead": [("evolved", constant(STRAIGHT))]}[task]
-    return [(f"{task}-1", Policy(HERE / f"{task}-1/policy.json"), None)] + [(name, evolved, act) for name, act in gaits]
+    return [(f"{task}-{seed}", Policy(HERE / f"{task}-{seed}/policy.json"), None) for seed in LEARNED] + [(name, evolved, act) for name, act in gaits]
 
 
 def run():
-    """Swims what the rows lack: of all on a core of a server 20 minutes."""
+    """Swims what the rows lack: of all on two cores of a server half an hour."""
     done = [list(row.values()) for row in rows("swims.csv")] if (HERE / "swims.csv").exists() else []
     paths = [list(row.values()) for row in rows("paths.csv.gz")] if (HERE / "paths.csv.gz").exists() else []
     for level, overrides in LEVELS.items():
-        for task in ("turn", "station", "ahead"):
+        for task in TASKS:
             for name, policy, act in swimmers(task):
                 if any(row[:3] == [task, name, level] for row in done):
                     continue
@@ -81,12 +85,14 @@ def cell(values):
 
 def curves(folder):
     figure, axes = study.pyplot.subplots(figsize=(7, 3.2))
-    for task in ("turn", "station", "ahead"):
-        seconds, episodes, means = (np.array([float(row[key]) for row in rows(f"{task}-1/curve.csv")]) for key in ("seconds", "episodes", "mean_return"))
-        bins = (seconds - seconds[0]) // 8
-        axes.plot([8 * (one + 0.5) for one in np.unique(bins)],
-                  [np.average(means[bins == one], weights=episodes[bins == one]) for one in np.unique(bins)], marker=".", label=task)
-    axes.set(xlabel="time since the first episode ended, s", ylabel="mean return, body lengths")
+    for colour, task in enumerate(TASKS):
+        for seed in LEARNED:
+            seconds, episodes, means = (np.array([float(row[key]) for row in rows(f"{task}-{seed}/curve.csv")]) for key in ("seconds", "episodes", "mean_return"))
+            bins = seconds // 8
+            axes.plot([8 * (one + 0.5) for one in np.unique(bins)],
+                      [np.average(means[bins == one], weights=episodes[bins == one]) for one in np.unique(bins)],
+                      marker=".", color=f"C{colour}", label=task if seed == LEARNED[0] else None)
+    axes.set(xlabel="s", ylabel="mean return, body lengths")
     axes.legend()
     finish(figure, folder / "curve.png")
 
@@ -95,7 +101,7 @@ def paths(folder):
     figure, all_axes = study.pyplot.subplots(1, 3, figsize=(9, 3.3), width_ratios=[1.2, 1.6, 1.6])
     box = {task: json.loads((HERE / f"{task}-1/policy.json").read_text(encoding="utf-8"))["environment"]["target"] for task in ("turn", "station")}
     places = rows("paths.csv.gz")
-    for axes, (task, name, title) in zip(all_axes, (("turn", "turn-1", "learned turns"), ("station", "station-1", "learned stations"),
+    for axes, (task, name, title) in zip(all_axes, (("turn", "turn-1", "turns, seed 1"), ("station", "station-1", "stations, seed 1"),
                                                     ("station", "rest", "resting in the current"))):
         for number, (start, seed) in enumerate(zip(STARTS, SEEDS)):
             own = [row for row in places if (row["task"], row["swimmer"], int(row["start"])) == (task, name, start)]
@@ -128,26 +134,37 @@ def make(folder):
     def there(name, level):
         return int(sum(of("turn", name, level, "reached")))
 
-    def told(task):
-        return list(dict.fromkeys(row["swimmer"] for row in swum if row["task"] == task))
+    def table(task, first, cell_of):
+        told = dict.fromkeys(row["swimmer"] for row in sorted(swum, key=lambda row: not row["swimmer"].startswith(task))
+                             if row["task"] == task and row["swimmer"] in NAMES)
+        return study.table([first[0], first[1], "at half the time step", "in half the cells"],
+                           [[NAMES[name], *(cell_of(name, level) for level in LEVELS)] for name in told])
 
-    turn = study.table(["to a target", "reached, of 16", "s, those", "at half the time step", "s, those"], [
-        [NAMES[name], *(text for level in LEVELS for text in (
-            str(there(name, level)), cell(of("turn", name, level, "time", lambda row: float(row["reached"])))))] for name in told("turn")])
-    station = study.table(["in a current of 0.4", "body lengths away", "at half the time step"], [
-        [NAMES[name], *(cell(of("station", name, level, "away")) for level in LEVELS)] for name in told("station")])
-    ahead = study.table(["ahead", "body lengths/s", "at half the time step"], [
-        [NAMES[name], *(cell([one / 4 for one in of("ahead", name, level, "return")]) for level in LEVELS)] for name in told("ahead")])
-    trainings = study.table(["task", "steps of 0.1 s", "s", "steps/s"], [
-        [row["task"], row["steps"], row["seconds"], f"{int(row['steps']) / int(row['seconds']):.0f}"] for row in rows("trainings.csv")])
-    def both(task, name, key, part=1):
-        """A mean, and that at half the time step."""
-        return "{:.2f} ({:.2f} at half the time step)".format(*(statistics.fmean(of(task, name, level, key)) / part for level in LEVELS))
-    rest, gait = statistics.fmean(of("station", "rest", "scene", "away")), statistics.fmean(of("ahead", "evolved", "scene", "return")) / 4
-    answer = (f"**In about a minute PPO learns to reach {there('turn-1', 'scene')} of 16 targets ({there('turn-1', 'step')} at half the time step) and to "
-              f"stay on average {both('station', 'station-1', 'away')} body lengths from a station in a current, where a resting body is {rest:.2f} away; "
-              f"but a rule that bends the evolved gait reaches {there('steered-0.4', 'scene')}, and ahead that gait makes {gait:.2f} body "
-              f"lengths/s, what is learned {both('ahead', 'ahead-1', 'return', 4)}.**\n")
+    def ends(value, names):
+        """The least and the greatest, at all levels."""
+        values = sorted(value(name, level) for name in names for level in LEVELS)
+        return " to ".join(dict.fromkeys(f"{one:.3g}" for one in (values[0], values[-1])))
+
+    def learned(task, value):
+        return ends(value, [f"{task}-{seed}" for seed in LEARNED])
+
+    def mean(task, key, part=1):
+        return lambda name, level: round(statistics.fmean(of(task, name, level, key)) / part, 2)
+
+    def seconds(name, level):
+        return cell(of("turn", name, level, "time", lambda row: float(row["reached"])))
+    turn = table("turn", ("to a target", "reached, of 16; s, those"),
+                 lambda name, level: f"{there(name, level)}; {seconds(name, level)}" if level == "scene" else str(there(name, level)))
+    station = table("station", ("in a current of 0.4", "body lengths away"), lambda name, level: cell(of("station", name, level, "away")))
+    ahead = table("ahead", ("ahead", "body lengths/s"), lambda name, level: cell([one / 4 for one in of("ahead", name, level, "return")]))
+    trained = rows("trainings.csv")
+    speeds = sorted(int(row["steps"]) / int(row["seconds"]) for row in trained)
+    trainings = f"Of {speeds[0]:.0f} to {speeds[-1]:.0f} steps/s each (0.1 s), learning included,\n"
+    forward, away = mean("ahead", "return", 4), mean("station", "away")
+    answer = (f"**In {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns, by three seeds, at half the time step and in half the cells, too, to swim ahead at "
+              f"{learned('ahead', forward)} body lengths/s (the evolved gait: {ends(forward, ['evolved'])}), to reach {learned('turn', there)} of 16 targets (a rule that bends "
+              f"that gait: {ends(there, ['steered-0.4'])}), and to stay on average {learned('station', away)} body lengths from a station in a current (a resting body: "
+              f"{ends(away, ['rest'])}).**\n")
     curves(folder)
     paths(folder)
     page = study.filled(HERE / "README.md", answer=answer, turn=turn, station=station, ahead=ahead, trainings=trainings)
