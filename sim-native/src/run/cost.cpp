@@ -29,7 +29,7 @@ struct Room {
     }
 };
 // As measured, with the room that growing arrays leave.
-constexpr Room of_program{7e6, 0}, of_particle{220, 48}, of_water_particle{40, 50}, of_ghost{60, 36}, of_contact{24, 1},
+constexpr Room of_program{7e6, 0}, of_particle{150, 48}, of_water_particle{40, 50}, of_ghost{60, 36}, of_contact{24, 1},
     of_spring{80, 4}, of_member{56, 6}, of_cell{28, 0}, of_neighbour{4, 0}, of_water_neighbour{4, 4};
 constexpr double growth = 1.5;                      // of a list that gets too short
 constexpr Room of_part{5, 0}, of_water_part{5, 1};  // of a list that several threads put together, an entry
