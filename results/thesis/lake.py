@@ -7,8 +7,8 @@
     for one in 1 2 3 4; do python3 lake.py record creature-$one; done > lake/motions.jsonl
     ../redo.sh thesis                                       # tables/lake.csv, tables/lake-motions.csv and the page
 
-So were the rows made on an H200, by a build of commit 795659c5 that computes several lakes in one launch and rounds otherwise; those in vacuum, `until walls` and
-recorded ones on a CPU. Of `until walls` not every start has a row."""
+So were the rows made on an H200, by a build of commit 795659c5 that computes several lakes in one launch and rounds otherwise; those in vacuum, `until walls`,
+mirrored and recorded ones on a CPU."""
 import csv
 import gzip
 import json
@@ -20,6 +20,7 @@ import numpy as np
 
 import lakes
 import measured
+import plan
 from measured import Sample
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -29,10 +30,10 @@ LENGTH, HEIGHT = 2.85, 1.2  # of the tank, which goes along with its swimmer
 LAKES = {"creature-1": (1.2, 0.8, False, 360), "creature-2": (1.8, 0.72, True, 190), "creature-3": (1.2, 0.575, False, 360), "creature-4": (1.2, 0.645, False, 360),
          "creature-2-between-walls": (1.2, 0.72, False, 360)}
 # Of each condition: cells and steps so many times as fine, seconds, starts.
-SWIMS = {"water": (1, 1, 2, range(101, 105)), "half step": (1, 2, 2, (101, 102)), "half cells": (2, 1, 2, (101, 102)), "resting": (1, 1, 2, (101,)), "longer": (1, 1, 4, (101,)),
+SWIMS = {"water": (1, 1, 2, range(101, 105)), "half step": (1, 2, 2, (101, 102)), "half cells": (2, 1, 2, (101, 102)), "mirrored": (1, 1, 2, (101, 102)), "resting": (1, 1, 2, (101,)), "longer": (1, 1, 4, (101,)),
          "vacuum": (1, 2, 2, (101,)), "until walls": (1, 1, 2, range(105, 109))}
-UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, range(1001, 1009)), "half cells": (2, 1, 4, range(1001, 1005)), "resting": (1, 1, 4, (1001,)),
-               "vacuum": (1, 2, 2, (101,))}
+UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, range(1001, 1009)), "half cells": (2, 1, 4, range(1001, 1005)), "mirrored": (1, 1, 4, (1001, 1002)),
+               "resting": (1, 1, 4, (1001,)), "vacuum": (1, 2, 2, (101,))}
 
 
 def tank(evolution, finer=1, steps=1, seconds=2, until_walls=None, length=LENGTH, width=None):
@@ -61,8 +62,7 @@ def requests():
         changes = tank(evolution, *asked[:3], until_walls=True if condition == "until walls" else None)
         if condition == "vacuum":
             changes |= {"fluid": None, "planes": [], "movingTank": None}
-        if condition == "resting":
-            own = {**own, "amplitude": [0.0] * len(own["amplitude"])}
+        own = {"resting": plan.resting, "mirrored": plan.mirrored}.get(condition, dict)(own)
         yield {"id": number, "scene": scene(evolution), "overrides": changes, "gait": own, "start": start}
 
 
@@ -166,24 +166,24 @@ class Lake:
 
     def verdict(self, swimmer):
         """(✔ ✘ or –, why): it swims if it gets further than a resting body by a twentieth of its length, on its own and not in vacuum, and has more than half
-        of its speed and less than one and a half at half the step and at half the cells."""
+        of its speed and less than one and a half at half the step, at half the cells and mirrored."""
         length, speed, rest = self.motions[swimmer[0].removesuffix("-between-walls")]["bodyLength"], self.speeds(swimmer), self.speeds(swimmer, "resting").mean
         least = 0.05 * length / self.lasts(swimmer)
         if speed.mean - rest < least or abs(self.speeds(swimmer, "vacuum").mean) > (speed.mean - rest) / 2:
             return "✘", "no further than at rest, or in vacuum"
-        doubts = [f"{measured.percent(1 + change)} of its speed at {condition.replace('half', 'half the')}" for condition in ("half step", "half cells")
-                  if not abs(change := self.change(swimmer, condition)) < 0.5]
+        doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in
+                  (("half step", "at half the step"), ("half cells", "at half the cells"), ("mirrored", "mirrored")) if not abs(change := self.change(swimmer, condition)) < 0.5]
         doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * self.walls(swimmer)
         broken = sum(one["status"] != "ok" for runs in self.runs[swimmer].values() for one in runs)
         return ("–", "; ".join(doubts + [f"{broken} unstable"] * (broken > 0))) if doubts or broken else ("✔", "swims by every control")
 
     def table(self):
         """Every seed, CSV."""
-        made = [["evolution", "seed", "units/s ± interval", "starts", "lasts (s)", "over 4 s", "half step", "half cells", "at rest", "in vacuum", "Re", "St", "verdict", "why"]]
+        made = [["evolution", "seed", "units/s ± interval", "starts", "lasts (s)", "over 4 s", "half step", "half cells", "mirrored", "at rest", "in vacuum", "Re", "St", "verdict", "why"]]
         for one in sorted(self.runs):
             speed, (re, st) = self.speeds(one), self.numbers(one)
             made.append([one[0], str(one[1]), measured.with_error(speed.mean, speed.interval, 3), str(speed.count), measured.fixed(self.lasts(one), 1),
-                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" for condition in ("half step", "half cells")),
+                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" for condition in ("half step", "half cells", "mirrored")),
                          *(measured.fixed(self.speeds(one, condition).mean, 3) for condition in ("resting", "vacuum")), measured.fixed(re, 0), measured.fixed(st), *self.verdict(one)])
         return made
 
