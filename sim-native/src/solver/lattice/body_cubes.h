@@ -69,6 +69,16 @@ NATATOR_HD void complete(Matrix3& gradient, const CubeAtRest& rest) {
     }
 }
 
+/// Where a place is in cells from the centre of the first one; inside periodic ends.
+NATATOR_HD void middle_of(const Vec3<double>& place, const CubeBox& box, float (&to)[3]) {
+    const double from_corner[3] = {place.x - box.corner.x, place.y - box.corner.y, place.z - box.corner.z};
+    for (int a = 0; a < 3; ++a) {
+        double middle = from_corner[a] / box.cell - 0.5;
+        if (box.around[a] > 0) middle -= box.around[a] * floor(middle / box.around[a]);
+        to[a] = static_cast<float>(middle);
+    }
+}
+
 /// `place` and `velocity` give those of a particle, length and length/s; in a step of so long, s.
 template <class Places, class Velocities>
 NATATOR_HD Cube cube_of(const CubeAtRest& rest, const NearAtRest* near, int particle, const Places& place,
@@ -87,7 +97,7 @@ NATATOR_HD Cube cube_of(const CubeAtRest& rest, const NearAtRest* near, int part
     const double per_step = step / box.cell, half = rest.half / box.cell;
     Cube cube{};
     cube.edge = static_cast<float>(overlap + box.extension / half);
-    const double of_place[3] = {x.x - box.corner.x, x.y - box.corner.y, x.z - box.corner.z};
+    middle_of(x, box, cube.x);
     const double of_velocity[3] = {v.x, v.y, v.z};
     for (Vec3<double>& row : shape.row) row = {row.x / box.cell, row.y / box.cell, row.z / box.cell};
     const Vec3<double>*const s = shape.row, across = cross(s[1], s[2]);
@@ -95,9 +105,6 @@ NATATOR_HD Cube cube_of(const CubeAtRest& rest, const NearAtRest* near, int part
     const bool crushed = !(volume > min_volume * half * half * half);
     const Vec3<double> columns[3] = {across, cross(s[2], s[0]), cross(s[0], s[1])};  // of the inverse, times the volume
     for (int a = 0; a < 3; ++a) {
-        double middle = of_place[a] / box.cell - 0.5;
-        if (box.around[a] > 0) middle -= box.around[a] * floor(middle / box.around[a]);
-        cube.x[a] = static_cast<float>(middle);
         cube.v[a] = static_cast<float>(of_velocity[a] * per_step);
         const double of_rate[3] = {rate.row[a].x, rate.row[a].y, rate.row[a].z};
         for (int b = 0; b < 3; ++b) cube.rate[3 * a + b] = static_cast<float>(of_rate[b] * per_step);

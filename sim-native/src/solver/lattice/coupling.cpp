@@ -48,19 +48,11 @@ CoupledBodies::CoupledBodies(const Model& model)
         const double of_size = std::max(1.0, 2 * model.water_box->cell / spacing_[i]);
         kept_.push_back(of_size * std::max(1.0, displaced_[i] * model.inverse_mass[i]));
     }
-    for (const WaterObstacle& one : model.water_box->obstacles)
-        obstacles_.push_back(cubes_of(one.obstacle, *model.water_box));
-}
-
-std::vector<Cube> CoupledBodies::obstacle_cubes() const {
-    std::vector<Cube> all;
-    for (const std::vector<Cube>& one : obstacles_) all.insert(all.end(), one.begin(), one.end());
-    return all;
-}
-int CoupledBodies::cubes() const {
-    std::size_t count = spacing_.size();
-    for (const std::vector<Cube>& one : obstacles_) count += one.size();
-    return static_cast<int>(count);
+    for (const WaterObstacle& one : model.water_box->obstacles) {
+        const std::vector<Cube> own = cubes_of(one.obstacle, *model.water_box);
+        cubes_of_obstacles_.push_back(own.size());
+        obstacle_cubes_.insert(obstacle_cubes_.end(), own.begin(), own.end());
+    }
 }
 
 Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box) {
@@ -125,8 +117,8 @@ std::vector<Vector3<Real>> mean_forces(const Model& model, const CoupledBodies& 
     for (std::size_t i = 0; i < particles; ++i) mean[i] = (sums[i] / time).template cast<Real>();
     auto cube = sums.begin() + static_cast<std::ptrdiff_t>(particles);
     auto particle = mean.begin() + static_cast<std::ptrdiff_t>(particles);
-    for (std::size_t k = 0; k < bodies.obstacles().size(); ++k) {
-        const auto end = cube + static_cast<std::ptrdiff_t>(bodies.obstacles()[k].size());
+    for (std::size_t k = 0; k < bodies.cubes_of_obstacles().size(); ++k) {
+        const auto end = cube + static_cast<std::ptrdiff_t>(bodies.cubes_of_obstacles()[k]);
         const int shared_by = model.water_box->obstacles[k].particles;
         const Eigen::Vector3d sum = std::accumulate(cube, end, Eigen::Vector3d::Zero().eval());
         std::fill_n(particle, shared_by, (sum / std::max(1, shared_by) / time).template cast<Real>().eval());
@@ -177,7 +169,7 @@ void Coupling<Real>::follow(const State<Real>& state, double h, double time) {
         exchange_.fastest_particle = static_cast<int>(i);
     }
     std::vector<Cube> cubes = bodies_.immersed().cubes(places_, velocities_, box, h);
-    const std::vector<Cube> obstacles = bodies_.obstacle_cubes();
+    const std::vector<Cube>& obstacles = bodies_.obstacle_cubes();
     cubes.insert(cubes.end(), obstacles.begin(), obstacles.end());
     water_->advance(cubes, h, pushes_);
     const std::vector<Eigen::Vector3d> given = bodies_.immersed().impulses(pushes_, box, h);
@@ -197,8 +189,8 @@ template <class Real>
 std::optional<int> Coupling<Real>::first_not_finite() const {
     std::size_t push = bodies_.displaced().size();
     auto particle = static_cast<int>(push);
-    for (std::size_t k = 0; k < bodies_.obstacles().size(); ++k) {
-        for (const std::size_t end = push + bodies_.obstacles()[k].size(); push < end; ++push)
+    for (std::size_t k = 0; k < bodies_.cubes_of_obstacles().size(); ++k) {
+        for (const std::size_t end = push + bodies_.cubes_of_obstacles()[k]; push < end; ++push)
             if (!Eigen::Map<const Eigen::Vector3d>(pushes_[push].j).allFinite()) return particle;
         particle += model_.water_box->obstacles[k].particles;
     }

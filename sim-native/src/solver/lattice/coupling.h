@@ -24,15 +24,16 @@ public:
     const std::vector<double>& displaced() const { return displaced_; }
     /// Of what a particle's last impulse counts in the running mean, see Coupling; the present one counts 1.
     double kept(int particle) const { return kept_[particle]; }
-    /// Of each obstacle its cubes.
-    const std::vector<std::vector<Cube>>& obstacles() const { return obstacles_; }
-    std::vector<Cube> obstacle_cubes() const;  ///< of all obstacles, one behind the other
-    int cubes() const;                         ///< of all
+    /// Of all obstacles, one behind the other, and how many each has.
+    const std::vector<Cube>& obstacle_cubes() const { return obstacle_cubes_; }
+    const std::vector<std::size_t>& cubes_of_obstacles() const { return cubes_of_obstacles_; }
+    int cubes() const { return static_cast<int>(spacing_.size() + obstacle_cubes_.size()); }  ///< of all
 
 private:
     std::vector<double> spacing_, displaced_, kept_;
     Immersed immersed_;
-    std::vector<std::vector<Cube>> obstacles_;
+    std::vector<Cube> obstacle_cubes_;
+    std::vector<std::size_t> cubes_of_obstacles_;
 };
 
 Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box);

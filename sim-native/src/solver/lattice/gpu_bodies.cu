@@ -158,8 +158,8 @@ public:
         }
         std::vector<int> of_cube;
         int particle = particles;
-        for (std::size_t k = 0; k < coupled_.obstacles().size(); ++k) {
-            of_cube.insert(of_cube.end(), coupled_.obstacles()[k].size(), particle);
+        for (std::size_t k = 0; k < coupled_.cubes_of_obstacles().size(); ++k) {
+            of_cube.insert(of_cube.end(), coupled_.cubes_of_obstacles()[k], particle);
             particle += box_.obstacles[k].particles;
         }
         rest_ = DeviceBuffer<CubeAtRest>(immersed.rest());

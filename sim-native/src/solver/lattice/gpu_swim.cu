@@ -28,11 +28,14 @@ WaterOnGpu* GpuSwim::begin(double time, double h) {
         if (!box.current.isZero(0)) water().set_cells({0, box.current * h / box.cell});
         water();
         impulses_.clear();
+        cuda::wait_for_uploads();
     }
-    forces_.clear();
+    if (forces_.size() > 0) {
+        forces_.clear();
+        cuda::wait_for_uploads();
+    }
     exchange_.time = time;
     exchange_.step = 0;  // until the update has been made
-    cuda::wait_for_uploads();
     water_->on_gpu().goes_on = 1;
     return &water_->on_gpu();
 }

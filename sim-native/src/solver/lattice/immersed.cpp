@@ -16,24 +16,16 @@ physics::Vec3<double> to_vec3(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// Of a cube, in cells from the centre of the first one; inside periodic ends.
-Eigen::Vector3d middle_of(const Eigen::Vector3d& place, const Box& box) {
-    Eigen::Vector3d middle = (place - box.corner) / box.cell - Eigen::Vector3d::Constant(0.5);
-    for (int a = 0; a < 3; ++a)
-        if (box.faces[a][0] == Face::periodic && box.cells[a] > 1)
-            middle[a] -= box.cells[a] * std::floor(middle[a] / box.cells[a]);
-    return middle;
-}
-
 }  // namespace
 
 std::vector<Cube> cubes_of(const Obstacle& obstacle, const Box& box) {
     std::vector<Cube> cubes;
+    const CubeBox within = cube_box(box, surface_offset);
     const auto add = [&](const Eigen::Vector3d& place, const Eigen::Vector3d& half) {
         Cube& cube = cubes.emplace_back();
-        const Eigen::Vector3d middle = middle_of(place, box), reach = (half / box.cell).array() + surface_offset;
+        const Eigen::Vector3d reach = (half / box.cell).array() + surface_offset;
+        middle_of(to_vec3(place), within, cube.x);
         for (int a = 0; a < 3; ++a) {
-            cube.x[a] = static_cast<float>(middle[a]);
             cube.to_rest[4 * a] = static_cast<float>(1 / reach[a]);
             cube.reach[a] = static_cast<float>(reach[a]);
         }
