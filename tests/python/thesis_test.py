@@ -150,11 +150,11 @@ class Verdicts(unittest.TestCase):
     def test_each_control_of_a_lake_can_fail(self):
         found, eel = lake.Lake(PAGE / "nowhere"), ("eel", 1)
         found.motions = {"eel": {"bodyLength": 1.0}}
-        good = {"water": (0.8, 0.82), "resting": (0.0,), "vacuum": (0.0,), "half step": (0.7,), "half cells": (0.9,), "until walls": (0.8, 0.81)}
+        good = {"water": (0.8, 0.82), "resting": (0.0,), "vacuum": (0.0,), "half step": (0.7,), "half cells": (0.9,), "mirrored": (0.78,), "until walls": (0.8, 0.81)}
         for changed, sign, words in (
                 ({}, "✔", "swims"), ({"water": (0.02, 0.03), "until walls": ()}, "✘", "no further"), ({"vacuum": (-0.5,)}, "✘", "in vacuum"),
                 ({"half step": (0.3,)}, "–", "37 % of its speed at half the step"), ({"half cells": (1.3,)}, "–", "161 % of its speed at half the cells"),
-                ({"water": (0.1, 1.6), "until walls": ()}, "–", "differ too much")):
+                ({"mirrored": (0.3,)}, "–", "37 % of its speed mirrored"), ({"water": (0.1, 1.6), "until walls": ()}, "–", "differ too much")):
             found.runs = {eel: {name: swims(*ways, simulated=2.0) for name, ways in {**good, **changed}.items()}}
             verdict = found.verdict(eel)
             self.assertEqual((sign, True), (verdict[0], words in verdict[1]), (changed, verdict))
