@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -89,8 +90,11 @@ private:
     void transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes);
     void release(const std::vector<Cube>& cubes, std::vector<Push>& pushes);
     void remember();
-    void exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes);
-    const Populations& after_collision(long cell, const physics::LatticeRates& rates);
+    void cells_beside(const BodyCell& held, long (&to)[physics::lattice_populations]) const;
+    int place_to_collide(long cell);
+    void find_surface();
+    void exchange(const View& lattice, const Kernels<float>& kernel, const physics::LatticeRates& rates,
+                  std::vector<Push>& pushes);
     static void add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int cells_[3], stride_;
@@ -109,9 +113,17 @@ private:
     bool periodic_[3];
     Array inflow_[physics::lattice_populations];  ///< rows of what comes in at open ends, if there are any
     double step_let_in_ = 0;                      ///< for which these were made, s
-    std::vector<int> made_of_;                    ///< by cell: place in made_, -1: none
-    std::vector<Populations> made_;
-    std::vector<long> made_cells_;
+    /// A body's cell with water beside it.
+    struct Surface {
+        const BodyCell* held;
+        int own;        ///< its place in to_collide_
+        unsigned from;  ///< a bit of each population that comes from water; the places of those are next in sources_
+    };
+    std::vector<Surface> surface_;
+    std::vector<int> sources_;
+    std::vector<long> to_collide_;   ///< the cells whose populations after collision push bodies
+    std::vector<int> collided_of_;   ///< by cell: place in to_collide_, -1: none
+    std::vector<float> collided_;    ///< those populations, as the kernel lays them out
     std::vector<Array> rooms_;
     cpu::ThreadTeam team_;
     long beside_[physics::lattice_populations];  ///< from a cell to where each population streams to, but at ends
@@ -135,7 +147,7 @@ CpuWater::CpuWater(const Box& box, int threads)
     row_changes_.assign(static_cast<std::size_t>(cells_[1]) * cells_[2], 0);
     owner_.assign(size, -1);
     chosen_.assign(size, -1);
-    made_of_.assign(size, -1);
+    collided_of_.assign(size, -1);
     for (int a = 0; a < 3; ++a) periodic_[a] = box.faces[a][0] == Face::periodic;
 }
 
@@ -213,6 +225,18 @@ void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vect
     }
 }
 
+/// The cells that populations stream to from a body's; beyond a wall that itself.
+void CpuWater::cells_beside(const BodyCell& held, long (&to)[physics::lattice_populations]) const {
+    const int here[3] = {held.x, held.y, held.z};
+    const bool at_end = is_at_end(here);
+    for (int i = 0; i < physics::lattice_populations; ++i) {
+        int cell[3];
+        to[i] = !at_end                                        ? held.cell + beside_[i]
+                : neighbour(i, here, cells_, periodic_, cell) ? place(cell[0], cell[1], cell[2])
+                                                               : held.cell;
+    }
+}
+
 /// The cells in bodies are to have these velocities. What those that a body comes to cover have more than it goes to
 /// the body and the water beside them.
 void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& pushes) {
@@ -231,20 +255,16 @@ void CpuWater::update_bodies(const std::vector<Cube>& cubes, std::vector<Push>& 
 
 /// Shares a covered cell's surplus between the body and the water beside it; the body gets all where there is none.
 void CpuWater::transfer_surplus(const BodyCell& held, const std::array<float, 3>& surplus, std::vector<Push>& pushes) {
-    const int here[3] = {held.x, held.y, held.z};
-    long takers[physics::lattice_populations];
+    long beside[physics::lattice_populations];
+    cells_beside(held, beside);
     float sum = 0;
-    for (int i = 0; i < physics::lattice_populations; ++i) {
-        int to[3];
-        takers[i] = neighbour(i, here, cells_, periodic_, to) ? place(to[0], to[1], to[2]) : -1;
-        if (takers[i] >= 0 && chosen_[takers[i]] >= 0) takers[i] = -1;
-        if (takers[i] >= 0) sum += neighbour_weight(i);
-    }
+    for (int i = 0; i < physics::lattice_populations; ++i)
+        if (chosen_[beside[i]] < 0) sum += neighbour_weight(i);
     const float to_body = sum == 0 ? 1 : covered_share, to_water = sum == 0 ? 0 : (1 - covered_share) / sum;
     add(held, to_body * surplus[0], to_body * surplus[1], to_body * surplus[2], pushes);
     for (int i = 0; i < physics::lattice_populations; ++i)
-        for (int a = 0; a < 3 && takers[i] >= 0; ++a)
-            now_[1 + a][takers[i]] += neighbour_weight(i) * (surplus[a] * to_water);
+        for (int a = 0; a < 3 && chosen_[beside[i]] < 0; ++a)
+            now_[1 + a][beside[i]] += neighbour_weight(i) * (surplus[a] * to_water);
 }
 
 /// Cells that a body has left keep what they have more than it, which it was given.
@@ -287,10 +307,10 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     begun_ = true;
 
     const physics::LatticeRates rates = rates_in(box_, step);
-    exchange(rates, pushes);
     if (!box_.current.isZero(0)) let_in(step);
     const View lattice = view();
     const auto& kernel = kernels<float>(instruction_set());
+    exchange(lattice, kernel, rates, pushes);
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
     const std::size_t room = std::size_t{3} * physics::lattice_populations * (lattice.rows + 2) * stride_ + 2 * margin;
     team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
@@ -301,57 +321,62 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     for (int e = 0; e < moments; ++e) std::swap(now_[e], next_[e]);
 }
 
-/// Of a cell, less those of water at rest.
-const Populations& CpuWater::after_collision(long cell, const physics::LatticeRates& rates) {
-    if (made_of_[cell] < 0) {
-        made_of_[cell] = static_cast<int>(made_.size());
-        made_cells_.push_back(cell);
-        Populations& f = made_.emplace_back();
-        float m[moments];
-        for (int e = 0; e < moments; ++e) m[e] = now_[e][cell];
-        const float density = 1 + m[0];
-        const float ux = m[1] / density + change_[0][cell], uy = m[2] / density + change_[1][cell],
-                    uz = m[3] / density + change_[2][cell];
-        const auto put = [&](int i, float value) { f.of[i] = value; };
-        if (rates.eddies > 0)
-            physics::collide<true>(m, ux, uy, uz, rates, put);
-        else
-            physics::collide<false>(m, ux, uy, uz, rates, put);
+/// A cell's place among those whose populations after collision push bodies.
+int CpuWater::place_to_collide(long cell) {
+    int& place = collided_of_[cell];
+    if (place < 0) {
+        place = static_cast<int>(to_collide_.size());
+        to_collide_.push_back(cell);
     }
-    return made_[made_of_[cell]];
+    return place;
+}
+
+/// Finds what streams between bodies and water in a step.
+void CpuWater::find_surface() {
+    for (const long cell : to_collide_) collided_of_[cell] = -1;
+    to_collide_.clear();
+    surface_.clear();
+    sources_.clear();
+    for (const BodyCell& held : held_) {
+        long beside[physics::lattice_populations];
+        cells_beside(held, beside);
+        unsigned from = 0;
+        for (int i = 0; i < physics::lattice_populations; ++i)
+            from |= static_cast<unsigned>(chosen_[beside[physics::lattice_populations - 1 - i]] < 0) << i;
+        if (from == 0) continue;
+        surface_.push_back({&held, place_to_collide(held.cell), from});
+        for (; from != 0; from &= from - 1)
+            sources_.push_back(place_to_collide(beside[physics::lattice_populations - 1 - std::countr_zero(from)]));
+    }
 }
 
 /// Pushes bodies by what streams between their cells and cells of water in this step.
-void CpuWater::exchange(const physics::LatticeRates& rates, std::vector<Push>& pushes) {
-    for (const BodyCell& held : held_) {
+void CpuWater::exchange(const View& lattice, const Kernels<float>& kernel, const physics::LatticeRates& rates,
+                        std::vector<Push>& pushes) {
+    constexpr int populations = physics::lattice_populations;
+    find_surface();
+    const std::size_t blocks = (to_collide_.size() + margin - 1) / margin;
+    if (collided_.size() < blocks * margin * populations) collided_.resize(blocks * margin * populations);
+    kernel.collide(lattice, rates, to_collide_.data(), static_cast<int>(to_collide_.size()), collided_.data());
+    const auto collided = [&](int place, int i) {
+        return collided_[(place / margin * populations + i) * margin + place % margin];
+    };
+    const int* source = sources_.data();
+    for (const Surface& one : surface_) {
+        const float u[3] = {one.held->velocity.x, one.held->velocity.y, one.held->velocity.z};
+        float moving[populations];
+        physics::moving_populations(u, moving);
         double j[3] = {};
-        const int here[3] = {held.x, held.y, held.z};
-        const float u[3] = {held.velocity.x, held.velocity.y, held.velocity.z};
-        const bool at_end = is_at_end(here);
-        bool any = false;
-        float moving[physics::lattice_populations];
-        for (int i = 0; i < physics::lattice_populations; ++i) {
-            const int opposite = physics::lattice_populations - 1 - i;
-            long source = held.cell + beside_[opposite];
-            if (at_end) {
-                int from[3];
-                if (!neighbour(opposite, here, cells_, periodic_, from)) continue;
-                source = place(from[0], from[1], from[2]);
-            }
-            if (chosen_[source] >= 0) continue;
-            if (!any) physics::moving_populations(u, moving);
+        for (unsigned from = one.from; from != 0; from &= from - 1) {
+            const int i = std::countr_zero(from), opposite = populations - 1 - i;
             const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            const float in = after_collision(source, rates).of[i] - moving[i];
-            const float out = after_collision(held.cell, rates).of[opposite] - moving[opposite];
+            const float in = collided(*source++, i) - moving[i];
+            const float out = collided(one.own, opposite) - moving[opposite];
             for (int a = 0; a < 3; ++a)
                 j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
-            any = true;
         }
-        if (any) add(held, j[0], j[1], j[2], pushes);
+        add(*one.held, j[0], j[1], j[2], pushes);
     }
-    for (const long cell : made_cells_) made_of_[cell] = -1;
-    made_cells_.clear();
-    made_.clear();
 }
 
 void CpuWater::shift(const Eigen::Vector3i& by) {

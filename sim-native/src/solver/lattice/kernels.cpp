@@ -41,6 +41,28 @@ long first_of(const View& view, int y, int z) {
     return (static_cast<long>(z) * view.ny + y) * view.stride + margin;
 }
 
+void velocity(const Floats (&m)[moments], Floats (&u)[3]) {
+    const Floats inverse = 1.0f / (m[0] + 1.0f);
+    for (int a = 0; a < 3; ++a) u[a] = m[1 + a] * inverse;
+}
+
+template <bool eddies>
+void collide_cells(const View& view, const LatticeRates& rates, const long* cells, int count, float* to) {
+    for (int k = 0; k < count; k += width) {
+        Floats m[moments], u[3], change[3];
+        for (int lane = 0; lane < width; ++lane) {
+            const long cell = cells[k + lane < count ? k + lane : k];
+            for (int e = 0; e < moments; ++e) m[e][lane] = view.now[e][cell];
+            for (int a = 0; a < 3; ++a) change[a][lane] = view.change[a][cell];
+        }
+        velocity(m, u);
+        for (int a = 0; a < 3; ++a) u[a] += change[a];
+        float* const block = to + k / margin * margin * populations + k % margin;
+        collide<eddies>(m, u[0], u[1], u[2], rates,
+                        [&](int i, Floats f) { __builtin_memcpy(block + i * margin, &f, sizeof f); });
+    }
+}
+
 /// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y get theirs
 /// from. Across periodic ends z counts on, and so does y unless these are all rows.
 class Planes {
@@ -78,16 +100,11 @@ void Planes::collide_plane(int z) const {
         float* to = this->row(y, z);
         const bool changes = view_.row_changes[static_cast<long>(inside) * view_.ny + y_inside] != 0;
         for (int x = 0; x < view_.nx; x += width) {
-            Floats m[moments];
+            Floats m[moments], u[3];
             for (int e = 0; e < moments; ++e) m[e] = load_unaligned(view_.now[e] + row + x);
-            const Floats inverse = 1.0f / (m[0] + 1.0f);
-            Floats ux = m[1] * inverse, uy = m[2] * inverse, uz = m[3] * inverse;
-            if (changes) {
-                ux += load_unaligned(view_.change[0] + row + x);
-                uy += load_unaligned(view_.change[1] + row + x);
-                uz += load_unaligned(view_.change[2] + row + x);
-            }
-            collide<eddies>(m, ux, uy, uz, rates_,
+            velocity(m, u);
+            for (int a = 0; changes && a < 3; ++a) u[a] += load_unaligned(view_.change[a] + row + x);
+            collide<eddies>(m, u[0], u[1], u[2], rates_,
                             [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
         }
     }
@@ -165,6 +182,10 @@ void advance_with(const View& view, const LatticeRates& rates, int begin, int en
     end_streams();
 }
 
+void collide_some(const View& view, const LatticeRates& rates, const long* cells, int count, float* to) {
+    (rates.eddies > 0 ? &collide_cells<true> : &collide_cells<false>)(view, rates, cells, count, to);
+}
+
 void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
     (rates.eddies > 0 ? &advance_with<true> : &advance_with<false>)(view, rates, begin, end, room);
 }
@@ -173,7 +194,7 @@ void advance(const View& view, const LatticeRates& rates, int begin, int end, fl
 
 template <class Real>
 Kernels<Real> kernels() {
-    return {&advance};
+    return {&collide_some, &advance};
 }
 template Kernels<float> kernels<float>();
 template Kernels<double> kernels<double>();

@@ -23,6 +23,8 @@ struct View {
 /// Kernels of the lattice in one instruction set, in float.
 template <class Real>
 struct Kernels {
+    /// Populations after collision of `count` cells: of cell k population i is to[(k / 16 * 27 + i) * 16 + k % 16].
+    void (*collide)(const View& view, const physics::LatticeRates& rates, const long* cells, int count, float* to);
     /// A step of the planes [begin, end) along z. `room`: 3 x 27 x (rows + 2) x stride numbers and 32 more.
     void (*advance)(const View& view, const physics::LatticeRates& rates, int begin, int end, float* room);
 };
