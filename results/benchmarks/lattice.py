@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cells' steps a second of swims in scheme lattice on a GPU, from the difference of two durations, so that starts cost nothing: rows of lattice.csv. usage: lattice.py [--swims N] [--most CELLS] > lattice.csv"""
+"""Cells' steps a second of swims in scheme lattice on a GPU, or of one on a core, from the difference of two durations, so that starts cost nothing. usage: lattice.py [--swims N] [--most CELLS] > lattice.csv; lattice.py --core > lattice-core.csv"""
 import argparse
 import csv
 import pathlib
@@ -12,8 +12,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import lakes  # noqa: E402
 
 SIDES = (2.85, 1.2, 1.2)
-# Width of cells, units; frames of the shorter run of one swim, and of 150.
-SIZES = ((0.0375, 120, 12), (0.025, 60, 12), (0.0125, 30, 3), (0.00625, 8, 0))
+# Width of cells, units; frames of the shorter run of one swim, of 150, and of one on a core.
+SIZES = ((0.0375, 120, 12, 40), (0.025, 60, 12, 8), (0.0125, 30, 3, 1), (0.00625, 8, 0, 0))
 REPEATS = 3
 
 
@@ -22,10 +22,10 @@ def gaits(count):
     return [{"frequency": 1.5 + chance.random(), "amplitude": [0.1 + 0.3 * chance.random()] * 8, "phase": [round(-k * chance.uniform(0.05, 0.15) % 1, 4) for k in range(8)]} for _ in range(count)]
 
 
-def seconds(cell, swims, frames):
+def seconds(cell, swims, frames, backend):
     requests = [{"id": k, "scene": "lake/creature-2", "gait": gait, "overrides": lakes.lake(SIDES, cell, 0.72, seconds=frames / 60)} for k, gait in enumerate(gaits(swims))]
     begin = time.time()
-    answers = lakes.answers(requests, "cuda")
+    answers = lakes.answers(requests, backend)
     took = time.time() - begin
     bad = [one for one in answers.values() if one["status"] != "ok" or one["frames"] != frames]
     if bad:
@@ -37,7 +37,9 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--swims", type=int, help="only of so many")
     options.add_argument("--most", type=float, default=1e9, help="cells at most")
+    options.add_argument("--core", action="store_true", help="one swim, by a thread of a processor")
     chosen = options.parse_args()
+    backend = "cpu" if chosen.core else "cuda"
     to = csv.writer(sys.stdout, lineterminator="\n")
     to.writerow(["cell", "cells", "swims", "frames", "updates_per_s", "least", "most"])
     for cell, *frames_of in SIZES:
@@ -45,11 +47,11 @@ def main():
         cells, substeps = 1, box["solver"]["substeps"]
         for count in box["fluid"]["count"]:
             cells *= count
-        for swims, frames in zip((1, 150), frames_of):
+        for swims, frames in ((1, frames_of[2]),) if chosen.core else zip((1, 150), frames_of):
             if frames == 0 or cells > chosen.most or chosen.swims not in (None, swims):
                 continue
-            seconds(cell, swims, 1)
-            rates = [swims * cells * substeps * 2 * frames / (seconds(cell, swims, 3 * frames) - seconds(cell, swims, frames)) for _ in range(REPEATS)]
+            seconds(cell, swims, 1, backend)
+            rates = [swims * cells * substeps * 2 * frames / (seconds(cell, swims, 3 * frames, backend) - seconds(cell, swims, frames, backend)) for _ in range(REPEATS)]
             to.writerow([cell, cells, swims, 3 * frames, *(f"{rate:.3g}" for rate in (statistics.median(rates), min(rates), max(rates)))])
             sys.stdout.flush()
 

@@ -112,7 +112,8 @@ NATATOR_HD void moving_populations(const float (&u)[3], float (&f)[lattice_popul
 }
 /// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in
 /// by c, and `out`, what streams out by -c, less what both have in water that moves with the body.
-NATATOR_HD float link_push(float in, float out, float c, float u) {
+template <class V>
+NATATOR_HD V link_push(float in, float out, V c, V u) {
     return in * (c - u) + out * (c + u);
 }
 

@@ -17,16 +17,26 @@ namespace {
 
 constexpr int moments = physics::lattice_moments;
 
+/// By population, where it goes in a step; a zero more.
+constexpr auto directions = [] {
+    std::array<std::array<float, 4>, physics::lattice_populations> all{};
+    for (int i = 0; i < physics::lattice_populations; ++i)
+        all[i] = {static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1), static_cast<float>(i / 9 - 1), 0};
+    return all;
+}();
+
 int padded(int cells) {
     return (cells + margin - 1) / margin * margin;
 }
 
 /// Rows along y that are advanced at once: as many as leave what is between collision and streaming in a core's second
-/// cache. The two beside them collide again.
+/// cache, shared out evenly. The two beside them collide again.
 int rows_at_once(int ny, int stride) {
-    constexpr long most = 400'000;  // bytes
+    constexpr long most = 800'000;  // bytes
     const long row = 3L * physics::lattice_populations * stride * static_cast<long>(sizeof(float));
-    return static_cast<int>(std::clamp<long>(most / row - 2, std::min(ny, 4), ny));
+    const int fit = static_cast<int>(std::clamp<long>(most / row - 2, std::min(ny, 4), ny));
+    const int strips = (ny + fit - 1) / fit;
+    return (ny + strips - 1) / strips;
 }
 
 /// A number of each cell. Arrays begin at other places of a page, by `skew` lines of a cache: the same cell of all of
@@ -366,14 +376,14 @@ void CpuWater::exchange(const View& lattice, const Kernels<float>& kernel, const
         const float u[3] = {one.held->velocity.x, one.held->velocity.y, one.held->velocity.z};
         float moving[populations];
         physics::moving_populations(u, moving);
-        double j[3] = {};
+        const Eigen::Array4f velocity(u[0], u[1], u[2], 0);
+        Eigen::Array4d j = Eigen::Array4d::Zero();
         for (unsigned from = one.from; from != 0; from &= from - 1) {
             const int i = std::countr_zero(from), opposite = populations - 1 - i;
-            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             const float in = collided(*source++, i) - moving[i];
             const float out = collided(one.own, opposite) - moving[opposite];
-            for (int a = 0; a < 3; ++a)
-                j[a] += static_cast<double>(physics::link_push(in, out, static_cast<float>(c[a]), u[a]));
+            const Eigen::Array4f c = Eigen::Array4f::Map(directions[i].data());
+            j += physics::link_push(in, out, c, velocity).cast<double>();
         }
         add(*one.held, j[0], j[1], j[2], pushes);
     }
