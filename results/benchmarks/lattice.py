@@ -14,7 +14,7 @@ import lakes  # noqa: E402
 SIDES = (2.85, 1.2, 1.2)
 # Width of cells, units; frames of the shorter run of one swim, of 150, and of one on a core.
 SIZES = ((0.0375, 120, 12, 40), (0.025, 60, 12, 8), (0.0125, 30, 3, 1), (0.00625, 8, 0, 0))
-REPEATS = 3
+REPEATS = 5
 
 
 def gaits(count):
