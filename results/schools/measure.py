@@ -97,7 +97,7 @@ def shot(stream, name):
     np.savez_compressed(OUTPUT / f"{name}.npz", curl=curl.astype(np.float16), cell=water.cell, bodies=np.array([stream.frame.position[body][:, [0, 2]] for body in bodies]))
 
 
-def street(diameter, behind, current, start, n, steps, backend, seconds=17.5, size=(5.4, 2.8), cylinder=4.6):
+def street(diameter, behind, current, start, n, steps, backend, seconds=17.5, size=(5.4, 4.0), cylinder=4.6):
     """Holds station with the head `behind` units behind a cylinder, then rests for a second and a half; diameter 0: no cylinder."""
     x = cylinder - diameter / 2 - behind - LENGTH
     obstacles = {"obstacles": [{"shape": "sphere", "centre": [cylinder, 0.01, size[1] / 2 + 0.013], "radius": diameter / 2, "spacing": CELL / n}]} if diameter else {}
@@ -202,8 +202,8 @@ def plans(kind):
     starts = range(1, 9) if not finer else range(1, 5)
     fine = {"n": n, "steps": steps}
     if base == "street":
-        places = ((0, 1.5), (0.3, 1.0), (0.3, 1.5), (0.3, 2.5), (0.5, 2.0)) if not finer else ((0, 1.5), (0.3, 1.5))
-        return [{"diameter": d, "behind": b, "current": SPEED, "start": s, **fine} for d, b in places for s in starts]
+        places = ((0, 1.5), (0.3, 1.0), (0.3, 1.5), (0.3, 2.5), (0.5, 2.0))
+        return [{"diameter": d, "behind": b, "current": SPEED, "start": s, **fine} for s in range(1, 9) for d, b in places[:5 - 2 * (n > 1)]]
     if base == "frame":
         return [{"current": c, "start": 1, **fine} for c in (0.0, 0.6, 1.2)]
     if base == "row":

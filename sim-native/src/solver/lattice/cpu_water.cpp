@@ -108,7 +108,7 @@ private:
     static void add(const BodyCell& held, double x, double y, double z, std::vector<Push>& pushes);
 
     int cells_[3], stride_;
-    PerCell now_[moments], next_[moments];
+    PerCell now_[moments];
     Array change_[3];
     std::vector<unsigned char> row_changes_;
     std::vector<int> owner_;  ///< by cell: the cube that held it in the last step, -1: none
@@ -137,7 +137,6 @@ private:
     std::vector<Array> rooms_;
     cpu::ThreadTeam team_;
     long beside_[physics::lattice_populations];  ///< from a cell to where each population streams to, but at ends
-    bool beyond_caches_;
     bool begun_ = false;  ///< else the water in bodies begins with their velocity
 };
 
@@ -151,8 +150,7 @@ CpuWater::CpuWater(const Box& box, int threads)
         beside_[i] = i % 3 - 1 +
                      stride_ * ((cells_[1] > 1 ? i / 3 % 3 - 1 : 0) +
                                 static_cast<long>(cells_[1]) * (cells_[2] > 1 ? i / 9 - 1 : 0));
-    beyond_caches_ = 2 * moments * sizeof(float) * size > std::size_t{32} << 20;
-    for (int e = 0; e < moments; ++e) now_[e].assign(size, e), next_[e].assign(size, e);
+    for (int e = 0; e < moments; ++e) now_[e].assign(size, e);
     for (Array& array : change_) array.assign(size, 0);
     row_changes_.assign(static_cast<std::size_t>(cells_[1]) * cells_[2], 0);
     owner_.assign(size, -1);
@@ -165,7 +163,6 @@ View CpuWater::view() {
     View view{};
     view.nx = cells_[0], view.ny = cells_[1], view.nz = cells_[2], view.stride = stride_;
     view.rows = rows_at_once(cells_[1], stride_);
-    view.beyond_caches = beyond_caches_;
     view.row_changes = row_changes_.data();
     for (int a = 0; a < 3; ++a)
         for (int end = 0; end < 2; ++end) {
@@ -174,7 +171,7 @@ View CpuWater::view() {
             view.opens[a][end] = box_.faces[a][end] == Face::open;
         }
     for (int i = 0; i < physics::lattice_populations; ++i) view.inflow[i] = inflow_[i].data();
-    for (int e = 0; e < moments; ++e) view.now[e] = now_[e].data(), view.next[e] = next_[e].data();
+    for (int e = 0; e < moments; ++e) view.now[e] = now_[e].data();
     for (int a = 0; a < 3; ++a) view.change[a] = change_[a].data();
     return view;
 }
@@ -322,13 +319,15 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     const auto& kernel = kernels<float>(instruction_set());
     exchange(lattice, kernel, rates, pushes);
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
-    const std::size_t room = std::size_t{3} * physics::lattice_populations * (lattice.rows + 2) * stride_ + 2 * margin;
-    team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
-        Array& own = rooms_[static_cast<std::size_t>(part)];
-        if (own.empty()) own.assign(room, 0);
-        kernel.advance(lattice, rates, begin, end, own.data());
-    });
-    for (int e = 0; e < moments; ++e) std::swap(now_[e], next_[e]);
+    const auto for_parts = [&](const auto& work) {
+        team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
+            Array& room = rooms_[static_cast<std::size_t>(part)];
+            if (room.empty()) room.assign(room_of(lattice, end - begin), 0);
+            work(begin, end, room.data());
+        });
+    };
+    for_parts([&](int begin, int end, float* room) { kernel.keep(lattice, begin, end, room); });
+    for_parts([&](int begin, int end, float* room) { kernel.advance(lattice, rates, begin, end, room); });
 }
 
 /// A cell's place among those whose populations after collision push bodies.

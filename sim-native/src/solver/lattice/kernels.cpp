@@ -1,9 +1,6 @@
 // Compiled once per instruction set, like ../cpu/fluid_kernels.cpp and by the same rules. physics/lattice.h has the
 // formulas.
 #include "kernels.h"
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
 
 namespace natator::lattice::NATATOR_ISA {
 namespace {
@@ -12,29 +9,19 @@ using namespace physics;
 
 constexpr int populations = lattice_populations, moments = lattice_moments;
 
-/// Stores past the caches.
-void stream(float* to, const Floats& value) {
-#if defined(__AVX512F__)
-    _mm512_stream_ps(to, reinterpret_cast<const __m512&>(value));
-#elif defined(__AVX2__)
-    _mm256_stream_ps(to, reinterpret_cast<const __m256&>(value));
-#else
-    __builtin_memcpy(to, &value, sizeof value);
-#endif
-}
-/// Waits until all have seen what was streamed.
-void end_streams() {
-#if defined(__AVX2__)
-    _mm_sfence();
-#endif
-}
-
 int at(int cx, int cy, int cz) {
     return (cx + 1) + 3 * (cy + 1) + 9 * (cz + 1);
 }
 
 bool periodic(const View& view, int axis) {
     return !view.bounces[axis][0] && !view.mirrors[axis][0] && !view.opens[axis][0];
+}
+int wrapped(int at, int cells) {
+    return (at + cells) % cells;
+}
+/// Whether a plane is one of the lattice, or beyond a periodic end.
+bool is_there(const View& view, int z) {
+    return (z >= 0 && z < view.nz) || (periodic(view, 2) && view.nz > 1);
 }
 /// The first cell of a row.
 long first_of(const View& view, int y, int z) {
@@ -63,12 +50,61 @@ void collide_cells(const View& view, const LatticeRates& rates, const long* cell
     }
 }
 
-/// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y get theirs
-/// from. Across periodic ends z counts on, and so does y unless these are all rows.
+/// What a part keeps of moments before the step, which it or another overwrites while they are needed: the planes beside
+/// it and, of each of its own, the last row of the strip before this and the first of all.
+class Kept {
+public:
+    Kept(const View& view, int begin, int end, float* room) : view_(view), begin_(begin), end_(end), room_(room) {}
+
+    /// Numbers of the room that it takes.
+    long size() const { return 2L * moments * (end_ - begin_ + view_.ny) * view_.stride; }
+    /// A row along x.
+    float* row(bool first, int e, int z) const { return at(first ? 1 : 0, e, z - begin_, end_ - begin_, room_); }
+    /// Rows of the plane after the part, or before it.
+    float* plane(bool after, int e) const {
+        return at(after ? 1 : 0, e, 0, view_.ny, room_ + 2L * moments * (end_ - begin_) * view_.stride);
+    }
+    void keep_planes() const {
+        for (int side = 0; side < 2; ++side) {
+            const bool after = side == 1;
+            const int z = after ? end_ : begin_ - 1;
+            if (!is_there(view_, z)) continue;
+            const long first = first_of(view_, 0, wrapped(z, view_.nz)) - margin;
+            for (int e = 0; e < moments; ++e) copy(view_.now[e] + first, view_.ny, plane(after, e));
+        }
+    }
+    void keep_row(bool first, int y, int z) const {
+        for (int e = 0; e < moments; ++e) copy(view_.now[e] + first_of(view_, y, z) - margin, 1, row(first, e, z));
+    }
+    /// Where the moments of a row are now; z may be beside the part, y beside a strip that begins there.
+    void find(int y, int z, int strip, const float* (&to)[moments]) const {
+        const int y_inside = wrapped(y, view_.ny);
+        for (int e = 0; e < moments; ++e)
+            to[e] = z < begin_ || z >= end_     ? plane(z >= end_, e) + static_cast<long>(y_inside) * view_.stride + margin
+                    : strip > 0 && y < strip    ? row(false, e, z) + margin
+                    : strip > 0 && y >= view_.ny ? row(true, e, z) + margin
+                                                : view_.now[e] + first_of(view_, y_inside, z);
+    }
+
+private:
+    float* at(int which, int e, int row, int rows, float* room) const {
+        return room + (static_cast<long>(which * moments + e) * rows + row) * view_.stride;
+    }
+    void copy(const float* from, int rows, float* to) const {
+        __builtin_memcpy(to, from, sizeof(float) * static_cast<unsigned long>(rows * static_cast<long>(view_.stride)));
+    }
+
+    const View& view_;
+    int begin_, end_;
+    float* room_;
+};
+
+/// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y, a strip, get
+/// theirs from. Across periodic ends z counts on, and so does y unless these are all rows.
 class Planes {
 public:
-    Planes(const View& view, const LatticeRates& rates, int begin, int end, float* room)
-        : view_(view), rates_(rates), begin_(begin), end_(end), room_(room) {}
+    Planes(const View& view, const LatticeRates& rates, int begin, int end, const Kept& kept, float* room)
+        : view_(view), rates_(rates), kept_(kept), begin_(begin), end_(end), room_(room) {}
 
     template <bool eddies>
     void collide_plane(int z) const;
@@ -85,6 +121,7 @@ private:
 
     const View& view_;
     const LatticeRates& rates_;
+    const Kept& kept_;
     int begin_, end_;
     float* room_;
 };
@@ -92,18 +129,20 @@ private:
 template <bool eddies>
 void Planes::collide_plane(int z) const {
     const long size_of_one = size();
-    const int inside = (z + view_.nz) % view_.nz, more = all_rows() ? 0 : 1;
+    const int more = all_rows() ? 0 : 1;
     for (int y = begin_ - more; y < end_ + more; ++y) {
         if ((y < 0 || y >= view_.ny) && !periodic(view_, 1)) continue;
-        const int y_inside = (y + view_.ny) % view_.ny;
-        const long row = first_of(view_, y_inside, inside);
+        const int inside[2] = {wrapped(y, view_.ny), wrapped(z, view_.nz)};
+        const bool changes = view_.row_changes[static_cast<long>(inside[1]) * view_.ny + inside[0]] != 0;
+        const long change = first_of(view_, inside[0], inside[1]);
+        const float* now[moments];
+        kept_.find(y, z, begin_, now);
         float* to = this->row(y, z);
-        const bool changes = view_.row_changes[static_cast<long>(inside) * view_.ny + y_inside] != 0;
         for (int x = 0; x < view_.nx; x += width) {
             Floats m[moments], u[3];
-            for (int e = 0; e < moments; ++e) m[e] = load_unaligned(view_.now[e] + row + x);
+            for (int e = 0; e < moments; ++e) m[e] = load_unaligned(now[e] + x);
             velocity(m, u);
-            for (int a = 0; changes && a < 3; ++a) u[a] += load_unaligned(view_.change[a] + row + x);
+            for (int a = 0; changes && a < 3; ++a) u[a] += load_unaligned(view_.change[a] + change + x);
             collide<eddies>(m, u[0], u[1], u[2], rates_,
                             [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
         }
@@ -147,6 +186,8 @@ const float* Planes::source(int i, int y, int z) const {
 }
 
 void Planes::gather_plane(int z) const {
+    if (end_ < view_.ny) kept_.keep_row(false, end_ - 1, z);
+    if (begin_ == 0 && !all_rows() && periodic(view_, 1)) kept_.keep_row(true, 0, z);
     for (int y = begin_; y < end_; ++y) {
         const float* from[populations];
         for (int i = 0; i < populations; ++i) from[i] = source(i, y, z);
@@ -157,20 +198,18 @@ void Planes::gather_plane(int z) const {
             moments_of(f, m);
             for (int lane = view_.nx - x; lane < width; ++lane)  // beyond the row's end
                 for (int e = 0; e < moments; ++e) m[e][lane] = 0;
-            if (view_.beyond_caches)
-                for (int e = 0; e < moments; ++e) stream(view_.next[e] + row + x, m[e]);
-            else
-                for (int e = 0; e < moments; ++e) __builtin_memcpy(view_.next[e] + row + x, &m[e], sizeof m[e]);
+            for (int e = 0; e < moments; ++e) __builtin_memcpy(view_.now[e] + row + x, &m[e], sizeof m[e]);
         }
     }
 }
 
 template <bool eddies>
 void advance_with(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
+    const Kept kept(view, begin, end, room);
     for (int y = 0; y < view.ny; y += view.rows) {
-        const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, room);
+        const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, kept, room + kept.size());
         const auto collide_at = [&](int z) {
-            if (z >= 0 && z < view.nz ? true : periodic(view, 2) && view.nz > 1) planes.collide_plane<eddies>(z);
+            if (is_there(view, z)) planes.collide_plane<eddies>(z);
         };
         collide_at(begin - 1);
         collide_at(begin);
@@ -179,11 +218,14 @@ void advance_with(const View& view, const LatticeRates& rates, int begin, int en
             planes.gather_plane(z);
         }
     }
-    end_streams();
 }
 
 void collide_some(const View& view, const LatticeRates& rates, const long* cells, int count, float* to) {
     (rates.eddies > 0 ? &collide_cells<true> : &collide_cells<false>)(view, rates, cells, count, to);
+}
+
+void keep(const View& view, int begin, int end, float* room) {
+    Kept(view, begin, end, room).keep_planes();
 }
 
 void advance(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
@@ -194,7 +236,7 @@ void advance(const View& view, const LatticeRates& rates, int begin, int end, fl
 
 template <class Real>
 Kernels<Real> kernels() {
-    return {&collide_some, &advance};
+    return {&collide_some, &keep, &advance};
 }
 template Kernels<float> kernels<float>();
 template Kernels<double> kernels<double>();
