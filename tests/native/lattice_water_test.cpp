@@ -64,22 +64,26 @@ TEST(LatticeWater, VorticesDecayAsTheirViscositySays) {
     expect_vortices_decay(2, 0);
 }
 
-/// Water whose rows are more than a strip that is advanced at once: a flow moved along y, so that strips begin
-/// elsewhere in it, goes on with the same bits.
-TEST(LatticeWater, IsTheSameWhereverStripsOfRowsBegin) {
-    constexpr int rows = 40, moved = 7;
-    const Box box = box_of(32, rows, 3);
-    const auto one = Water::on_cpu(box, 1), other = Water::on_cpu(box, 1);
+/// Water whose rows are more than a strip that is advanced at once: a flow moved along y and z, so that strips and the
+/// parts of several threads begin elsewhere in it, goes on with the same bits.
+TEST(LatticeWater, IsTheSameWhereverStripsAndPartsBegin) {
+    constexpr int rows = 40, planes = 13;
+    const Box box = box_of(32, rows, planes);
+    const auto one = Water::on_cpu(box, 1), other = Water::on_cpu(box, 3);
+    const auto moved = [](const Eigen::Vector3i& at) {
+        return Eigen::Vector3i(at.x(), (at.y() + 7) % rows, (at.z() + 5) % planes);
+    };
     for_each_cell(box, [&](const Eigen::Vector3i& at) {
-        const double y = 2 * pi * at.y() / rows, x = 2 * pi * at.x() / 32;
-        const Cell cell{0.001 * std::cos(y), {0.02 * std::sin(y), 0.01 * std::cos(2 * x + y), 0.005 * std::sin(3 * y)}};
+        const double x = 2 * pi * at.x() / 32, y = 2 * pi * at.y() / rows, z = 2 * pi * at.z() / planes;
+        const Cell cell{0.001 * std::cos(y),
+                        {0.02 * std::sin(y + z), 0.01 * std::cos(2 * x + y), 0.005 * std::sin(3 * y - 2 * z)}};
         one->set_cell(at, cell);
-        other->set_cell({at.x(), (at.y() + moved) % rows, at.z()}, cell);
+        other->set_cell(moved(at), cell);
     });
     advance(*one, 20);
     advance(*other, 20);
     for_each_cell(box, [&](const Eigen::Vector3i& at) {
-        const Cell here = one->cell(at), there = other->cell({at.x(), (at.y() + moved) % rows, at.z()});
+        const Cell here = one->cell(at), there = other->cell(moved(at));
         ASSERT_EQ(here.excess, there.excess) << at.transpose();
         ASSERT_EQ(here.velocity, there.velocity) << at.transpose();
     });
