@@ -320,10 +320,10 @@ TEST(RunTest, MemoryIsWhatWasSaid) {
         {"conserving", "double", "1", "[40,20,50]"}, {"conserving", "double", "2", "[40,10,80]"}};
     std::vector<std::vector<std::string>> runs{{"run", "lake/creature-2", "--duration", "0.01"}};
     for (const auto& way : ways)
-        runs.push_back({"run", "thesis/tank", "--scheme", way[0], "--precision", way[1], "--threads", way[2],
-                        "--duration", "0.02", "--no-cache", "--overrides",
-                        std::string("{") + settings + R"(,"fluid":{"clearance":0,"spacing":0.1,"count":)" + way[3] +
-                            "}}"});
+        runs.push_back(
+            {"run", "thesis/tank", "--scheme", way[0], "--precision", way[1], "--threads", way[2], "--duration", "0.02",
+             "--no-cache", "--overrides",
+             std::string("{") + settings + R"(,"fluid":{"clearance":0,"spacing":0.1,"count":)" + way[3] + "}}"});
     for (const auto& run : runs) {
         const Outcome refused = run_limited("export NATATOR_MOST_MEMORY=1e-9", run);
         const std::size_t at = refused.err.find("need about ");

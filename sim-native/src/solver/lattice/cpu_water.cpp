@@ -131,13 +131,13 @@ private:
     };
     std::vector<Surface> surface_;
     std::vector<int> sources_;
-    std::vector<long> to_collide_;   ///< the cells whose populations after collision push bodies
-    std::vector<int> collided_of_;   ///< by cell: place in to_collide_, -1: none
-    std::vector<float> collided_;    ///< those populations, as the kernel lays them out
+    std::vector<long> to_collide_;  ///< the cells whose populations after collision push bodies
+    std::vector<int> collided_of_;  ///< by cell: place in to_collide_, -1: none
+    std::vector<float> collided_;   ///< those populations, as the kernel lays them out
     std::vector<Array> rooms_;
     cpu::ThreadTeam team_;
     long beside_[physics::lattice_populations];  ///< from a cell to where each population streams to, but at ends
-    bool begun_ = false;  ///< else the water in bodies begins with their velocity
+    bool begun_ = false;                         ///< else the water in bodies begins with their velocity
 };
 
 CpuWater::CpuWater(const Box& box, int threads)
@@ -238,9 +238,9 @@ void CpuWater::cells_beside(const BodyCell& held, long (&to)[physics::lattice_po
     const bool at_end = is_at_end(here);
     for (int i = 0; i < physics::lattice_populations; ++i) {
         int cell[3];
-        to[i] = !at_end                                        ? held.cell + beside_[i]
+        to[i] = !at_end                                       ? held.cell + beside_[i]
                 : neighbour(i, here, cells_, periodic_, cell) ? place(cell[0], cell[1], cell[2])
-                                                               : held.cell;
+                                                              : held.cell;
     }
 }
 

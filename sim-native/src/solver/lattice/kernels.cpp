@@ -50,8 +50,8 @@ void collide_cells(const View& view, const LatticeRates& rates, const long* cell
     }
 }
 
-/// What a part keeps of moments before the step, which it or another overwrites while they are needed: the planes beside
-/// it and, of each of its own, the last row of the strip before this and the first of all.
+/// What a part keeps of moments before the step, which it or another overwrites while they are needed: the planes
+/// beside it and, of each of its own, the last row of the strip before this and the first of all.
 class Kept {
 public:
     Kept(const View& view, int begin, int end, float* room) : view_(view), begin_(begin), end_(end), room_(room) {}
@@ -80,10 +80,10 @@ public:
     void find(int y, int z, int strip, const float* (&to)[moments]) const {
         const int y_inside = wrapped(y, view_.ny);
         for (int e = 0; e < moments; ++e)
-            to[e] = z < begin_ || z >= end_     ? plane(z >= end_, e) + static_cast<long>(y_inside) * view_.stride + margin
-                    : strip > 0 && y < strip    ? row(false, e, z) + margin
+            to[e] = z < begin_ || z >= end_  ? plane(z >= end_, e) + static_cast<long>(y_inside) * view_.stride + margin
+                    : strip > 0 && y < strip ? row(false, e, z) + margin
                     : strip > 0 && y >= view_.ny ? row(true, e, z) + margin
-                                                : view_.now[e] + first_of(view_, y_inside, z);
+                                                 : view_.now[e] + first_of(view_, y_inside, z);
     }
 
 private:
@@ -99,8 +99,8 @@ private:
     float* room_;
 };
 
-/// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y, a strip, get
-/// theirs from. Across periodic ends z counts on, and so does y unless these are all rows.
+/// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y, a strip,
+/// get theirs from. Across periodic ends z counts on, and so does y unless these are all rows.
 class Planes {
 public:
     Planes(const View& view, const LatticeRates& rates, int begin, int end, const Kept& kept, float* room)
@@ -207,7 +207,8 @@ template <bool eddies>
 void advance_with(const View& view, const LatticeRates& rates, int begin, int end, float* room) {
     const Kept kept(view, begin, end, room);
     for (int y = 0; y < view.ny; y += view.rows) {
-        const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, kept, room + kept.size());
+        const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, kept,
+                            room + kept.size());
         const auto collide_at = [&](int z) {
             if (is_there(view, z)) planes.collide_plane<eddies>(z);
         };
