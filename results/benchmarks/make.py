@@ -43,7 +43,8 @@ def peers():
 def make(folder):
     answer, table = peers()
     lattice = pandas.read_csv(HERE / "lattice.csv").pivot(index="cells", columns="swims", values="updates_per_s")
-    cells = study.table(["cells", *("one swim" if swims == 1 else f"{swims} swims" for swims in lattice)],
+    lattice.insert(0, "a core", pandas.read_csv(HERE / "lattice-core.csv").set_index("cells").updates_per_s)
+    cells = study.table(["cells", "one swim, a core", *("one swim" if swims == 1 else f"{swims} swims" for swims in lattice.columns[1:])],
                         [[f"{number:,}".replace(",", " "), *("" if np.isnan(rate) else f"{rate / 1e9:.3g}" for rate in rates)] for number, *rates in lattice.itertuples()])
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, peers=table, lattice=cells), encoding="utf-8")
     table = pandas.read_csv(HERE / "throughput.csv")

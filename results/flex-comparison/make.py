@@ -133,11 +133,11 @@ def summary(table):
 
 
 def answer(table):
-    told = []
-    for medium, own in table.groupby("medium"):
-        off = own.difference_in_spreads.abs()
-        told.append(f"{(off <= 1).sum()} of {len(own)} speeds in {medium} lie within one spread of Flex', {(off <= 2).sum()} within two, {(off <= 3).sum()} within three")
-    return f"**{'; '.join(told)}.**\n"
+    def near(medium):
+        own = table[table.medium == medium]
+        return ["{} of {}".format((own.difference_in_spreads.abs()[some] <= 1).sum(), some.sum()) for some in (own.flex_n > 1, own.flex_n == 1)]
+    fluid, vacuum = near("fluid"), near("vacuum")
+    return f"**In fluid {fluid[0]} speeds lie within one spread of several runs of Flex, {fluid[1]} of one run, in vacuum {vacuum[0]} and {vacuum[1]}.**\n"
 
 
 def draw(table, medium, file):

@@ -92,14 +92,15 @@ def swims():
     for (scheme, scene), own in pandas.read_csv(HERE / "swims.csv").groupby(["scheme", "scene"], sort=False):
         error = own.standard_deviation * own.starts**-0.5
         interval = error * stats.t.ppf(0.975, own.starts - 1)
-        finest, differ = own.index[-1], 0
+        finest, differ, widest = own.index[-1], 0, 0
         for k in own.index:
             both = np.hypot(error[k], error[finest]) * stats.t.ppf(0.975, own.starts[k] + own.starts[finest] - 2)
             off = own.distance[k] - own.distance[finest]
             differ += abs(off) > both
+            widest = max(widest, both / abs(own.distance[finest]) if k != finest else 0)
             off = "" if k == finest else study.with_error(off, both, 3)
             rows.append([f"`{scheme}`, {scene}" if k == own.index[0] else "", str(own.substeps[k]), study.with_error(own.distance[k], interval[k], 3), off, f"{own.seconds[k]:.2g}"])
-        answers.append(f"in `{scheme}` {differ} of {len(own) - 1}")
+        answers.append(f"in `{scheme}` {differ} of {len(own) - 1} (± {100 * widest:.0f} % at most)")
     return f"Time steps by which a whole swim goes another distance than by the smallest: {', '.join(answers)}.", study.table(["swim", "substeps", "distance in 4 s", "off the finest", "processor s"], rows)
 
 

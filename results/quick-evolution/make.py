@@ -55,9 +55,12 @@ def pool(seed):
 
 
 def make(folder):
-    speeds = [read("loach", seed, "best.json")["fresh"]["base"]["bodyLengths"]["mean"] for seed in SEEDS["loach"]]
-    answer = f"**The preset `quick` finds a swimmer of {min(speeds):.1f} to {max(speeds):.1f} body lengths/s by {len(speeds)} seeds, and says what half the time step " \
-             "and half the cells change.**\n"
+    fresh = [read("loach", seed, "best.json")["fresh"] for seed in SEEDS["loach"]]
+    speeds = [one["base"]["bodyLengths"]["mean"] for one in fresh]
+    lost = {"half the time step": [1 - one["halfStep"]["bodyLengths"]["mean"] / speed for one, speed in zip(fresh, speeds)],
+            "half the cells": [-level["change"]["mean"] for one in SEEDS["loach"] for level in (read("loach", one, "converge.json") or {"levels": []})["levels"] if level["level"] == "spacing/2"]}
+    answer = f"**The preset `quick` finds a swimmer of {min(speeds):.1f} to {max(speeds):.1f} body lengths/s by {len(speeds)} seeds, slower by " + \
+             ", by ".join(f"{100 * min(some):.0f} to {100 * max(some):.0f} % at {what}" for what, some in lost.items()) + ".**\n"
     fish = study.table(["seed", "evaluations", "body lengths/s", "half the time step", "half the cells", "Reynolds", "Strouhal", "in vacuum"],
                        [loach(seed) for seed in SEEDS["loach"]])
     pools = study.table(["seed", "evaluations", "best distance in 2 s", "again", "half the time step", "change", "in vacuum"], [pool(seed) for seed in SEEDS["default"]])

@@ -1,6 +1,7 @@
-"""The page's answer, of swimmers-targets.csv: which targets each scheme meets in its largest box, with the most beats, at its finest."""
+"""The page's answer, of swimmers-targets.csv: which targets each scheme meets in its largest box, with the most beats, at its finest, and how many of them say only that something is 0 or which way it goes."""
 import pathlib
 
+import numpy as np
 import pandas
 import study
 
@@ -17,9 +18,11 @@ def make(folder):
         missed = finest[finest.met != "yes"]
         names = dict.fromkeys(" ".join(filter(None, (row.case, row.variant if row.variant != "all" else "", row.quantity, row.over and f"by {row.over.replace('_', ' ')}")))
                               for row in missed.itertuples())
+        least, greatest = (pandas.to_numeric(finest[name]).fillna(bound) for name, bound in (("least", -np.inf), ("greatest", np.inf)))
+        signs = finest[(least <= 0) & (greatest >= 0) | np.isinf(least) | np.isinf(greatest)]
         confirmed = (finest.confirmed == "yes").sum()
-        told.append(f"In `{scheme}` {(finest.met == 'yes').sum()} of {len(finest)} targets, {confirmed} of them confirmed, are met at its finest; not: {', '.join(names)}.")
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=f"**{told[0]}** {told[1]}\n"), encoding="utf-8")
+        told.append(f"In `{scheme}` {(finest.met == 'yes').sum()} of {len(finest)} targets, {confirmed} of them confirmed, are met at its finest, among them {(signs.met == 'yes').sum()} of {len(signs)} signs or zeros" + ("**" if not told else "") + f"; not: {', '.join(names)}.")
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=f"**{told[0]} {told[1]}\n"), encoding="utf-8")
 
 
 study.main(make)

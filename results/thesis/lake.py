@@ -209,9 +209,10 @@ class Lake:
         if not swim:
             return ""
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
-        speed = self.speeds(one)
+        speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % at {words}".replace("-", "−") for condition, words in
+                                                   (("half step", "half the step"), ("half cells", "half the cells")))
         return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, the fastest {one[0].replace('-', ' ')} at " \
-               f"{measured.with_error(speed.mean, speed.interval)} units/s."
+               f"{measured.with_error(speed.mean, speed.interval)} units/s ({finer})."
 
     def cost(self, folder):
         """Evaluations of all evolutions, generations of each, seconds of a GPU, and by what they were."""
