@@ -28,6 +28,7 @@ long first_of(const View& view, int y, int z) {
     return (static_cast<long>(z) * view.ny + y) * view.stride + margin;
 }
 
+/// Before a body changes it.
 void velocity(const Floats (&m)[moments], Floats (&u)[3]) {
     const Floats inverse = 1.0f / (m[0] + 1.0f);
     for (int a = 0; a < 3; ++a) u[a] = m[1 + a] * inverse;
@@ -59,10 +60,10 @@ public:
     /// Numbers of the room that it takes.
     long size() const { return 2L * moments * (end_ - begin_ + view_.ny) * view_.stride; }
     /// A row along x.
-    float* row(bool first, int e, int z) const { return at(first ? 1 : 0, e, z - begin_, end_ - begin_, room_); }
+    float* row(bool first, int e, int z) const { return place(first ? 1 : 0, e, z - begin_, end_ - begin_, room_); }
     /// Rows of the plane after the part, or before it.
     float* plane(bool after, int e) const {
-        return at(after ? 1 : 0, e, 0, view_.ny, room_ + 2L * moments * (end_ - begin_) * view_.stride);
+        return place(after ? 1 : 0, e, 0, view_.ny, room_ + 2L * moments * (end_ - begin_) * view_.stride);
     }
     void keep_planes() const {
         for (int side = 0; side < 2; ++side) {
@@ -87,7 +88,7 @@ public:
     }
 
 private:
-    float* at(int which, int e, int row, int rows, float* room) const {
+    float* place(int which, int e, int row, int rows, float* room) const {
         return room + (static_cast<long>(which * moments + e) * rows + row) * view_.stride;
     }
     void copy(const float* from, int rows, float* to) const {
