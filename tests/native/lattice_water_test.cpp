@@ -67,7 +67,7 @@ TEST(LatticeWater, VorticesDecayAsTheirViscositySays) {
 /// Water whose rows are more than a strip that is advanced at once: a flow moved along y and z, so that strips and the
 /// parts of several threads begin elsewhere in it, goes on with the same bits.
 TEST(LatticeWater, IsTheSameWhereverStripsAndPartsBegin) {
-    constexpr int rows = 40, planes = 13;
+    constexpr int rows = 100, planes = 13;  // three strips
     const Box box = box_of(32, rows, planes);
     const auto one = Water::on_cpu(box, 1), other = Water::on_cpu(box, 3);
     const auto moved = [](const Eigen::Vector3i& at) {

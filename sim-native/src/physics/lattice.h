@@ -110,8 +110,8 @@ NATATOR_HD void moving_populations(const float (&u)[3], float (&f)[lattice_popul
     for (int i = 0; i < lattice_populations; ++i)
         f[i] = parts[0][i % 3] * parts[1][i / 3 % 3] * parts[2][i / 9] - rest[i % 3] * rest[i / 3 % 3] * rest[i / 9];
 }
-/// What a cell of a body that moves at u gets along one axis from a neighbour of water in a step: `in`, what streams in
-/// by c, and `out`, what streams out by -c, less what both have in water that moves with the body.
+/// What a cell of a body that moves at u gets along an axis, or all of them, from a neighbour of water in a step: `in`,
+/// what streams in by c, and `out`, what streams out by -c, less what both have in water that moves with the body.
 template <class V>
 NATATOR_HD V link_push(float in, float out, V c, V u) {
     return in * (c - u) + out * (c + u);

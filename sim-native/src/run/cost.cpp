@@ -12,6 +12,7 @@
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "solver/cpu/cell_grid.h"
+#include "solver/lattice/water.h"
 
 namespace natator {
 namespace {
@@ -37,12 +38,9 @@ constexpr double kept_distances = 1 << 20;          // scheme flex keeps those o
 constexpr double raggedness = 1.12;                 // of lists of 16 particles, which are all as long as the longest
 constexpr double of_bursting = 1.5;                 // the same of those that are denser at the start than at rest
 constexpr double max_samples = 4096, max_looks = 2e7;
-// Of scheme lattice: 17 moments, a change of the velocity, whose it is. Rows are padded; each part of the planes has
-// three of populations, two rows wider at most, two of moments, and two rows of moments a plane.
-constexpr double bytes_of_lattice_cell = 92, bytes_of_populations = 3 * 27 * sizeof(float),
-                 bytes_of_moments = 17 * sizeof(float), work_of_lattice_cell = 25;
 // In visits of a pair.
-constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
+constexpr double work_of_lattice_cell = 25, work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000,
+                 work_of_cell = 0.1;
 
 /// The solver's grid over the start, see Substep::sort_into_cells.
 Grid grid_over(const Model& model, double search_distance) {
@@ -150,14 +148,6 @@ Candidates candidates_at_start(const Model& model, double search_distance, bool 
     return sum;
 }
 
-double bytes_of_lattice(const Eigen::Vector3d& cells, bool several_threads) {
-    constexpr double group = 16, margins = 2 * 16, planes_of_part = 4;
-    const double row = std::ceil(cells.x() / group) * group + margins;
-    const double parts = several_threads ? std::max(1.0, cells.z() / planes_of_part) : 1;
-    return row * (bytes_of_lattice_cell * cells.y() * cells.z() + bytes_of_populations * (cells.y() + 2) * parts +
-                  2 * bytes_of_moments * (cells.y() * parts + cells.z()));
-}
-
 /// What a variable of the environment says instead of `usual`.
 double from_environment(const char* name, double usual) {
     const char* const text = std::getenv(name);
@@ -193,10 +183,10 @@ Cost cost_of(const Model& model, const Computing& computing) {
     const double particles = model.particles();
     const SolverParameters& p = model.parameters;
     if (model.water_box) {
-        const Eigen::Vector3d cells = model.water_box->cells.cast<double>();
-        cost.cells = cells.prod();
+        const Eigen::Vector3i& cells = model.water_box->cells;
+        cost.cells = cells.cast<double>().prod();
         cost.per_substep = work_of_lattice_cell * cost.cells;
-        cost.bytes = bytes_of_lattice(cells, computing.several_threads);
+        cost.bytes = lattice::Water::bytes_on_cpu(cells, computing.several_threads);
     }
     if (model.position.empty()) return cost;
     const bool water = model.scheme == Scheme::conserving;

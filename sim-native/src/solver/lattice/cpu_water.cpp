@@ -39,6 +39,14 @@ int rows_at_once(int ny, int stride) {
     return (ny + strips - 1) / strips;
 }
 
+/// The least planes of a part.
+constexpr int least_planes = 4;
+
+/// Rows in the room of a part of so many planes (Kernels::advance).
+double rows_of_room(int rows, int ny, double planes) {
+    return 3.0 * physics::lattice_populations * (rows + 2) + 2.0 * moments * (ny + (rows < ny ? planes : 0));
+}
+
 /// A number of each cell. Arrays begin at other places of a page, by `skew` lines of a cache: the same cell of all of
 /// them would else be in the same few lines of a cache, which has not so many.
 class PerCell {
@@ -232,7 +240,7 @@ void CpuWater::add(const BodyCell& held, double x, double y, double z, std::vect
     }
 }
 
-/// The cells that populations stream to from a body's; beyond a wall that itself.
+/// The cells that populations stream to from a body's; that itself where there is none but beyond a periodic end.
 void CpuWater::cells_beside(const BodyCell& held, long (&to)[physics::lattice_populations]) const {
     const int here[3] = {held.x, held.y, held.z};
     const bool at_end = is_at_end(here);
@@ -320,9 +328,12 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     exchange(lattice, kernel, rates, pushes);
     rooms_.resize(static_cast<std::size_t>(team_.max_parts()));
     const auto for_parts = [&](const auto& work) {
-        team_.for_parts(cells_[2], 4, [&](int part, int begin, int end) {
+        team_.for_parts(cells_[2], least_planes, [&](int part, int begin, int end) {
             Array& room = rooms_[static_cast<std::size_t>(part)];
-            if (room.empty()) room.assign(room_of(lattice, end - begin), 0);
+            if (room.empty())
+                room.assign(
+                    static_cast<std::size_t>(rows_of_room(lattice.rows, cells_[1], end - begin)) * stride_ + 2 * margin,
+                    0);
             work(begin, end, room.data());
         });
     };
@@ -334,8 +345,8 @@ void CpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
 int CpuWater::place_to_collide(long cell) {
     int& place = collided_of_[cell];
     if (place < 0) {
-        place = static_cast<int>(to_collide_.size());
         to_collide_.push_back(cell);
+        place = static_cast<int>(to_collide_.size()) - 1;
     }
     return place;
 }
@@ -366,9 +377,9 @@ void CpuWater::exchange(const View& lattice, const Kernels<float>& kernel, const
     find_surface();
     const std::size_t blocks = (to_collide_.size() + margin - 1) / margin;
     if (collided_.size() < blocks * margin * populations) collided_.resize(blocks * margin * populations);
-    kernel.collide(lattice, rates, to_collide_.data(), static_cast<int>(to_collide_.size()), collided_.data());
+    kernel.collide(lattice, rates, to_collide_.data(), static_cast<long>(to_collide_.size()), collided_.data());
     const auto collided = [&](int place, int i) {
-        return collided_[(place / margin * populations + i) * margin + place % margin];
+        return collided_[(static_cast<long>(place) / margin * populations + i) * margin + place % margin];
     };
     const int* source = sources_.data();
     for (const Surface& one : surface_) {
@@ -393,15 +404,19 @@ void CpuWater::shift(const Eigen::Vector3i& by) {
     const auto inside = [&](const Eigen::Vector3i& c) {
         return (c.array() >= 0).all() && (c.array() < size.array()).all();
     };
-    for (PerCell& array : now_) {
-        const PerCell old = array;
-        for (int z = 0; z < cells_[2]; ++z)
-            for (int y = 0; y < cells_[1]; ++y)
-                for (int x = 0; x < cells_[0]; ++x) {
+    // In place: in the order in which no cell is taken from that was given to.
+    const auto each = [](int cells, int step, const auto& work) {
+        for (int k = 0; k < cells; ++k) work(step < 0 ? cells - 1 - k : k);
+    };
+    for (PerCell& array : now_)
+        each(cells_[2], by.z(), [&](int z) {
+            each(cells_[1], by.y(), [&](int y) {
+                each(cells_[0], by.x(), [&](int x) {
                     const Eigen::Vector3i from = Eigen::Vector3i(x, y, z) + by;
-                    array[place(x, y, z)] = inside(from) ? old[place(from.x(), from.y(), from.z())] : 0;
-                }
-    }
+                    array[place(x, y, z)] = inside(from) ? array[place(from.x(), from.y(), from.z())] : 0;
+                });
+            });
+        });
     std::vector<Owned> moved;
     std::vector<int> owners;
     for (const Owned& one : owned_) {
@@ -491,6 +506,14 @@ void CpuWater::restore(ByteReader from) {
 }
 
 }  // namespace
+
+double Water::bytes_on_cpu(const Eigen::Vector3i& cells, bool several_threads) {
+    constexpr double per_cell = moments + 3 + 3;  // numbers: moments, a change of the velocity, whose it is
+    const int stride = padded(cells.x()) + 2 * margin, rows = rows_at_once(cells.y(), stride);
+    const int parts = several_threads ? std::max(1, cells.z() / least_planes) : 1;
+    const double rooms = parts * rows_of_room(rows, cells.y(), cells.z() / static_cast<double>(parts));
+    return sizeof(float) * stride * (per_cell * cells.y() * cells.z() + rooms);
+}
 
 std::unique_ptr<Water> Water::on_cpu(const Box& box, int threads) {
     return std::make_unique<CpuWater>(box, threads);

@@ -16,6 +16,7 @@ int at(int cx, int cy, int cz) {
 bool periodic(const View& view, int axis) {
     return !view.bounces[axis][0] && !view.mirrors[axis][0] && !view.opens[axis][0];
 }
+/// Inside periodic ends.
 int wrapped(int at, int cells) {
     return (at + cells) % cells;
 }
@@ -35,8 +36,8 @@ void velocity(const Floats (&m)[moments], Floats (&u)[3]) {
 }
 
 template <bool eddies>
-void collide_cells(const View& view, const LatticeRates& rates, const long* cells, int count, float* to) {
-    for (int k = 0; k < count; k += width) {
+void collide_with(const View& view, const LatticeRates& rates, const long* cells, long count, float* to) {
+    for (long k = 0; k < count; k += width) {
         Floats m[moments], u[3], change[3];
         for (int lane = 0; lane < width; ++lane) {
             const long cell = cells[k + lane < count ? k + lane : k];
@@ -52,18 +53,20 @@ void collide_cells(const View& view, const LatticeRates& rates, const long* cell
 }
 
 /// What a part keeps of moments before the step, which it or another overwrites while they are needed: the planes
-/// beside it and, of each of its own, the last row of the strip before this and the first of all.
+/// beside it and, where there are several strips, of each of its own the last row of the strip before this and the
+/// first of all.
 class Kept {
 public:
-    Kept(const View& view, int begin, int end, float* room) : view_(view), begin_(begin), end_(end), room_(room) {}
+    Kept(const View& view, int begin, int end, float* room)
+        : view_(view), begin_(begin), end_(end), room_(room), rows_(view.rows < view.ny ? end - begin : 0) {}
 
     /// Numbers of the room that it takes.
-    long size() const { return 2L * moments * (end_ - begin_ + view_.ny) * view_.stride; }
+    long size() const { return 2L * moments * (rows_ + view_.ny) * view_.stride; }
     /// A row along x.
-    float* row(bool first, int e, int z) const { return place(first ? 1 : 0, e, z - begin_, end_ - begin_, room_); }
+    float* row(bool first, int e, int z) const { return place(first ? 1 : 0, e, z - begin_, rows_, room_); }
     /// Rows of the plane after the part, or before it.
     float* plane(bool after, int e) const {
-        return place(after ? 1 : 0, e, 0, view_.ny, room_ + 2L * moments * (end_ - begin_) * view_.stride);
+        return place(after ? 1 : 0, e, 0, view_.ny, room_ + 2L * moments * rows_ * view_.stride);
     }
     void keep_planes() const {
         for (int side = 0; side < 2; ++side) {
@@ -77,14 +80,14 @@ public:
     void keep_row(bool first, int y, int z) const {
         for (int e = 0; e < moments; ++e) copy(view_.now[e] + first_of(view_, y, z) - margin, 1, row(first, e, z));
     }
-    /// Where the moments of a row are now; z may be beside the part, y beside a strip that begins there.
-    void find(int y, int z, int strip, const float* (&to)[moments]) const {
+    /// Where the moments of a row are now; z may be beside the part, y beside the strip that begins at strip_begin.
+    void find_row(int y, int z, int strip_begin, const float* (&to)[moments]) const {
         const int y_inside = wrapped(y, view_.ny);
         for (int e = 0; e < moments; ++e)
-            to[e] = z < begin_ || z >= end_  ? plane(z >= end_, e) + static_cast<long>(y_inside) * view_.stride + margin
-                    : strip > 0 && y < strip ? row(false, e, z) + margin
-                    : strip > 0 && y >= view_.ny ? row(true, e, z) + margin
-                                                 : view_.now[e] + first_of(view_, y_inside, z);
+            to[e] = z < begin_ || z >= end_ ? plane(z >= end_, e) + static_cast<long>(y_inside) * view_.stride + margin
+                    : strip_begin > 0 && y < strip_begin ? row(false, e, z) + margin
+                    : strip_begin > 0 && y >= view_.ny   ? row(true, e, z) + margin
+                                                         : view_.now[e] + first_of(view_, y_inside, z);
     }
 
 private:
@@ -98,6 +101,7 @@ private:
     const View& view_;
     int begin_, end_;
     float* room_;
+    int rows_;  ///< of each kind
 };
 
 /// One part's planes of populations after collision, the last three, of the rows that [begin, end) along y, a strip,
@@ -134,16 +138,16 @@ void Planes::collide_plane(int z) const {
     for (int y = begin_ - more; y < end_ + more; ++y) {
         if ((y < 0 || y >= view_.ny) && !periodic(view_, 1)) continue;
         const int inside[2] = {wrapped(y, view_.ny), wrapped(z, view_.nz)};
-        const bool changes = view_.row_changes[static_cast<long>(inside[1]) * view_.ny + inside[0]] != 0;
-        const long change = first_of(view_, inside[0], inside[1]);
+        const bool has_changes = view_.row_changes[static_cast<long>(inside[1]) * view_.ny + inside[0]] != 0;
+        const long first = first_of(view_, inside[0], inside[1]);
         const float* now[moments];
-        kept_.find(y, z, begin_, now);
+        kept_.find_row(y, z, begin_, now);
         float* to = this->row(y, z);
         for (int x = 0; x < view_.nx; x += width) {
             Floats m[moments], u[3];
             for (int e = 0; e < moments; ++e) m[e] = load_unaligned(now[e] + x);
             velocity(m, u);
-            for (int a = 0; changes && a < 3; ++a) u[a] += load_unaligned(view_.change[a] + change + x);
+            for (int a = 0; has_changes && a < 3; ++a) u[a] += load_unaligned(view_.change[a] + first + x);
             collide<eddies>(m, u[0], u[1], u[2], rates_,
                             [&](int i, Floats f) { __builtin_memcpy(to + i * size_of_one + x, &f, sizeof f); });
         }
@@ -222,8 +226,8 @@ void advance_with(const View& view, const LatticeRates& rates, int begin, int en
     }
 }
 
-void collide_some(const View& view, const LatticeRates& rates, const long* cells, int count, float* to) {
-    (rates.eddies > 0 ? &collide_cells<true> : &collide_cells<false>)(view, rates, cells, count, to);
+void collide_cells(const View& view, const LatticeRates& rates, const long* cells, long count, float* to) {
+    (rates.eddies > 0 ? &collide_with<true> : &collide_with<false>)(view, rates, cells, count, to);
 }
 
 void keep(const View& view, int begin, int end, float* room) {
@@ -238,7 +242,7 @@ void advance(const View& view, const LatticeRates& rates, int begin, int end, fl
 
 template <class Real>
 Kernels<Real> kernels() {
-    return {&collide_some, &keep, &advance};
+    return {&collide_cells, &keep, &advance};
 }
 template Kernels<float> kernels<float>();
 template Kernels<double> kernels<double>();

@@ -18,22 +18,15 @@ struct View {
     const float* inflow[physics::lattice_populations];  ///< a row of what comes in at open ends
 };
 
-/// Numbers in the room of a part of so many planes: moments of two rows of each and of two planes, and populations of a
-/// strip in three planes, with a row beside each end.
-inline std::size_t room_of(const View& view, int planes) {
-    const long kept = 2L * physics::lattice_moments * (planes + view.ny);
-    const long passing = 3L * physics::lattice_populations * (view.rows + 2);
-    return static_cast<std::size_t>((kept + passing) * view.stride + 2 * margin);
-}
-
 /// Kernels of the lattice in one instruction set, in float.
 template <class Real>
 struct Kernels {
     /// Populations after collision of `count` cells: of cell k population i is to[(k / 16 * 27 + i) * 16 + k % 16].
-    void (*collide)(const View& view, const physics::LatticeRates& rates, const long* cells, int count, float* to);
-    /// Before any of them advances, each part of the planes, [begin, end) along z, keeps those beside it.
+    void (*collide)(const View& view, const physics::LatticeRates& rates, const long* cells, long count, float* to);
+    /// A step in place of a part of the planes, [begin, end) along z, once all parts have kept the planes beside them.
+    /// Both get the same `room`: stride x (3 x 27 x (rows + 2) + 2 x 17 x (ny + planes of the part)) numbers and 32
+    /// more; where a strip is all rows, planes need none.
     void (*keep)(const View& view, int begin, int end, float* room);
-    /// A step of a part, in place.
     void (*advance)(const View& view, const physics::LatticeRates& rates, int begin, int end, float* room);
 };
 

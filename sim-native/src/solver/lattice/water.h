@@ -52,6 +52,8 @@ public:
     /// memory is too small.
     static std::unique_ptr<Water> on_gpu(const Box& box, int device);
     virtual ~Water() = default;
+    /// What one of so many cells takes at most on a CPU, whose steps one thread makes, or several.
+    static double bytes_on_cpu(const Eigen::Vector3i& cells, bool several_threads);
 
     const Box& box() const { return box_; }
     /// Goes on by `step`, s, with the bodies where `cubes` says; `pushes`: what it gave each. The same bits for any
