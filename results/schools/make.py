@@ -11,9 +11,10 @@ from scipy import stats
 HERE = pathlib.Path(__file__).parent
 GAIT = json.loads((HERE / "gait.json").read_text())
 LENGTH, SPEED = 0.98, 1.0
+WIDTH = 4.0  # of the tank of streets
 WAVE = SPEED / GAIT["frequency"]  # of the swimmer's path, from one beat to the next
-NAMES = {(1, 1): "", (1, 2): ", half the step", (2, 1): ", half the cells and step"}
-ASIDE = 0.6  # of a body length, beyond which a follower has left the wake
+LEVELS = {(1, 1): "the scene's", (1, 2): "half the step", (2, 1): "half the cells and step"}
+ASIDE, TOUCHES = 0.39, 0.1  # of a body length, what tails swing, beyond which a follower has left the wake; units
 SHOWN = ("0.5", "1", "2", "4", "6", "8", "10")  # of the places behind a tail
 
 
@@ -35,6 +36,17 @@ def mean_turn(turns):
     return value, error
 
 
+def uniform(turns):
+    """The probability of parts of a turn as near to each other, by Rayleigh's test (Zar: Biostatistical Analysis, 1999, eq. 27.4), if all were equally likely."""
+    count = len(turns)
+    length = count * abs(np.mean(np.exp(2j * np.pi * np.array(turns))))
+    return float(np.exp((1 + 4 * count + 4 * (count**2 - length**2)) ** 0.5 - (1 + 2 * count)))
+
+
+def at(turns):
+    return study.with_error(*mean_turn(turns), 2).replace("-", "−")
+
+
 def percent(value, error):
     return f"{study.fixed(100 * value, 0).replace('-', '−')} ± {study.fixed(100 * error, 0)} %"
 
@@ -47,68 +59,86 @@ def grouped(all_rows, *keys):
 
 
 def streets():
-    groups = grouped(rows("street"), "n", "steps", "diameter", "behind")
-    free = {key[:2]: mean([row["power"] for row in own if "power" in row and "unstable" not in row]) for key, own in groups.items() if key[2] == 0}
-    made, saved = [], {}
-    for (n, steps, diameter, behind), own in groups.items():
-        held = [row for row in own if "power" in row and "unstable" not in row]
-        name = (f"{diameter} wide, {behind} behind" if diameter else "none") + NAMES[n, steps]
-        if not held:
+    """The table, and by place, of those that were held at all levels, by level (work over that without a cylinder less 1, its 95 %, swims that held it, all)."""
+    groups = grouped(rows("street"), "diameter", "behind", "n", "steps")
+    held = {key: [row for row in own if "power" in row and "unstable" not in row] for key, own in groups.items()}
+    made, found = [], {}
+    for (diameter, behind, *level), own in held.items():
+        if len(own) < 2:
             continue
-        power, error = mean([row["power"] for row in held])
-        base, base_error = free[n, steps]
+        power, error = mean([row["power"] for row in own])
+        base, base_error = mean([row["power"] for row in held[0, 1.5, *level]])
         ratio = power / base
-        spread = ratio * ((error / power) ** 2 + (np.nan_to_num(base_error) / base) ** 2) ** 0.5
-        if (diameter, behind, n) == (0.3, 1.5, 1):
-            saved[steps] = percent(1 - ratio, spread) if error == error else f"{study.fixed(100 * (1 - ratio), 0)} %"
-            saved[steps] += f" less ({len(held)} of {len(own)} swims)"
-        made.append([name, str(len(held)), f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}" if error == error else study.fixed(power, 0),
-                     percent(ratio - 1, spread) if diameter and error == error else "", study.fixed(statistics.fmean(row["scale"] for row in held), 2),
-                     study.fixed(statistics.fmean(row["sd_z"] for row in held), 2)])
-    return study.table(["cylinder", "swims", "work/s", "against none", "amplitudes", "s.d. across"], made), saved
+        spread = ratio * ((error / power) ** 2 + (base_error / base) ** 2) ** 0.5
+        of = len(groups[diameter, behind, *level])
+        if diameter:
+            found.setdefault((diameter, behind), {})[tuple(level)] = ratio - 1, spread, len(own), of
+        made.append([f"{diameter} wide, {behind} behind" if diameter else "none", LEVELS[tuple(level)], f"{len(own)} of {of}", f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}",
+                     percent(ratio - 1, spread) if diameter else "", study.fixed(statistics.fmean(row["scale"] for row in own), 2),
+                     study.fixed(statistics.fmean(abs(row["z"] - WIDTH / 2) for row in own), 2)])
+    return study.table(["cylinder", "cells and steps", "swims that stay", "work/s", "against none", "amplitudes", "aside"], made, "<<>>>>>"), found
 
 
-def cost_alone():
-    """Work for a length of way, in free water."""
-    return statistics.fmean(row["power"] / (SPEED + row["speed"]) for row in rows("street") if row["diameter"] == 0 and (row["n"], row["steps"]) == (1, 1))
+def of_streets(found):
+    """The answer's sentence, of the place where less work is surest with the scene's cells and steps."""
+    (diameter, behind), levels = min(found.items(), key=lambda one: sum(one[1][1, 1][:2]))
+    numbers = ", ".join(f"{words}{percent(-levels[level][0], levels[level][1])} ({levels[level][2]} swims)"
+                        for level, words in (((1, 1), ""), ((1, 2), "at half the step "), ((2, 1), "in half the cells ")) if level in levels)
+    sure = all(change + error < 0 for change, error, _, _ in levels.values())
+    return f"A loach that holds station {behind} units behind a cylinder {diameter} wide works less than in free water by {numbers}{'' if sure else ': open'}."
 
 
 def pairs():
-    solo = cost_alone()
-    made, locked, finer = [], [], 0
-    for row in sorted(rows("pair"), key=lambda row: (row["n"], row["steps"], row["gap"] or 0, row["phase"])):
-        if row["role"] != "follower" or "apart" not in row:
-            continue
-        gap = -np.array(row["apart"])[-5:] - LENGTH
-        aside = abs(row["its_z"][-1] - row["z"]) / LENGTH
-        stayed = aside < ASIDE and gap.mean() > 0.1
-        turn = (gap.mean() / WAVE + row["phase"]) % 1
-        if stayed:
-            if (row["n"], row["steps"]) == (1, 1):
-                locked.append(turn)
-            else:
-                finer += 1
-        speeds, powers = np.array(row["speeds"]), np.array(row["powers"])
-        change = np.mean(powers) / (SPEED + speeds.mean()) / solo - 1
-        if aside >= ASIDE:
-            continue
-        made.append([f"{row['gap']}, {row['phase']}{NAMES[row['n'], row['steps']]}", study.with_error(gap.mean(), gap.std(), 2), study.fixed(turn, 2) if stayed else "",
-                     study.with_error(speeds.mean(), speeds.std(ddof=1) / len(speeds) ** 0.5, 2), percent(change, np.std(powers / (SPEED + speeds), ddof=1) / len(speeds) ** 0.5 / solo)])
-    return study.table(["gap at the start, phase", "gap at the end", "gap/λ + phase", "speed over ground", "its cost of transport"], made), locked, finer
+    """The table and by level (gaps over the wavelength plus phase of followers that stay in the wake, all swims)."""
+    made, found = [], {}
+    for level, own in grouped(rows("pair"), "n", "steps").items():
+        stay, turns = [], []
+        for row in own:
+            gap, aside = (np.mean([place[k] for place in row["apart"][-5:]]) for k in (1, 2))
+            if "unstable" not in row and abs(aside) / LENGTH < ASIDE and gap - LENGTH > TOUCHES:
+                stay.append(row)
+                turns.append(((gap - LENGTH) / WAVE + row["phase"]) % 1)
+        costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
+        found[level] = turns, len(own)
+        made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*mean([row["speed"] for row in stay]), 2),
+                                                                     percent(*mean(costs))] if len(stay) > 2 else [""] * 4)])
+    return study.table(["cells and steps", "followers that stay", "gap/λ + phase", "p if none", "speed over ground", "cost of transport against the leader's"], made), found
+
+
+def drawn_pairs(folder):
+    """Where followers are at the end."""
+    figure, axes = pyplot.subplots(figsize=(7, 3.6), dpi=90)
+    phases = np.array([-0.1, 0.85])
+    for turns in range(4):
+        axes.plot(phases, turns - phases, color="#bbb", linewidth=1)
+    for colour, (level, own) in zip(("#1668b0", "#b04a16", "#2a8a3a"), grouped(rows("pair"), "n", "steps").items()):
+        places = [(row["phase"], np.mean([place[1] for place in row["apart"][-5:]]) - LENGTH, abs(np.mean([place[2] for place in row["apart"][-5:]])) / LENGTH) for row in own if "unstable" not in row]
+        for inside, marker in ((True, "o"), (False, "x")):
+            some = [(phase + 0.02 * (list(LEVELS).index(level) - 1), gap / WAVE) for phase, gap, aside in places if (aside < ASIDE) == inside]
+            if some:
+                axes.plot(*zip(*some), marker, color=colour, label=LEVELS[level] if inside else None)
+    axes.set(xlabel="beats by which the leader is later", ylabel="gap / λ at the end", xlim=phases, ylim=(-0.5, 3))
+    axes.legend(loc="upper right")
+    figure.tight_layout()
+    figure.savefig(folder / "pairs.png", metadata={"Software": None}, pil_kwargs={"optimize": True})
+    pyplot.close(figure)
 
 
 def sides():
-    solo = cost_alone()
+    groups = grouped(rows("row"), "kind", "width")
+
+    def cost(row):
+        return np.mean(row["powers"]) / (SPEED + np.mean(row["speeds"]))
+    far = max(width for _, width in groups)
+    base = statistics.fmean(cost(row) for (_, width), own in groups.items() if width == far for row in own)
     made = []
-    for (kind, width), own in grouped(rows("row"), "kind", "width").items():
+    for (kind, width), own in groups.items():
         swum = [row for row in own if "speeds" in row]
         if not swum:
-            made.append([f"{width}, {kind}", "all break a law", ""])
             continue
-        speeds = np.array([np.mean(row["speeds"]) for row in swum])
-        costs = np.array([np.mean(row["powers"]) for row in swum]) / (SPEED + speeds) / solo - 1
+        speeds, costs = (np.array(values) for values in ([np.mean(row["speeds"]) for row in swum], [cost(row) / base - 1 for row in swum]))
         made.append([f"{width}, {kind}", study.with_error(speeds.mean(), np.ptp(speeds) / 2, 3), percent(costs.mean(), np.ptp(costs) / 2)])
-    return study.table(["distance, beat of neighbours", "speed over ground", "cost of transport"], made)
+    return study.table(["distance, beat of neighbours", "speed over ground", f"cost of transport against {far} apart"], made)
 
 
 def wakes():
@@ -129,7 +159,7 @@ def wakes():
 def frames():
     made = []
     for (n, steps), own in grouped(rows("frame"), "n", "steps").items():
-        made.append([("cells and steps of the scene" + NAMES[n, steps]).replace("cells and steps of the scene, ", ""),
+        made.append([LEVELS[n, steps],
                      *(study.with_error(*(lambda s: (s.mean(), s.std(ddof=1) / len(s) ** 0.5))(np.array(row["speeds"])), 2) for row in sorted(own, key=lambda row: row["current"]))])
     currents = sorted({row["current"] for row in rows("frame")})
     return study.table(["speed through the water, in a current of", *(f"{current:g}" for current in currents)], made) if made else ""
@@ -151,15 +181,14 @@ def drawn(folder, name):
 
 
 def make(folder):
-    street, saved = streets()
-    pair, turns, finer = pairs()
+    street, held = streets()
+    pair, turns = pairs()
     wake, left = wakes()
-    turn, error = mean_turn(turns)
-    swum = [(row["n"], row["steps"]) == (1, 1) for row in rows("pair") if row["role"] == "follower"]
-    answer = (f"**Whether a swimmer holds station behind a cylinder with less work than in free water is open: {saved[1]} at the scene's time step, {saved[2]} at half of it. A follower that stays "
-              f"in the wake settles where its gap over the wavelength plus its phase is {study.fixed(turn, 2)} ± {study.fixed(error, 2)}, as for foils and fish ({len(turns)} of {sum(swum)} swims; {finer} of {len(swum) - sum(swum)} stay at half the time step). Ten body lengths behind, "
-              f"{study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).**\n")
+    locked = {level: f"{at(own)} ({len(own)} of {count} swims)" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, count) in turns.items()}
+    answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish; at half the step "
+              f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
+    drawn_pairs(folder)
     for file in sorted(HERE.glob("*.npz")):
         drawn(folder, file.stem)
 

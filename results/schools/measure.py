@@ -16,7 +16,9 @@ GAIT = json.loads((HERE / "gait.json").read_text())
 BEAT, LENGTH, CELL = 1 / GAIT["frequency"], 0.98, 0.02
 FRAMES = 3  # between two commands of the pilot, 1/60 s each
 GAIN = (0.2, 0.15, 0.1, 0.1)
+FIRM = (0.4, 0.3, 0.1, 0.1)  # of pairs, which leave each other's wake by GAIN; chosen on three of them
 SPEED, DRIVE = 1.0, 0.75  # of the current; the part of its amplitudes by which the loach goes about as fast
+DRIVES = {(1, 1): DRIVE, (1, 2): 0.95, (2, 1): 0.99}  # the same by cells and steps so many times as fine, of streets without a cylinder
 
 
 def loach(x, z, n):
@@ -40,34 +42,41 @@ def scene(size, rear, current=0.0, n=1, steps=1, periodic=(), **more):
 class Pilot:
     """Steers a swimmer by means over a beat: its heading to a line along x, and if `station` is a place along x its drive to that."""
 
-    def __init__(self, stream, z, station=None, drive=DRIVE):
-        self.stream, self.z, self.station, self.drive = stream, z, station, drive
-        self.senses, self.window, self.sum, self.offset, self.lean = stream.sense(), [], 0.0, 0.0, 0.0
+    def __init__(self, stream, z, station=None, drive=DRIVE, gain=GAIN, senses=None):
+        self.stream, self.z, self.station, self.drive, self.gain = stream, z, station, drive, gain
+        self.senses, self.window, self.sum, self.offset, self.lean = senses or stream.sense(), [], 0.0, 0.0, 0.0
         self.rows = []
 
-    def step(self, rest=False):
+    def command(self, rest=False):
+        """Scales and offsets of the gait for the next frames."""
         s = self.senses
         self.window = [*self.window, (s.centre[0], s.centre[2], math.atan2(s.forward[2], s.forward[0]))][-round(BEAT * 60 / FRAMES):]
         x, z, heading = np.mean(self.window, axis=0)
         old = self.window[0]
         speed = (s.centre[0] - old[0]) / max(1, len(self.window) - 1) / (FRAMES / 60)
         aside = (s.centre[2] - old[1]) / max(1, len(self.window) - 1) / (FRAMES / 60)
-        wanted = float(np.clip(-GAIN[0] * (z - self.z) - GAIN[1] * aside, -0.2, 0.2))
-        self.lean = float(np.clip(self.lean + GAIN[3] * (heading - wanted) * FRAMES / 60, -0.1, 0.1))
-        self.offset += float(np.clip(np.clip(GAIN[2] * (heading - wanted) + self.lean, -0.15, 0.15) - self.offset, -0.02, 0.02))
-        scale = DRIVE
+        wanted = float(np.clip(-self.gain[0] * (z - self.z) - self.gain[1] * aside, -0.2, 0.2))
+        self.lean = float(np.clip(self.lean + self.gain[3] * (heading - wanted) * FRAMES / 60, -0.1, 0.1))
+        self.offset += float(np.clip(np.clip(self.gain[2] * (heading - wanted) + self.lean, -0.15, 0.15) - self.offset, -0.02, 0.02))
+        scale = self.drive
         if self.station is not None:
             error = self.station - x
             self.sum = float(np.clip(self.sum + 0.15 * error * FRAMES / 60, -1, 1))
             scale = float(np.clip(self.drive + self.sum + 0.6 * error - 0.5 * speed, 0, 2.2))
+        self.told = scale, heading
         actuators = self.stream.actuators
         if rest:
-            self.senses = self.stream.step(FRAMES, scale=[0] * actuators, offset=[0] * actuators)
-        else:
-            room = [min(scale, (2 - abs(self.offset)) / a) for a in GAIT["amplitude"]]
-            self.senses = self.stream.step(FRAMES, scale=room, offset=[self.offset] * actuators)
-        s = self.senses
-        self.rows.append(tuple(map(float, (s.time, s.centre[0], s.centre[2], s.work, scale, heading))))
+            return [0] * actuators, [0] * actuators
+        return [min(scale, (2 - abs(self.offset)) / a) for a in GAIT["amplitude"]], [self.offset] * actuators
+
+    def take(self, senses):
+        """What it sees after them."""
+        self.senses = senses
+        self.rows.append(tuple(map(float, (senses.time, senses.centre[0], senses.centre[2], senses.work, *self.told))))
+
+    def step(self, **more):
+        scale, offset = self.command(**more)
+        self.take(self.stream.step(FRAMES, scale=scale, offset=offset))
 
     def swim(self, seconds, **more):
         for _ in range(round(seconds * 60 / FRAMES)):
@@ -126,31 +135,30 @@ def row(width, kind, current, start, n, steps, backend, seconds=10):
         return pilot.of(4, seconds) | beats(pilot, 4, seconds)
 
 
-def pair(gap, aside, phase, role, current, start, n, steps, backend, seconds=8.0):
-    """Two with gaits of their own: behind each other (gap from tail to head) or side by side (gap None). A `follower` or the one `beside` is measured; the other beats `phase` beats later."""
-    size, width = (5.6, 2.4), 2.4
-    other = GAIT | {"amplitude": [DRIVE * a for a in GAIT["amplitude"]], "phase": [(p - phase) % 1 for p in GAIT["phase"]]}
-    if role == "beside":
-        own, its = (2.6, width / 2 - aside / 2), (2.6, width / 2 + aside / 2)
-    else:
-        behind, before = (2.0, width / 2), (2.0 + LENGTH + gap, width / 2)
-        own, its = behind, before
-    company = {"companions": [{"creature": loach(*its, n), "gait": other}]}
-    with natator.Stream("plane/loach", gait=GAIT, start=start, backend=backend, fields=("position",), overrides=scene(size, own, current, n, steps, **company)) as stream:
-        pilot = Pilot(stream, own[1])
-        body = stream.scene["companions"][0]["body"]
-        places = []
-        for _ in range(round(seconds * 60 / FRAMES)):
-            pilot.step()
-            places.append([pilot.senses.time, *stream.frame.position[body].mean(axis=0)[[0, 2]].tolist()])
-        places = np.array(places)
-        ends = np.arange(2.5, seconds + 1e-6, BEAT)
-        x = np.interp(ends, places[:, 0], places[:, 1])
-        apart = np.array([r[1] for r in pilot.rows]) - places[:, 1]
+def pair(gap, phase, current, start, n, steps, backend, seconds=12.0, size=(5.6, 3.2)):
+    """Two behind each other, so far from tail to head, both steered along the middle; the leader beats `phase` beats later. Measured from 4 s on; `apart`: time, and how far the leader is before the follower and aside."""
+    z, rear = size[1] / 2, 2.0
+    company = {"companions": [{"creature": loach(rear + LENGTH + gap, z, n), "gait": GAIT | {"phase": [(p - phase) % 1 for p in GAIT["phase"]]}}]}
+    with natator.Stream("plane/loach", gait=GAIT, start=start, backend=backend, fields=("position",), overrides=scene(size, (rear, z), current, n, steps, **company)) as stream:
+        senses = stream.sense()
+        pilots = [Pilot(stream, z, drive=DRIVES[n, steps], gain=FIRM, senses=one) for one in (senses, *senses.companions)]
+        row = {}
+        try:
+            for _ in range(round(seconds * 60 / FRAMES)):
+                commands = [pilot.command() for pilot in pilots]
+                senses = stream.step(FRAMES, scale=[v for scale, _ in commands for v in scale], offset=[v for _, offset in commands for v in offset])
+                for pilot, one in zip(pilots, (senses, *senses.companions)):
+                    pilot.take(one)
+        except natator.Unstable as error:
+            row = {"unstable": str(error)}
+        follower, leader = (np.array(pilot.rows) for pilot in pilots)
         if phase == 0 and start == 1 and n == steps == 1:
-            shot(stream, f"pair-{gap or aside}-{role}")
-        return pilot.of(2.5, seconds) | beats(pilot, 2.5, seconds) | {"its_speeds": (np.diff(x) / BEAT).round(4).tolist(), "apart": [round(float(a), 4) for a in apart[::10]],
-                                                                     "its_z": [round(float(z), 4) for z in places[::10, 2]]}
+            shot(stream, f"pair-{gap}-follower")
+        end = follower[-1, 0]
+        if end > 6:
+            row |= pilots[0].of(4, end) | {"leader": pilots[1].of(4, end)}
+        trail = [[round(float(v), 4) for v in (f[0], l[1] - f[1], l[2] - f[2])] for f, l in zip(follower[::10], leader[::10])]
+        return row | {"apart": trail}
 
 
 def wake(start, n, steps, backend, current, seconds=19.0):
@@ -199,21 +207,17 @@ def plans(kind):
     """Arguments of the swims of a kind."""
     base, _, finer = kind.partition("-")
     n, steps = {"": (1, 1), "step": (1, 2), "cells": (2, 1)}[finer]
-    starts = range(1, 9) if not finer else range(1, 5)
     fine = {"n": n, "steps": steps}
     if base == "street":
         places = ((0, 1.5), (0.3, 1.0), (0.3, 1.5), (0.3, 2.5), (0.5, 2.0))
-        return [{"diameter": d, "behind": b, "current": SPEED, "start": s, **fine} for s in range(1, 9) for d, b in places[:5 - 2 * (n > 1)]]
+        return [{"diameter": d, "behind": b, "current": SPEED, "start": s, **fine} for s in range(1, 9 if n == 1 else 5) for d, b in (places[:3] if finer else places)]
     if base == "frame":
         return [{"current": c, "start": 1, **fine} for c in (0.0, 0.6, 1.2)]
     if base == "row":
         ways = [("opposite", w) for w in (0.4, 0.6, 0.8, 1.2, 1.6, 2.4)] + [("same", w) for w in (1.2, 1.6, 2.4)]
         return [{"width": w, "kind": k, "current": SPEED, "start": s, **fine} for k, w in (ways if not finer else [("opposite", 0.6), ("opposite", 2.4)]) for s in (1, 2)]
     if base == "pair":
-        phases = (0, 0.25, 0.5, 0.75)
-        behind, beside = ((0.16, 0.3, 0.44, 0.58, 0.84), (0.3, 0.5, 0.8, 1.2)) if not finer else ((0.3, 0.84), (0.5,))
-        return ([{"gap": g, "aside": 0, "phase": p, "role": "follower", "current": SPEED, "start": 1, **fine} for g in behind for p in phases]
-                + [{"gap": None, "aside": a, "phase": p, "role": "beside", "current": SPEED, "start": 1, **fine} for a in beside for p in phases])
+        return [{"gap": g, "phase": p, "current": SPEED, "start": s, **fine} for s in ((1, 2) if not finer else (1,)) for g in (0.16, 0.3, 0.44, 0.58, 0.84)[::n] for p in (0, 0.25, 0.5, 0.75)]
     return [{"start": s, "current": SPEED, **fine} for s in (1, 2)]
 
 
