@@ -326,6 +326,31 @@ TEST_F(LatticeBar, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(run(1), run(3));
 }
 
+/// Its cells are in the first and the last of three strips of rows.
+TEST(LatticeWater, ABodyAcrossAPeriodicEndIsPushedAsElsewhere) {
+    const auto run = [](double to) {
+        Bar bar;
+        bar.box_ = box_of(36, 100, 28);
+        bar.box_.viscosity = 0.02;
+        for (Eigen::Vector3d& place : bar.place_) place.y() += to;
+        bar.begin({0.05, 0.03, 0.02}, {0.001, 0.004, 0});
+        const auto water = Water::on_cpu(bar.box_, 1);
+        std::vector<Push> pushes;
+        for (int k = 0; k < 20; ++k) water->advance(bar.cubes(), 1, pushes);
+        std::vector<double> pushed;
+        for (const Push& push : pushes) pushed.insert(pushed.end(), push.j, push.j + 3);
+        return pushed;
+    };
+    const std::vector<double> inside = run(32), across = run(88);
+    double most = 0, largest = 0;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        most = std::max(most, std::abs(across[i] - inside[i]));
+        largest = std::max(largest, std::abs(inside[i]));
+    }
+    EXPECT_GT(largest, 0.01);
+    EXPECT_LT(most, 1e-5);
+}
+
 TEST(LatticeWater, SaysWhenThereIsNoSuchGpu) {
     EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), 99), NoDevice);
     EXPECT_THROW(Water::on_gpu(box_of(4, 4, 4), -1), NoDevice);
