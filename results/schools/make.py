@@ -88,16 +88,22 @@ def of_streets(found):
     return f"A loach that holds station {behind} units behind a cylinder {diameter} wide works less than in free water by {numbers}{'' if sure else ': open'}."
 
 
+def end_of(row):
+    """The gap, units, and how far the follower is aside, body lengths: means of the last 2 s."""
+    before, aside = np.mean(row["apart"][-5:], axis=0)[1:]
+    return before - LENGTH, abs(aside) / LENGTH
+
+
 def pairs():
     """The table and by level (gaps over the wavelength plus phase of followers that stay in the wake, all swims)."""
     made, found = [], {}
     for level, own in grouped(rows("pair"), "n", "steps").items():
         stay, turns = [], []
         for row in own:
-            gap, aside = (np.mean([place[k] for place in row["apart"][-5:]]) for k in (1, 2))
-            if "unstable" not in row and abs(aside) / LENGTH < ASIDE and gap - LENGTH > TOUCHES:
+            gap, aside = end_of(row)
+            if "unstable" not in row and aside < ASIDE and gap > TOUCHES:
                 stay.append(row)
-                turns.append(((gap - LENGTH) / WAVE + row["phase"]) % 1)
+                turns.append((gap / WAVE + row["phase"]) % 1)
         costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
         found[level] = turns, len(own)
         made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*mean([row["speed"] for row in stay]), 2),
@@ -112,7 +118,7 @@ def drawn_pairs(folder):
     for turns in range(4):
         axes.plot(phases, turns - phases, color="#bbb", linewidth=1)
     for colour, (level, own) in zip(("#1668b0", "#b04a16", "#2a8a3a"), grouped(rows("pair"), "n", "steps").items()):
-        places = [(row["phase"], np.mean([place[1] for place in row["apart"][-5:]]) - LENGTH, abs(np.mean([place[2] for place in row["apart"][-5:]])) / LENGTH) for row in own if "unstable" not in row]
+        places = [(row["phase"], *end_of(row)) for row in own if "unstable" not in row]
         for inside, marker in ((True, "o"), (False, "x")):
             some = [(phase + 0.02 * (list(LEVELS).index(level) - 1), gap / WAVE) for phase, gap, aside in places if (aside < ASIDE) == inside]
             if some:

@@ -34,6 +34,8 @@ SWIMS = {"water": (1, 1, 2, range(101, 105)), "half step": (1, 2, 2, (101, 102))
          "vacuum": (1, 2, 2, (101,)), "until walls": (1, 1, 2, range(105, 109))}
 UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, range(1001, 1009)), "half cells": (2, 1, 4, range(1001, 1005)), "mirrored": (1, 1, 4, (1001, 1002)),
                "resting": (1, 1, 4, (1001,)), "vacuum": (1, 2, 2, (101,))}
+# In words, conditions in which a speed has to last.
+CONTROLS = {"half step": "at half the step", "half cells": "at half the cells", "mirrored": "mirrored"}
 
 
 def tank(evolution, finer=1, steps=1, seconds=2, until_walls=None, length=LENGTH, width=None):
@@ -171,8 +173,8 @@ class Lake:
         least = 0.05 * length / self.lasts(swimmer)
         if speed.mean - rest < least or abs(self.speeds(swimmer, "vacuum").mean) > (speed.mean - rest) / 2:
             return "✘", "no further than at rest, or in vacuum"
-        doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in
-                  (("half step", "at half the step"), ("half cells", "at half the cells"), ("mirrored", "mirrored")) if not abs(change := self.change(swimmer, condition)) < 0.5]
+        doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in CONTROLS.items()
+                  if not abs(change := self.change(swimmer, condition)) < 0.5]
         doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * self.walls(swimmer)
         broken = sum(one["status"] != "ok" for runs in self.runs[swimmer].values() for one in runs)
         return ("–", "; ".join(doubts + [f"{broken} unstable"] * (broken > 0))) if doubts or broken else ("✔", "swims by every control")
@@ -183,7 +185,7 @@ class Lake:
         for one in sorted(self.runs):
             speed, (re, st) = self.speeds(one), self.numbers(one)
             made.append([one[0], str(one[1]), measured.with_error(speed.mean, speed.interval, 3), str(speed.count), measured.fixed(self.lasts(one), 1),
-                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" for condition in ("half step", "half cells", "mirrored")),
+                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" for condition in CONTROLS),
                          *(measured.fixed(self.speeds(one, condition).mean, 3) for condition in ("resting", "vacuum")), measured.fixed(re, 0), measured.fixed(st), *self.verdict(one)])
         return made
 
@@ -209,8 +211,7 @@ class Lake:
         if not swim:
             return ""
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
-        speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % at {words}".replace("-", "−") for condition, words in
-                                                   (("half step", "half the step"), ("half cells", "half the cells")))
+        speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % {CONTROLS[condition]}".replace("-", "−") for condition in ("half step", "half cells"))
         return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, the fastest {one[0].replace('-', ' ')} at " \
                f"{measured.with_error(speed.mean, speed.interval)} units/s ({finer})."
 

@@ -20,9 +20,10 @@ bool periodic(const View& view, int axis) {
 int wrapped(int at, int cells) {
     return (at + cells) % cells;
 }
-/// Whether a plane is one of the lattice, or beyond a periodic end.
-bool is_there(const View& view, int z) {
-    return (z >= 0 && z < view.nz) || (periodic(view, 2) && view.nz > 1);
+/// Whether a row or plane is one of the lattice, or beyond a periodic end.
+bool is_there(const View& view, int axis, int at) {
+    const int cells = axis == 1 ? view.ny : view.nz;
+    return (at >= 0 && at < cells) || (periodic(view, axis) && cells > 1);
 }
 /// The first cell of a row.
 long first_of(const View& view, int y, int z) {
@@ -72,7 +73,7 @@ public:
         for (int side = 0; side < 2; ++side) {
             const bool after = side == 1;
             const int z = after ? end_ : begin_ - 1;
-            if (!is_there(view_, z)) continue;
+            if (!is_there(view_, 2, z)) continue;
             const long first = first_of(view_, 0, wrapped(z, view_.nz)) - margin;
             for (int e = 0; e < moments; ++e) copy(view_.now[e] + first, view_.ny, plane(after, e));
         }
@@ -136,7 +137,7 @@ void Planes::collide_plane(int z) const {
     const long size_of_one = size();
     const int more = all_rows() ? 0 : 1;
     for (int y = begin_ - more; y < end_ + more; ++y) {
-        if ((y < 0 || y >= view_.ny) && !periodic(view_, 1)) continue;
+        if (!is_there(view_, 1, y)) continue;
         const int inside[2] = {wrapped(y, view_.ny), wrapped(z, view_.nz)};
         const bool has_changes = view_.row_changes[static_cast<long>(inside[1]) * view_.ny + inside[0]] != 0;
         const long first = first_of(view_, inside[0], inside[1]);
@@ -169,7 +170,7 @@ const float* Planes::source(int i, int y, int z) const {
         else if (view_.mirrors[axis][end])
             from = here, d = -d;
         else if (axis == 1 && all_rows())
-            from = (from + n) % n;
+            from = wrapped(from, n);
     };
     meet(1, view_.ny, y, from_y, dy);
     if (view_.nz == 1 && periodic(view_, 2))
@@ -215,7 +216,7 @@ void advance_with(const View& view, const LatticeRates& rates, int begin, int en
         const Planes planes(view, rates, y, y + view.rows < view.ny ? y + view.rows : view.ny, kept,
                             room + kept.size());
         const auto collide_at = [&](int z) {
-            if (is_there(view, z)) planes.collide_plane<eddies>(z);
+            if (is_there(view, 2, z)) planes.collide_plane<eddies>(z);
         };
         collide_at(begin - 1);
         collide_at(begin);
