@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +13,18 @@ namespace natator::lattice {
 
 /// A substep: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
 constexpr double max_cells_per_substep = 0.3;
+
+/// How large some cubes are at rest, cells.
+struct CubeSizes {
+    double reach = 0;  ///< the farthest from a middle along an axis
+    double cells = 0;  ///< in all of the boxes around them
+
+    void add(const Eigen::Vector3d& half) {
+        reach = std::max(reach, half.maxCoeff());
+        cells += 8 * half.prod();
+    }
+    void add(const Cube& cube) { add(Eigen::Vector3d(cube.reach[0], cube.reach[1], cube.reach[2])); }
+};
 
 /// What of a Model of scheme `lattice` is in its water.
 class CoupledBodies {
@@ -28,12 +41,14 @@ public:
     const std::vector<Cube>& obstacle_cubes() const { return obstacle_cubes_; }
     const std::vector<std::size_t>& cubes_of_obstacles() const { return cubes_of_obstacles_; }
     int cubes() const { return static_cast<int>(spacing_.size() + obstacle_cubes_.size()); }  ///< of all
+    const CubeSizes& sizes() const { return sizes_; }
 
 private:
     std::vector<double> spacing_, displaced_, kept_;
     Immersed immersed_;
     std::vector<Cube> obstacle_cubes_;
     std::vector<std::size_t> cubes_of_obstacles_;
+    CubeSizes sizes_;
 };
 
 Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box);

@@ -76,15 +76,15 @@ __device__ void lay_out_cubes(const ModelView<Real>&, const Slots<Real>& slots, 
     if (fastest > water.fastest) atomicMax(&water.fastest, fastest);
 }
 
-__device__ Vec3<double> impulse_of(const Push& push, double unit) {
-    return {unit * push.j[0], unit * push.j[1], unit * push.j[2]};
+__device__ Vec3<double> impulse_of(const PushSums& push, double unit) {
+    return {unit * push[0], unit * push[1], unit * push[2]};
 }
 /// What a cube hands on, of a weight.
-__device__ Vec3<double> handed_on(const Push& push, double unit, const Vec3<double>& weight) {
-    const double* const m = push.moment;
-    return {unit * m[0] * weight.x + unit * m[1] * weight.y + unit * m[2] * weight.z,
-            unit * m[3] * weight.x + unit * m[4] * weight.y + unit * m[5] * weight.z,
-            unit * m[6] * weight.x + unit * m[7] * weight.y + unit * m[8] * weight.z};
+__device__ Vec3<double> handed_on(const PushSums& push, double unit, const Vec3<double>& weight) {
+    const auto row = [&](int a) {
+        return unit * push[3 + 3 * a] * weight.x + unit * push[4 + 3 * a] * weight.y + unit * push[5 + 3 * a] * weight.z;
+    };
+    return {row(0), row(1), row(2)};
 }
 
 inline constexpr int push_lanes = 8;
@@ -97,7 +97,7 @@ __device__ void take_pushes(const ModelView<Real>&, const Slots<Real>& slots, in
     const WaterOnGpu& water = waters[blockIdx.y];
     if (!water.goes_on) return;
     const int lane = static_cast<int>(threadIdx.x) % push_lanes;
-    const Push* const pushes = reinterpret_cast<const Push*>(water.pushes);
+    const PushSums* const pushes = water.pushes;
     const unsigned long long now = static_cast<unsigned long long>(slots.substep) << 32;
     const bool of_obstacle = c >= bodies.particles;
     Vec3<double> given{};
@@ -195,7 +195,7 @@ public:
         const auto h = static_cast<double>(launch.slots.h);
         // At least by one thread, which looks whether the State is over.
         launch.template report_slots<lay_out_cubes<Real>>(std::max(1, bodies_.particles), bodies_, waters_.data());
-        launch_step(lattice_step(box_, h, bodies_.cubes), waters_.data(), launch.states, launch.stream);
+        launch_step(lattice_step(box_, h, bodies_.cubes, coupled_.sizes()), waters_.data(), launch.states, launch.stream);
         launch.template each_slot<take_pushes<Real>, push_lanes>(
             bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()), impulse_unit(box_, h));
         cuda::check(cudaGetLastError(), "launch");

@@ -7,19 +7,17 @@
 #include <utility>
 
 #include "physics/lattice.h"
-#include "solver/solids/cuda/sums_of_warp.cuh"
 
 namespace natator::lattice {
 namespace {
 
 using namespace physics;
 
-constexpr int block = 128, push_block = 64, range_block = 256;  ///< threads
-constexpr unsigned warp = 32, all = ~0u;
-constexpr int push_numbers = sizeof(Push) / sizeof(double);
-static_assert(push_numbers <= 32, "a number each of a warp's threads");
+constexpr int block = 128, range_block = 256;  ///< threads
+constexpr unsigned warp = 32;
 
 constexpr Key nobody = ~Key{0};
+constexpr int kind_of_saved = 2;  // on a CPU there are moments, before this there were populations that had come
 
 /// A water as the kernels of a step take it.
 struct Step {
@@ -97,41 +95,31 @@ __global__ void __launch_bounds__(range_block)
     ++water.steps;
 }
 
-/// The warp's cube; none beyond the last.
-__device__ int cube_of_warp(int cubes) {
-    const int cube = static_cast<int>((blockIdx.x * block + threadIdx.x) / warp);
-    return cube < cubes ? cube : -1;
-}
-/// The cells around a cube, and so many beyond.
-struct CellsAround {
-    CellRange range;
-    unsigned size;
-
-    __device__ CellsAround(const Lattice& lattice, const Cube& cube, float more) {
-        Cube wide = cube;
-        for (float& reach : wide.reach) reach += more;
-        range = cells_around(wide, lattice.cells, lattice.periodic);
-        size = range.size();
-    }
-    /// Number k: where it is, counted on beyond periodic ends, and inside them; its key.
-    __device__ Key* cell(const Step& step, unsigned k, int (&x)[3], int (&here)[3]) const {
+/// Does something with each of the cells around the cubes, now and before: work(place).
+template <class Work>
+__device__ void each_cell_around(const Step& step, const Work& work) {
+    const CellRange& range = step.water.around;
+    const auto size = static_cast<unsigned>(range.size());
+    for (unsigned k = blockIdx.x * block + threadIdx.x; k < size; k += gridDim.x * block) {
         const unsigned row = k / range.count[0], plane = row / range.count[1];
-        x[0] = range.low[0] + static_cast<int>(k - row * range.count[0]);
-        x[1] = range.low[1] + static_cast<int>(row - plane * range.count[1]);
-        x[2] = range.low[2] + static_cast<int>(plane);
-        for (int a = 0; a < 3; ++a) here[a] = step.lattice.inside(a, x[a]);
-        return step.key_of(here[0], here[1], here[2]);
+        work({range.low[0] + static_cast<int>(k - row * range.count[0]),
+              range.low[1] + static_cast<int>(row - plane * range.count[1]), range.low[2] + static_cast<int>(plane)});
+    }
+}
+
+/// A cell as a cube sees it, the nearest of its copies beyond periodic ends.
+struct CellInCube {
+    int at[3];
+    PlaceInCube in;
+    Velocity3 velocity;  ///< of the body there
+
+    __device__ CellInCube(const Lattice& lattice, const Cube& cube, const int (&place)[3]) {
+        for (int a = 0; a < 3; ++a) at[a] = nearest_copy(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
+        in = place_in(cube, at[0], at[1], at[2]);
+        velocity = velocity_in(cube, in.xi);
     }
 };
-/// Does something with each of them by a warp's threads in turn: work(x, here, key).
-template <class Work>
-__device__ void each_cell_around(const Step& step, const Cube& cube, float more, const Work& work) {
-    const CellsAround around(step.lattice, cube, more);
-    for (unsigned k = threadIdx.x % warp; k < around.size; k += warp) {
-        int x[3], here[3];
-        if (Key* const key = around.cell(step, k, x, here)) work(x, here, *key);
-    }
-}
+
 /// Whether all cells beside that of a place in a cube are in the cube as well, and not only so by rounding.
 __device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
     if (cube.round) return false;
@@ -142,139 +130,161 @@ __device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
     return true;
 }
 
-/// Finds the cells that each cube holds.
-__global__ void hold(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+/// Finds the cells that each cube holds, by some warps for each, and begins its sums.
+__global__ void __launch_bounds__(block) hold(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
     const Step step(of_all, waters);
-    const int p = cube_of_warp(of_all.cubes);
-    if (p < 0 || !step.water.goes_on) return;
+    const unsigned threads = of_all.warps * warp, thread = blockIdx.x * block + threadIdx.x, p = thread / threads,
+                   first = thread - p * threads;
+    if (p >= static_cast<unsigned>(of_all.cubes) || !step.water.goes_on) return;
+    if (first == 0) step.water.pushes[p] = {};
     const Cube cube = step.water.cubes[p];
-    each_cell_around(step, cube, 0, [&](const int(&x)[3], const int(&)[3], Key& key) {
+    const CellRange range = cells_around(cube, step.lattice.cells, step.lattice.periodic);
+    const auto size = static_cast<unsigned>(range.size());
+    for (unsigned k = first; k < size; k += threads) {
+        const unsigned row = k / range.count[0], plane = row / range.count[1];
+        const int x[3] = {range.low[0] + static_cast<int>(k - row * range.count[0]),
+                          range.low[1] + static_cast<int>(row - plane * range.count[1]),
+                          range.low[2] + static_cast<int>(plane)};
+        Key* const key = step.key_of(step.lattice.inside(0, x[0]), step.lattice.inside(1, x[1]),
+                                     step.lattice.inside(2, x[2]));
         const PlaceInCube in = place_in(cube, x[0], x[1], x[2]);
-        if (in.out <= cube.edge) atomicMin(&key, Key{__float_as_uint(in.out)} << 32 | static_cast<unsigned>(p));
-    });
-}
-
-/// The moments of cell `at`.
-__device__ void load_moments(const float* populations, long count, unsigned at, float (&m)[lattice_moments]) {
-    float f[lattice_populations];
-    for (int i = 0; i < lattice_populations; ++i) f[i] = populations[i * count + at];
-    moments_of(f, m);
-}
-
-/// A cell that a cube comes to cover hands its surplus on to the water beside it.
-__device__ void hand_on(const Step& step, const Cube& cube, const int (&x)[3], const int (&here)[3], const Key& key) {
-    const Lattice& lattice = step.lattice;
-    float sum = 0;
-    for (int i = 0; i < lattice_populations; ++i) {
-        int to[3];
-        if (!neighbour(i, here, lattice.cells, lattice.periodic, to)) continue;
-        const Key* const taker = step.key_of(to[0], to[1], to[2]);
-        if (!taker || *taker != nobody) continue;
-        step.handover(*taker).role = Handover::takes;
-        sum += neighbour_weight(i);
-    }
-    if (sum == 0) return;
-    float m[lattice_moments];
-    load_moments(step.from(), lattice.count, lattice.at(here[0], here[1], here[2]), m);
-    const Velocity3 told = velocity_in(cube, place_in(cube, x[0], x[1], x[2]).xi);
-    const float density = 1 + m[0] + divergence_of(cube), part = (1 - covered_share) / sum;
-    step.handover(key) = {
-        Handover::gives,
-        {(m[1] - density * told.x) * part, (m[2] - density * told.y) * part, (m[3] - density * told.z) * part}};
-}
-
-/// Where bodies come to cover cells, these have more momentum than the body there. The water's part of that is to go to
-/// the cells beside them.
-__global__ void cover(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
-    constexpr int at_once = 4;  // whose loads are under way together
-    const Step step(of_all, waters);
-    const int p = cube_of_warp(of_all.cubes);
-    if (p < 0 || !step.water.goes_on || !step.begun()) return;
-    const Cube& cube = step.water.cubes[p];
-    const CellsAround around(step.lattice, cube, 0);
-    for (unsigned first = threadIdx.x % warp; first < around.size; first += at_once * warp) {
-        int x[3], here[3];
-        const Key* held[at_once];
-        bool comes[at_once];
-#pragma unroll
-        for (int k = 0; k < at_once; ++k) {
-            const unsigned number = first + k * warp;
-            held[k] = number < around.size ? around.cell(step, number, x, here) : nullptr;
-            if (held[k] && (*held[k] == nobody || cube_of(*held[k]) != p)) held[k] = nullptr;
-        }
-#pragma unroll
-        for (int k = 0; k < at_once; ++k) comes[k] = held[k] && step.water.owners[held[k] - step.water.keys].now < 0;
-#pragma unroll 1
-        for (int k = 0; k < at_once; ++k) {
-            if (!comes[k]) continue;
-            const Key* const key = around.cell(step, first + k * warp, x, here);
-            hand_on(step, cube, x, here, *key);
-        }
+        if (key && in.out <= cube.edge) atomicMin(key, Key{__float_as_uint(in.out)} << 32 | p);
     }
 }
 
-/// Where the populations of a cell go, and what comes in for those that go out at open ends.
-class Ways {
+/// Where the populations that come to a cell lie. Number: unsigned, holds the number of any population; what goes down is
+/// added modulo its size.
+template <class Number>
+class Sources {
 public:
-    __device__ Ways(const Lattice& lattice, unsigned cell, const int (&place)[3], const Populations& inflow, float* to)
-        : count_(lattice.count), inflow_(inflow), back_(to + cell) {
-        long stride = 1;
-        int axis_of_populations = 1;
+    __device__ Sources(const Lattice& lattice, const int (&place)[3])
+        : count_(lattice.count), cell_(lattice.at(place[0], place[1], place[2])) {
+        Number stride = 1, axis_of_populations = 1;
         for (int a = 0; a < 3; ++a) {
-            const int n = lattice.cells[a];
+            const auto n = static_cast<Number>(lattice.cells[a]);
             for (int end = 0; end < 2; ++end) {
-                const int sign = end == 0 ? -1 : 1;
-                long by = sign * stride;
-                if (place[a] == (end == 0 ? 0 : n - 1)) {
+                Number by = stride;  // to the end's side
+                if (place[a] == (end == 0 ? 0 : lattice.cells[a] - 1)) {
                     const Face face = lattice.faces[a][end];
                     if (face == Face::no_slip) bounces_ |= 1u << (2 * a + end);
                     if (face == Face::open) opens_ |= 1u << (2 * a + end);
-                    by = face == Face::periodic ? by - sign * n * stride : -2L * sign * axis_of_populations * count_;
+                    by = face == Face::periodic ? stride - n * stride : 2 * axis_of_populations * count_;
                 }
-                by_[a][end] = by;
+                by_[a][end] = end == 0 ? Number{} - by : by;
             }
             stride *= n;
             axis_of_populations *= 3;
         }
     }
 
-    __device__ void operator()(int i, float f) const {
-        const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-        unsigned crosses = 0;
-        long by = i * count_;
-        for (int a = 0; a < 3; ++a) {
-            if (c[a] == 0) continue;
-            const int end = c[a] > 0 ? 1 : 0;
-            crosses |= 1u << (2 * a + end);
-            by += by_[a][end];
-        }
-        const int opposite = lattice_populations - 1 - i;
-        // Where a wall meets an open end, one along x gives way, as on the CPU.
-        const bool comes_in = (opens_ & crosses) != 0 && (bounces_ & crosses & ~along_x) == 0;
-        back_[((bounces_ | opens_) & crosses) != 0 ? opposite * count_ : by] = comes_in ? inflow_.of[opposite] : f;
+    /// Of population i, the number of what it is now.
+    __device__ Number operator()(int i) const {
+        Number from = cell_ + i * count_;
+        for (int a = 0; a < 3; ++a)
+            if (const int c = along(i, a); c != 0) from += by_[a][c > 0 ? 0 : 1];
+        return ((bounces_ | opens_) & crossed(i)) != 0 ? cell_ + opposite(i) * count_ : from;
+    }
+    /// Population i as the water of this cell has it, which is on its way to others.
+    __device__ Number own(int i) const { return cell_ + i * count_; }
+    __device__ bool at_open_end() const { return opens_ != 0; }
+    /// Whether population i comes in from outside. Where a wall meets an open end, one along x gives way, as on the CPU.
+    __device__ bool comes_in(int i) const {
+        constexpr unsigned along_x = 3;
+        return (opens_ & crossed(i)) != 0 && (bounces_ & crossed(i) & ~along_x) == 0;
     }
 
 private:
-    static constexpr unsigned along_x = 3;
-    long count_;
-    const Populations& inflow_;
-    float* back_;  ///< the cell itself
+    __device__ static int opposite(int i) { return lattice_populations - 1 - i; }
+    __device__ static int along(int i, int axis) { return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1; }
+    /// The ends on whose side population i comes from.
+    __device__ static unsigned crossed(int i) {
+        unsigned ends = 0;
+        for (int a = 0; a < 3; ++a)
+            if (const int c = along(i, a); c != 0) ends |= 1u << (2 * a + (c > 0 ? 0 : 1));
+        return ends;
+    }
+
+    Number count_, cell_;
     /// along each axis down and up: to the cell there, or to the mirrored population of the cell here
-    long by_[3][2];
+    Number by_[3][2];
     unsigned bounces_ = 0, opens_ = 0;  ///< bits: ends
 };
 
+/// The moments of what comes to a cell.
+template <class Number>
+__device__ void load_moments(const float* __restrict__ populations, const Sources<Number>& sources,
+                             float (&m)[lattice_moments]) {
+    float f[lattice_populations];
+#pragma unroll
+    for (int i = 0; i < lattice_populations; ++i) f[i] = __ldg(populations + sources(i));
+    moments_of(f, m);
+}
+using AnySources = Sources<std::size_t>;
+/// Density less that at rest, and momentum, of what comes to a cell. Rarely asked, and apart: its registers are no
+/// others'.
+__device__ __noinline__ float4 arrived_at(const Lattice& lattice, const float* populations, int x, int y, int z) {
+    const int place[3] = {x, y, z};
+    const AnySources sources(lattice, place);
+    float4 sum{};
+#pragma unroll 1
+    for (int plane = 0; plane < 3; ++plane) {
+        float f[9];
+#pragma unroll
+        for (int e = 0; e < 9; ++e) f[e] = __ldg(populations + sources(9 * plane + e));
+        const float low = f[0] + f[1] + f[2], middle = f[3] + f[4] + f[5], high = f[6] + f[7] + f[8];
+        const float all = low + middle + high;
+        sum.x += all;
+        sum.y += (f[2] + f[5] + f[8]) - (f[0] + f[3] + f[6]);
+        sum.z += high - low;
+        sum.w += static_cast<float>(plane - 1) * all;
+    }
+    return sum;
+}
+
+/// Where bodies come to cover cells, these have more momentum than the body there. The water's part of that is to go to
+/// the cells beside them.
+__global__ void __launch_bounds__(block) cover(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
+    const Step step(of_all, waters);
+    if (!step.water.goes_on || !step.begun()) return;
+    const Lattice& lattice = step.lattice;
+    each_cell_around(step, [&](const int(&here)[3]) {
+        const unsigned at = lattice.at(here[0], here[1], here[2]);
+        const Key key = step.water.keys[at];
+        if (key == nobody || step.water.owners[at].now >= 0) return;
+        float sum = 0;
+        for (int i = 0; i < lattice_populations; ++i) {
+            int to[3];
+            if (!neighbour(i, here, lattice.cells, lattice.periodic, to)) continue;
+            const Key* const taker = step.key_of(to[0], to[1], to[2]);
+            if (!taker || *taker != nobody) continue;
+            step.handover(*taker).role = Handover::takes;
+            sum += neighbour_weight(i);
+        }
+        if (sum == 0) return;
+        const Cube& cube = step.water.cubes[cube_of(key)];
+        const Velocity3 told = CellInCube(lattice, cube, here).velocity;
+        const auto [excess, mx, my, mz] = arrived_at(lattice, step.from(), here[0], here[1], here[2]);
+        const float density = 1 + excess + divergence_of(cube), part = (1 - covered_share) / sum;
+        step.water.handovers[at] = {
+            Handover::gives,
+            {(mx - density * told.x) * part, (my - density * told.y) * part, (mz - density * told.z) * part}};
+    });
+}
+
+template <class Number>
 struct Put {
-    const Ways& ways;
+    const Sources<Number>& sources;
+    float* to;
     NATATOR_HD void operator()(int i, float f) const {
 #if defined(__CUDA_ARCH__)
-        ways(i, f);
+        to[sources.own(i)] = f;
 #endif
     }
 };
 
-/// Collides and streams: a thread a cell.
-template <bool eddies>
+/// Streams and collides: a thread a cell. It reads what others have written for it and writes its own: the other way
+/// round the writes would not be aligned, which costs a third of the speed (H200).
+template <bool eddies, class Number>
 __global__ void __launch_bounds__(block)
     advance_cells(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
     const Step step(of_all, waters);
@@ -283,12 +293,11 @@ __global__ void __launch_bounds__(block)
     if (cell >= lattice.count || !step.water.goes_on) return;
     const Cube* __restrict__ const cubes = step.water.cubes;
     Owners* __restrict__ const owners = step.water.owners;
-    const float* __restrict__ const from = step.from();
-    float m[lattice_moments];
-    load_moments(from, lattice.count, cell, m);
     int place[3];
     lattice.place(cell, place);
-    const Ways ways(lattice, cell, place, of_all.inflow, step.to());
+    const Sources<Number> sources(lattice, place);
+    float m[lattice_moments];
+    load_moments(step.from(), sources, m);
     Velocity3 told{};
     bool held = false;
     if (const Key* const key = step.key_of(place[0], place[1], place[2])) {
@@ -297,9 +306,7 @@ __global__ void __launch_bounds__(block)
         owners[cell] = {held ? cube_of(of_cell) : -1, owners[cell].now};
         if (held) {
             const Cube& cube = cubes[cube_of(of_cell)];
-            for (int a = 0; a < 3; ++a)
-                place[a] = nearest_copy(cube.x[a], place[a], lattice.cells[a], lattice.periodic[a]);
-            told = velocity_in(cube, place_in(cube, place[0], place[1], place[2]).xi);
+            told = CellInCube(lattice, cube, place).velocity;
             m[0] += divergence_of(cube);
         } else if (Handover& own = step.handover(*key); own.role == Handover::takes) {
             own.role = Handover::none;
@@ -315,204 +322,113 @@ __global__ void __launch_bounds__(block)
     const float inverse = 1.0f / (m[0] + 1.0f);
     const float ux = held ? told.x : m[1] * inverse, uy = held ? told.y : m[2] * inverse,
                 uz = held ? told.z : m[3] * inverse;
-    collide<eddies>(m, ux, uy, uz, of_all.rates, Put{ways});
+    float* const to = step.to();
+    collide<eddies>(m, ux, uy, uz, of_all.rates, Put<Number>{sources, to});
+    if (!sources.at_open_end()) return;
+#pragma unroll
+    for (int i = 0; i < lattice_populations; ++i)
+        if (sources.comes_in(i)) to[sources(i)] = of_all.inflow.of[i];  // in place of what goes out there
 }
 
-/// Cells of a cube that have others beside them which are not its, as a warp goes through them.
-struct SurfaceCells {
-    static constexpr unsigned room = 2 * warp;
-    struct {
-        int here[3], flag;  ///< number of its flag
-        float xi[3], u[3];
-    } cell[room];
-    unsigned count;
-};
-
-/// What is known of the cells around a part of a cube.
-struct Flags {
-    enum Flag : unsigned char { held = 1, own = 2, was_held = 4, was_own = 8 };
-    static constexpr int edge = 8;  ///< of the part; around it lies one more on each side
-    CellRange range;
-    unsigned char of[(edge + 2) * (edge + 2) * (edge + 2)];
-
-    __device__ int number(int x, int y, int z) const {
-        return ((z - range.low[2]) * range.count[1] + y - range.low[1]) * range.count[0] + x - range.low[0];
-    }
-    __device__ void place(int k, int (&x)[3]) const {
-        const int row = k / range.count[0], plane = row / range.count[1];
-        x[0] = range.low[0] + k - row * range.count[0];
-        x[1] = range.low[1] + row - plane * range.count[1];
-        x[2] = range.low[2] + plane;
-    }
-};
-
-/// Adds j at xi to a Push.
-__device__ void add_push(const float (&j)[3], const float (&xi)[3], double (&sums)[push_numbers]) {
-    for (int a = 0; a < 3; ++a) {
-        sums[a] += j[a];
-        for (int b = 0; b < 3; ++b) sums[3 + 3 * a + b] += static_cast<double>(j[a]) * xi[b];
-    }
-}
-
-/// The flags of the cells from `low` on, and one beside, inside `within`, where all lie that are beside a held one.
-__device__ void find_flags(const Step& step, int p, const CellRange& within, const int (&low)[3], Flags& flags) {
-    CellRange range;
-    for (int a = 0; a < 3; ++a) {
-        range.low[a] = max(low[a] - 1, within.low[a]);
-        range.count[a] = min(low[a] + Flags::edge + 1, within.low[a] + within.count[a]) - range.low[a];
-    }
-    const unsigned lane = threadIdx.x % warp;
-    if (lane == 0) flags.range = range;
-    __syncwarp();
-    const int size = range.size();
-#pragma unroll 4
-    for (int k = static_cast<int>(lane); k < size; k += warp) {
-        int x[3];
-        flags.place(k, x);
-        for (int a = 0; a < 3; ++a) x[a] = step.lattice.inside(a, x[a]);
-        const Owners owners = step.water.owners[step.lattice.at(x[0], x[1], x[2])];
-        flags.of[k] = static_cast<unsigned char>(
-            (owners.now >= 0 ? Flags::held : 0) | (owners.now == p ? Flags::own : 0) |
-            (owners.before >= 0 ? Flags::was_held : 0) | (owners.before == p ? Flags::was_own : 0));
-    }
-    __syncwarp();
-}
-
-/// Adds what goes between cells and the water beside them, a thread a cell.
-__device__ void add_links(const Step& step, const Flags& flags, SurfaceCells& surface, double (&sums)[push_numbers]) {
+/// What goes between a cell of a body that moves at u and the water beside it.
+__device__ void add_links(const Step& step, const int (&here)[3], const float (&u)[3], float (&j)[3]) {
     const Lattice& lattice = step.lattice;
-    const float* const after = step.to();
     const long cells = lattice.count;
-    for (unsigned k = threadIdx.x % warp; k < surface.count; k += warp) {
-        const auto& of = surface.cell[k];
-        const float* const here = after + lattice.at(of.here[0], of.here[1], of.here[2]);
-        // To the cells beside, down and up each axis: cells and flags; bits: ends without any.
-        int by[3][2], by_flags[3][2];
-        unsigned ends = 0;
-        for (int a = 0, stride = 1, of_flags = 1; a < 3; ++a) {
-            const bool alone = lattice.periodic[a] && lattice.cells[a] == 1;  // its own neighbour
-            for (int up = 0; up < 2; ++up) {
-                const int to = lattice.inside(a, of.here[a] + 2 * up - 1);
-                if (to < 0 || to >= lattice.cells[a]) ends |= 1u << (2 * a + up);
-                by[a][up] = (to - of.here[a]) * stride;
-                by_flags[a][up] = alone ? 0 : (2 * up - 1) * of_flags;
-            }
-            stride *= lattice.cells[a];
-            of_flags *= flags.range.count[a];
+    const unsigned at = lattice.at(here[0], here[1], here[2]);
+    const float* const after = step.to() + at;
+    const Owners* const owners = step.water.owners + at;
+    // To the cells beside, down and up each axis; bits: ends without any.
+    int by[3][2];
+    unsigned ends = 0;
+    for (int a = 0, stride = 1; a < 3; ++a) {
+        for (int up = 0; up < 2; ++up) {
+            const int to = lattice.inside(a, here[a] + 2 * up - 1);
+            if (to < 0 || to >= lattice.cells[a]) ends |= 1u << (2 * a + up);
+            by[a][up] = (to - here[a]) * stride;
         }
-        float j[3] = {};
+        stride *= lattice.cells[a];
+    }
 #pragma unroll
-        for (int part = 0; part < 3; ++part) {  // of the links, so that their loads are under way together
-            float in[9], out[9];
-            unsigned free = 0;
+    for (int part = 0; part < 3; ++part) {  // of the links, so that their loads are under way together
+        float in[9], out[9];
+        unsigned free = 0;
 #pragma unroll
-            for (int e = 0; e < 9; ++e) {
-                const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
-                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-                int from = 0, flag = of.flag;
-                unsigned crosses = i == opposite ? ~0u : 0;
-                for (int a = 0; a < 3; ++a) {
-                    if (c[a] == 0) continue;
-                    const int up = c[a] < 0 ? 1 : 0;  // where it comes from
-                    from += by[a][up];
-                    flag += by_flags[a][up];
-                    crosses |= 1u << (2 * a + up);
-                }
-                if (i == opposite || (crosses & ends) != 0 || (flags.of[flag] & Flags::held)) continue;
-                free |= 1u << e;
-                in[e] = here[i * cells];
-                out[e] = here[opposite * cells + from];
+        for (int e = 0; e < 9; ++e) {
+            const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            int from = 0;
+            unsigned crosses = i == opposite ? ~0u : 0;
+            for (int a = 0; a < 3; ++a) {
+                if (c[a] == 0) continue;
+                const int up = c[a] < 0 ? 1 : 0;  // where it comes from
+                from += by[a][up];
+                crosses |= 1u << (2 * a + up);
             }
-#pragma unroll
-            for (int e = 0; e < 9; ++e) {
-                const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
-                const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-                if (!(free & 1u << e)) continue;
-                const float in_ = in[e] - moving_population(i, of.u), out_ = out[e] - moving_population(opposite, of.u);
-                for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(c[a]), of.u[a]);
-            }
+            if (i == opposite || (crosses & ends) != 0 || owners[from].now >= 0) continue;
+            free |= 1u << e;
+            in[e] = after[i * cells + from];
+            out[e] = after[opposite * cells];
         }
-        add_push(j, of.xi, sums);
+#pragma unroll
+        for (int e = 0; e < 9; ++e) {
+            const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            if (!(free & 1u << e)) continue;
+            const float in_ = in[e] - moving_population(i, u), out_ = out[e] - moving_population(opposite, u);
+            for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(c[a]), u[a]);
+        }
     }
 }
 
-/// Sums what each cube is pushed by, in a fixed order, and forgets who has its cells.
-__global__ void __launch_bounds__(push_block)
-    push(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
-    __shared__ SurfaceCells surface_of_warp[push_block / warp];
-    __shared__ Flags flags_of_warp[push_block / warp];
+/// Adds j at xi to the sums of a cube.
+__device__ void add_push(const float (&j)[3], const float (&xi)[3], PushSums& sums) {
+    for (int a = 0; a < 3; ++a) {
+        sums.add(a, j[a]);
+        for (int b = 0; b < 3; ++b) sums.add(3 + 3 * a + b, static_cast<double>(j[a]) * xi[b]);
+    }
+}
+
+/// Sums what each cube is pushed by, and forgets who has its cells.
+__global__ void __launch_bounds__(block) push(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
     const Step step(of_all, waters);
+    if (!step.water.goes_on) return;
     const Lattice& lattice = step.lattice;
-    const int p = static_cast<int>((blockIdx.x * push_block + threadIdx.x) / warp);
-    if (p >= of_all.cubes || !step.water.goes_on) return;
-    const Cube& cube = step.water.cubes[p];
-    const bool begun = step.begun();
-    const unsigned lane = threadIdx.x % warp;
-    SurfaceCells& surface = surface_of_warp[threadIdx.x / warp];
-    Flags& flags = flags_of_warp[threadIdx.x / warp];
-    double sums[push_numbers] = {};  // as Push has them
-    const CellRange around = CellsAround(lattice, cube, 1).range;
-    const auto in_part = [&](const int(&low)[3]) {
-        if (lane == 0) surface.count = 0;
-        find_flags(step, p, around, low, flags);
-        int count[3];
-        for (int a = 0; a < 3; ++a) count[a] = min(Flags::edge, around.low[a] + around.count[a] - low[a]);
-        const int size = count[0] * count[1] * count[2];
-        for (int first = 0; first < size; first += warp) {
-            const int k = first + static_cast<int>(lane), row = k / count[0], plane = row / count[1];
-            const int x[3] = {low[0] + k - row * count[0], low[1] + row - plane * count[1], low[2] + plane};
-            const int flag = k < size ? flags.number(x[0], x[1], x[2]) : 0;
-            const unsigned known = k < size ? flags.of[flag] : unsigned{Flags::held};
-            const bool holds = known & Flags::own, comes = holds && begun && !(known & Flags::was_held),
-                       leaves = !(known & Flags::held) && (known & Flags::was_own);
-            PlaceInCube in{};
-            Velocity3 told{};
-            int here[3] = {};
-            if (holds || leaves) {
-                in = place_in(cube, x[0], x[1], x[2]);
-                told = velocity_in(cube, in.xi);
-                for (int a = 0; a < 3; ++a) here[a] = lattice.inside(a, x[a]);
-            }
-            bool handed = false;
-            if (holds) {
-                const unsigned at = lattice.at(here[0], here[1], here[2]);
-                step.water.keys[at] = nobody;
-                Handover& own_handover = step.water.handovers[at];
-                handed = comes && own_handover.role == Handover::gives;
-                if (handed) own_handover.role = Handover::none;
-            }
-            if (comes || leaves) {
-                float m[lattice_moments];
-                load_moments(step.from(), lattice.count, lattice.at(here[0], here[1], here[2]), m);
-                const float density = 1 + m[0] + (comes ? divergence_of(cube) : 0);
-                float part = -1;  // of a cell that it leaves
-                if (comes) part = handed ? covered_share : 1;
-                add_push({part * (m[1] - density * told.x), part * (m[2] - density * told.y),
-                          part * (m[3] - density * told.z)},
-                         in.xi, sums);
-            }
-            const bool at_surface = holds && !has_neighbours_in(cube, in);
-            const unsigned lanes = __ballot_sync(all, at_surface), before = surface.count;
-            if (at_surface)
-                surface.cell[before + __popc(lanes & ((1u << lane) - 1))] = {
-                    {here[0], here[1], here[2]}, flag, {in.xi[0], in.xi[1], in.xi[2]}, {told.x, told.y, told.z}};
-            __syncwarp();
-            if (lane == 0) surface.count = before + __popc(lanes);
-            __syncwarp();
-            if (surface.count <= SurfaceCells::room - warp && first + static_cast<int>(warp) < size) continue;
-            add_links(step, flags, surface, sums);
-            __syncwarp();
-            if (lane == 0) surface.count = 0;
-            __syncwarp();
+    each_cell_around(step, [&](const int(&here)[3]) {
+        const unsigned at = lattice.at(here[0], here[1], here[2]);
+        const Owners owners = step.water.owners[at];
+        const bool holds = owners.now >= 0, changes = step.begun() && holds != (owners.before >= 0);
+        const int p = holds ? owners.now : owners.before;
+        if ((!holds && !changes) || p >= of_all.cubes) return;
+        const Cube& cube = step.water.cubes[p];
+        const CellInCube cell(lattice, cube, here);
+        const float u[3] = {cell.velocity.x, cell.velocity.y, cell.velocity.z};
+        float j[3] = {};
+        float part = -1;  // of the surplus of a cell that the body leaves
+        if (holds) {
+            step.water.keys[at] = nobody;
+            Handover& handover = step.water.handovers[at];
+            const bool gives = changes && handover.role == Handover::gives;
+            if (gives) handover.role = Handover::none;
+            part = gives ? covered_share : 1;
         }
-    };
-    for (int z = 0; z < around.count[2]; z += Flags::edge)
-        for (int y = 0; y < around.count[1]; y += Flags::edge)
-            for (int x = 0; x < around.count[0]; x += Flags::edge)
-                in_part({around.low[0] + x, around.low[1] + y, around.low[2] + z});
-    const double own = cuda::share_sums_of_warp<push_numbers>(sums, static_cast<int>(lane));
-    if (const int e = cuda::value_of_lane<push_numbers>(static_cast<int>(lane)); e >= 0)
-        step.water.pushes[p * push_numbers + e] = own;
+        bool near = true;  // a body that has been put elsewhere is not pushed by what it left
+        for (int a = 0; a < 3 && !holds; ++a)
+            near = near && fabsf(static_cast<float>(cell.at[a]) - cube.x[a]) <= cube.reach[a] + 1;
+        if (changes && near) {
+            const auto [excess, mx, my, mz] = arrived_at(lattice, step.from(), here[0], here[1], here[2]);
+            const float density = 1 + excess + (holds ? divergence_of(cube) : 0), momentum[3] = {mx, my, mz};
+            for (int a = 0; a < 3; ++a) j[a] = part * (momentum[a] - density * u[a]);
+        }
+        const bool at_surface = holds && !has_neighbours_in(cube, cell.in);
+        if (at_surface) add_links(step, here, u, j);
+        if (at_surface || changes) add_push(j, cell.in.xi, step.water.pushes[p]);
+    });
+}
+
+/// Has these populations come to a cell.
+__device__ void set_arrivals(const AnySources& sources, const Populations& with, float* populations) {
+#pragma unroll
+    for (int i = 0; i < lattice_populations; ++i) populations[sources(i)] = with.of[i];
 }
 
 __global__ void __launch_bounds__(block)
@@ -520,38 +436,45 @@ __global__ void __launch_bounds__(block)
                 const Owners* __restrict__ owners_from, Owners* __restrict__ owners_to, int x, int y, int z) {
     const unsigned cell = blockIdx.x * block + threadIdx.x;
     if (cell >= lattice.count) return;
-    int place[3];
-    lattice.place(cell, place);
+    int here[3], there[3];
+    lattice.place(cell, here);
     const int by[3] = {x, y, z};
     bool inside = true;
     for (int a = 0; a < 3; ++a) {
-        place[a] += by[a];
-        inside = inside && place[a] >= 0 && place[a] < lattice.cells[a];
+        there[a] = here[a] + by[a];
+        inside = inside && there[a] >= 0 && there[a] < lattice.cells[a];
     }
-    const long count = lattice.count;
-    const unsigned source = inside ? lattice.at(place[0], place[1], place[2]) : 0;
-    for (int i = 0; i < lattice_populations; ++i) to[i * count + cell] = inside ? from[i * count + source] : 0;
-    owners_to[cell] = inside ? owners_from[source] : Owners{-1, -1};
-}
-
-/// Makes all cells the same.
-__global__ void __launch_bounds__(block) fill_cells(Lattice lattice, Populations with, float* to) {
-    const unsigned cell = blockIdx.x * block + threadIdx.x;
-    if (cell >= lattice.count) return;
-    const long count = lattice.count;
+    Populations arrived{};
+    if (inside) {
+        const AnySources sources(lattice, there);
 #pragma unroll
-    for (int i = 0; i < lattice_populations; ++i) to[i * count + cell] = with.of[i];
+        for (int i = 0; i < lattice_populations; ++i) arrived.of[i] = from[sources(i)];
+    }
+    set_arrivals(AnySources(lattice, here), arrived, to);
+    owners_to[cell] = inside ? owners_from[lattice.at(there[0], there[1], there[2])] : Owners{-1, -1};
 }
 
-/// Density over that at rest and velocity, cells/step, of each cell.
+/// Makes so many cells from one on the same.
 __global__ void __launch_bounds__(block)
-    read_cells(Lattice lattice, const float* __restrict__ populations, float4* to) {
-    const unsigned cell = blockIdx.x * block + threadIdx.x;
-    if (cell >= lattice.count) return;
-    float m[lattice_moments];
-    load_moments(populations, lattice.count, cell, m);
-    const float density = 1 + m[0];
-    to[cell] = {density, m[1] / density, m[2] / density, m[3] / density};
+    fill_cells(Lattice lattice, unsigned first, unsigned count, Populations with, float* populations) {
+    const unsigned k = blockIdx.x * block + threadIdx.x;
+    if (k >= count) return;
+    int place[3];
+    lattice.place(first + k, place);
+    set_arrivals(AnySources(lattice, place), with, populations);
+}
+
+/// Density and velocity, cells/step, of each of so many cells from one on. The density, over that at rest, is less
+/// 1 - `rest`.
+__global__ void __launch_bounds__(block) read_cells(Lattice lattice, unsigned first, unsigned count, float rest,
+                                                    const float* __restrict__ populations, float4* to) {
+    const unsigned k = blockIdx.x * block + threadIdx.x;
+    if (k >= count) return;
+    int place[3];
+    lattice.place(first + k, place);
+    const auto [excess, x, y, z] = arrived_at(lattice, populations, place[0], place[1], place[2]);
+    const float density = 1 + excess;
+    to[k] = {rest + excess, x / density, y / density, z / density};
 }
 
 unsigned blocks_of(std::size_t threads) {
@@ -573,26 +496,35 @@ Lattice lattice_of(const Box& box) {
     return lattice;
 }
 
-LatticeStep lattice_step(const Box& box, double h, int cubes) {
-    return {lattice_of(box), rates_in(box, h), inflow(box, h), cubes};
+LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
+    constexpr double cells_of_thread = 4, around = 2;  // cells of the box around a body for one of its own
+    const double warps = std::pow(2 * sizes.reach + 1, 3) / (cells_of_thread * warp);
+    const Lattice lattice = lattice_of(box);
+    return {lattice, rates_in(box, h), inflow(box, h), cubes, static_cast<int>(std::clamp(std::ceil(warps), 1.0, 256.0)),
+            static_cast<unsigned>(std::clamp<double>(around * sizes.cells, 1, lattice.count))};
 }
 
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream) {
     const auto size = static_cast<unsigned>(count);
-    const dim3 by_cell(blocks_of(step.lattice.count), size), by_cube(blocks_of(step.cubes * warp), size);
+    const dim3 by_cell(blocks_of(step.lattice.count), size), around(blocks_of(step.around), size),
+        by_cube(blocks_of(static_cast<std::size_t>(step.cubes) * step.warps * warp), size);
     begin_step<<<dim3(1, size), range_block, 0, stream>>>(step, waters);
     if (step.cubes > 0) hold<<<by_cube, block, 0, stream>>>(step, waters);
-    if (step.cubes > 0) cover<<<by_cube, block, 0, stream>>>(step, waters);
+    if (step.cubes > 0) cover<<<around, block, 0, stream>>>(step, waters);
     // Behind all else: the small kernels of other waters would wait for all of its blocks.
     cudaLaunchAttribute last{};
     last.id = cudaLaunchAttributePriority;
     last.val.priority = cuda::Stream::lowest_priority();
     cudaLaunchConfig_t of_cells{by_cell, dim3(block), 0, stream, &last, 1};
-    cuda::check(cudaLaunchKernelEx(&of_cells, step.rates.eddies > 0 ? advance_cells<true> : advance_cells<false>, step,
+    const auto with = [&](auto number) {
+        using Number = decltype(number);
+        return step.rates.eddies > 0 ? advance_cells<true, Number> : advance_cells<false, Number>;
+    };
+    const bool few = step.lattice.count <= std::numeric_limits<unsigned>::max() / lattice_populations;
+    cuda::check(cudaLaunchKernelEx(&of_cells, few ? with(unsigned{}) : with(std::size_t{}), step,
                                    static_cast<const WaterOnGpu*>(waters)),
                 "launch");
-    const auto push_blocks = static_cast<unsigned>((step.cubes * warp + push_block - 1) / push_block);
-    if (step.cubes > 0) push<<<dim3(push_blocks, size), push_block, 0, stream>>>(step, waters);
+    if (step.cubes > 0) push<<<around, block, 0, stream>>>(step, waters);
     cuda::check(cudaGetLastError(), "launch");
 }
 
@@ -637,7 +569,7 @@ void GpuWater::make_room(int cubes, const std::vector<Cube>& last) {
     choose();
     if (cubes_.size() < static_cast<std::size_t>(cubes)) {
         cuda::DeviceBuffer<Cube> more_cubes(cubes);
-        pushes_ = cuda::DeviceBuffer<double>(static_cast<std::size_t>(cubes) * push_numbers);
+        pushes_ = cuda::DeviceBuffer<PushSums>(cubes);
         cubes_ = std::move(more_cubes);
         point_to_buffers();
     }
@@ -651,15 +583,19 @@ void GpuWater::make_room(int cubes, const std::vector<Cube>& last) {
 void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     const int count = static_cast<int>(cubes.size());
     make_room(count, cubes);
+    CubeSizes sizes;
+    for (const Cube& cube : cubes) sizes.add(cube);
     const auto copy = [&](void* to, const void* from, std::size_t bytes) {
         if (bytes > 0) cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_.get()), "copy");
     };
     copy(own_step_.data(), &on_gpu_, sizeof on_gpu_);
-    launch_step(lattice_step(box_, step, count), own_step_.data(), 1, stream_.get());
+    launch_step(lattice_step(box_, step, count, sizes), own_step_.data(), 1, stream_.get());
     copy(&on_gpu_, own_step_.data(), sizeof on_gpu_);
-    pushes.resize(cubes.size());
-    copy(pushes.data(), pushes_.data(), cubes.size() * sizeof(Push));
+    std::vector<PushSums> sums(cubes.size());
+    copy(sums.data(), pushes_.data(), cubes.size() * sizeof(PushSums));
     wait();
+    pushes.clear();
+    for (const PushSums& sum : sums) pushes.push_back(sum.push());
 }
 
 void GpuWater::shift(const Eigen::Vector3i& by) {
@@ -681,29 +617,27 @@ void GpuWater::shift(const Eigen::Vector3i& by) {
     }
 }
 
-Cell GpuWater::cell(const Eigen::Vector3i& place) const {
+std::vector<Eigen::Vector4f> GpuWater::read(unsigned first, unsigned count, float rest) const {
     choose();
-    float f[lattice_populations], m[lattice_moments];
-    cuda::check(cudaMemcpy2DAsync(f, sizeof(float), at(place), lattice_.count * sizeof(float), sizeof(float),
-                                  lattice_populations, cudaMemcpyDeviceToHost, stream_.get()),
-                "download");
-    wait();
-    moments_of(f, m);
-    return {m[0], Eigen::Vector3d(m[1], m[2], m[3]) / (1 + m[0])};
-}
-
-std::vector<Eigen::Vector4f> GpuWater::cells() const {
-    choose();
-    cuda::DeviceBuffer<float4> read(lattice_.count);
-    read_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, now().data(), read.data());
+    cuda::DeviceBuffer<float4> read(count);
+    read_cells<<<blocks_of(count), block, 0, stream_.get()>>>(lattice_, first, count, rest, now().data(), read.data());
     cuda::check(cudaGetLastError(), "launch");
-    std::vector<Eigen::Vector4f> all(lattice_.count);
+    std::vector<Eigen::Vector4f> all(count);
     static_assert(sizeof(Eigen::Vector4f) == sizeof(float4));
     cuda::check(
         cudaMemcpyAsync(all.data(), read.data(), all.size() * sizeof(float4), cudaMemcpyDeviceToHost, stream_.get()),
         "download");
     wait();
     return all;
+}
+
+Cell GpuWater::cell(const Eigen::Vector3i& at) const {
+    const Eigen::Vector4f one = read(lattice_.at(at.x(), at.y(), at.z()), 1, 0).front();
+    return {one[0], one.tail<3>().cast<double>()};
+}
+
+std::vector<Eigen::Vector4f> GpuWater::cells() const {
+    return read(0, lattice_.count, 1);
 }
 
 namespace {
@@ -721,25 +655,25 @@ Populations in_equilibrium(const Cell& cell) {
 
 }  // namespace
 
-void GpuWater::set_cell(const Eigen::Vector3i& place, const Cell& cell) {
+void GpuWater::fill(unsigned first, unsigned count, const Cell& with) {
     choose();
-    const Populations made = in_equilibrium(cell);
-    cuda::check(cudaMemcpy2DAsync(at(place), lattice_.count * sizeof(float), made.of, sizeof(float), sizeof(float),
-                                  lattice_populations, cudaMemcpyHostToDevice, stream_.get()),
-                "upload");
-    wait();
-}
-
-void GpuWater::set_cells(const Cell& all) {
-    choose();
-    fill_cells<<<blocks_of(lattice_.count), block, 0, stream_.get()>>>(lattice_, in_equilibrium(all), now().data());
+    fill_cells<<<blocks_of(count), block, 0, stream_.get()>>>(lattice_, first, count, in_equilibrium(with),
+                                                              now().data());
     cuda::check(cudaGetLastError(), "launch");
     wait();
 }
 
+void GpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {
+    fill(lattice_.at(at.x(), at.y(), at.z()), 1, cell);
+}
+
+void GpuWater::set_cells(const Cell& all) {
+    fill(0, lattice_.count, all);
+}
+
 void GpuWater::save(ByteWriter& to) const {
     choose();
-    to.add(lattice_populations);
+    to.add(kind_of_saved);
     to.add(on_gpu_.steps > 0);
     for (int a = 0; a < 3; ++a) to.add(on_gpu_.last.low[a]), to.add(on_gpu_.last.count[a]);
     to.add_all(std::span<const float>(now().download()));
@@ -751,7 +685,7 @@ void GpuWater::restore(ByteReader from) {
     bool begun = false;
     CellRange around{};
     from.read(kind);
-    if (kind != lattice_populations) refuse_saved();
+    if (kind != kind_of_saved) refuse_saved();
     from.read(begun);
     for (int a = 0; a < 3; ++a) {
         from.read(around.low[a]);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
+#include "coupling.h"
 #include "cube_cells.h"
 #include "physics/vec3.h"
 #include "solver/cuda/device.h"
@@ -26,14 +28,40 @@ struct Handover {
     float surplus[3];
 };
 
+/// What pushes a cube, summed as whole numbers: the same bits in any order.
+struct PushSums {
+    static constexpr int numbers = 12;  ///< as Push has them
+    static constexpr double unit = 1.0 / (1ll << 40), most = 1 << 10;  ///< of what a cell adds: more is no water
+
+    unsigned long long sum[numbers], bad;  ///< bad: whether something had no number, or too large a one
+
+#if defined(__CUDACC__)
+    __device__ void add(int number, double value) {
+        if (fabs(value) < most)
+            atomicAdd(sum + number, static_cast<unsigned long long>(__double2ll_rn(value / unit)));
+        else
+            bad = 1;
+    }
+#endif
+    NATATOR_HD double operator[](int number) const {
+        return bad != 0 ? std::numeric_limits<double>::quiet_NaN() : unit * static_cast<double>(static_cast<long long>(sum[number]));
+    }
+    Push push() const {
+        Push all;
+        for (int a = 0; a < 3; ++a) all.j[a] = (*this)[a];
+        for (int k = 0; k < 9; ++k) all.moment[k] = (*this)[3 + k];
+        return all;
+    }
+};
+
 /// A water and its bodies in device memory, as steps take and leave them.
 struct WaterOnGpu {
-    float* populations[2];  ///< that have come to each cell; those of now are number steps % 2
+    float* populations[2];  ///< as each cell sends them out; those of now are number steps % 2
     Owners* owners;
     Key* keys;                        ///< by cell; nobody's between steps
     Handover* handovers;              ///< by cell; none between steps
     Cube* cubes;                      ///< of bodies, then of obstacles
-    double* pushes;                   ///< by cube, as Push has them
+    PushSums* pushes;                 ///< by cube
     physics::Vec3<double>* impulses;  ///< by particle of the bodies, mass length/s: see Coupling
     physics::Vec3<double>* forces;    ///< sums of them by cube, null unless asked for
     CellRange last, around;           ///< the cells around all cubes of the last step; of these and those before
@@ -67,10 +95,11 @@ struct LatticeStep {
     Lattice lattice;
     physics::LatticeRates rates;
     Populations inflow;
-    int cubes;
+    int cubes, warps;  ///< and warps to find the cells of each
+    unsigned around;   ///< threads for the cells around all of them
 };
 /// Of so long, s.
-LatticeStep lattice_step(const Box& box, double h, int cubes);
+LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes);
 /// Asks for a step of so many waters.
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream);
 
@@ -108,9 +137,8 @@ private:
     void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
     cuda::DeviceBuffer<float>& now() { return populations_[on_gpu_.steps % 2]; }
     const cuda::DeviceBuffer<float>& now() const { return populations_[on_gpu_.steps % 2]; }
-    float* at(const Eigen::Vector3i& place) const {
-        return now().data() + lattice_.at(place.x(), place.y(), place.z());
-    }
+    std::vector<Eigen::Vector4f> read(unsigned first, unsigned count, float rest) const;
+    void fill(unsigned first, unsigned count, const Cell& with);
     void point_to_buffers();
 
     int device_;
@@ -122,7 +150,7 @@ private:
     cuda::DeviceBuffer<Key> keys_;
     cuda::DeviceBuffer<Handover> handovers_;
     cuda::DeviceBuffer<Cube> cubes_;
-    cuda::DeviceBuffer<double> pushes_;
+    cuda::DeviceBuffer<PushSums> pushes_;
     cuda::DeviceBuffer<WaterOnGpu> own_step_{1};
     WaterOnGpu on_gpu_{};
 };
