@@ -95,15 +95,37 @@ __global__ void __launch_bounds__(range_block)
     ++water.steps;
 }
 
-/// Does something with each of the cells around the cubes, now and before: work(place).
-template <class Work>
-__device__ void each_cell_around(const Step& step, const Work& work) {
+/// Does something with those of the cells around the cubes, now and before, that are wanted: work(place) where
+/// wanted(cell), a block some at a time. Few are, and what is done with them shall keep whole warps busy.
+template <class Wanted, class Work>
+__device__ void each_cell_around(const Step& step, const Wanted& wanted, const Work& work) {
+    constexpr unsigned of_thread = 4, of_block = of_thread * block;
+    __shared__ unsigned chosen[of_block], count;
     const CellRange& range = step.water.around;
     const auto size = static_cast<unsigned>(range.size());
-    for (unsigned k = blockIdx.x * block + threadIdx.x; k < size; k += gridDim.x * block) {
+    struct Place {
+        int x[3];
+    };
+    const auto place = [&](unsigned k) -> Place {
         const unsigned row = k / range.count[0], plane = row / range.count[1];
-        work({range.low[0] + static_cast<int>(k - row * range.count[0]),
-              range.low[1] + static_cast<int>(row - plane * range.count[1]), range.low[2] + static_cast<int>(plane)});
+        return {{range.low[0] + static_cast<int>(k - row * range.count[0]),
+                 range.low[1] + static_cast<int>(row - plane * range.count[1]), range.low[2] + static_cast<int>(plane)}};
+    };
+    for (unsigned first = blockIdx.x * of_block; first < size; first += gridDim.x * of_block) {
+        if (threadIdx.x == 0) count = 0;
+        __syncthreads();
+        bool is_wanted[of_thread];
+#pragma unroll
+        for (unsigned k = 0; k < of_thread; ++k) {
+            const unsigned number = first + k * block + threadIdx.x;
+            const auto [x] = place(min(number, size - 1));
+            is_wanted[k] = number < size && wanted(step.lattice.at(x[0], x[1], x[2]));
+        }
+        for (unsigned k = 0; k < of_thread; ++k)
+            if (is_wanted[k]) chosen[atomicAdd(&count, 1u)] = first + k * block + threadIdx.x;
+        __syncthreads();
+        for (unsigned k = threadIdx.x; k < count; k += block) work(place(chosen[k]).x);
+        __syncthreads();
     }
 }
 
@@ -152,6 +174,11 @@ __global__ void __launch_bounds__(block) hold(const __grid_constant__ LatticeSte
     }
 }
 
+/// Where population i goes along an axis: -1, 0, 1.
+__device__ constexpr int along(int i, int axis) {
+    return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1;
+}
+
 /// Where the populations that come to a cell lie. Number: unsigned, holds the number of any population; what goes down is
 /// added modulo its size.
 template <class Number>
@@ -195,7 +222,6 @@ public:
 
 private:
     __device__ static int opposite(int i) { return lattice_populations - 1 - i; }
-    __device__ static int along(int i, int axis) { return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1; }
     /// The ends on whose side population i comes from.
     __device__ static unsigned crossed(int i) {
         unsigned ends = 0;
@@ -247,10 +273,12 @@ __global__ void __launch_bounds__(block) cover(const __grid_constant__ LatticeSt
     const Step step(of_all, waters);
     if (!step.water.goes_on || !step.begun()) return;
     const Lattice& lattice = step.lattice;
-    each_cell_around(step, [&](const int(&here)[3]) {
+    const auto comes = [&](unsigned cell) {
+        return step.water.keys[cell] != nobody && step.water.owners[cell].now < 0;
+    };
+    each_cell_around(step, comes, [&](const int(&here)[3]) {
         const unsigned at = lattice.at(here[0], here[1], here[2]);
-        const Key key = step.water.keys[at];
-        if (key == nobody || step.water.owners[at].now >= 0) return;
+        const Cube& cube = step.water.cubes[cube_of(step.water.keys[at])];
         float sum = 0;
         for (int i = 0; i < lattice_populations; ++i) {
             int to[3];
@@ -261,7 +289,6 @@ __global__ void __launch_bounds__(block) cover(const __grid_constant__ LatticeSt
             sum += neighbour_weight(i);
         }
         if (sum == 0) return;
-        const Cube& cube = step.water.cubes[cube_of(key)];
         const Velocity3 told = CellInCube(lattice, cube, here).velocity;
         const auto [excess, mx, my, mz] = arrived_at(lattice, step.from(), here[0], here[1], here[2]);
         const float density = 1 + excess + divergence_of(cube), part = (1 - covered_share) / sum;
@@ -348,34 +375,39 @@ __device__ void add_links(const Step& step, const int (&here)[3], const float (&
         }
         stride *= lattice.cells[a];
     }
+    // All loads of a kind are under way together.
+    const auto beside = [&](int i) {  // where population i comes from; 0, which is held, beyond an end
+        int from = 0;
+        unsigned crosses = 0;
+        for (int a = 0; a < 3; ++a) {
+            const int c = along(i, a);
+            if (c == 0) continue;
+            const int up = c < 0 ? 1 : 0;
+            from += by[a][up];
+            crosses |= 1u << (2 * a + up);
+        }
+        return (crosses & ends) != 0 ? 0 : from;
+    };
+    unsigned free = 0;
 #pragma unroll
-    for (int part = 0; part < 3; ++part) {  // of the links, so that their loads are under way together
+    for (int i = 0; i < lattice_populations; ++i) free |= (owners[beside(i)].now < 0 ? 1u : 0u) << i;
+#pragma unroll
+    for (int part = 0; part < 3; ++part) {
         float in[9], out[9];
-        unsigned free = 0;
 #pragma unroll
         for (int e = 0; e < 9; ++e) {
             const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
-            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            int from = 0;
-            unsigned crosses = i == opposite ? ~0u : 0;
-            for (int a = 0; a < 3; ++a) {
-                if (c[a] == 0) continue;
-                const int up = c[a] < 0 ? 1 : 0;  // where it comes from
-                from += by[a][up];
-                crosses |= 1u << (2 * a + up);
-            }
-            if (i == opposite || (crosses & ends) != 0 || owners[from].now >= 0) continue;
-            free |= 1u << e;
-            in[e] = after[i * cells + from];
-            out[e] = after[opposite * cells];
+            const bool is_free = (free & 1u << i) != 0;
+            in[e] = is_free ? after[i * cells + beside(i)] : 0;
+            out[e] = is_free ? after[opposite * cells] : 0;
         }
 #pragma unroll
         for (int e = 0; e < 9; ++e) {
             const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
-            const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-            if (!(free & 1u << e)) continue;
+            if (!(free & 1u << i)) continue;
             const float in_ = in[e] - moving_population(i, u), out_ = out[e] - moving_population(opposite, u);
-            for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(c[a]), u[a]);
+            for (int a = 0; a < 3; ++a)
+                j[a] += link_push(in_, out_, static_cast<float>(along(i, a)), u[a]);
         }
     }
 }
@@ -393,12 +425,16 @@ __global__ void __launch_bounds__(block) push(const __grid_constant__ LatticeSte
     const Step step(of_all, waters);
     if (!step.water.goes_on) return;
     const Lattice& lattice = step.lattice;
-    each_cell_around(step, [&](const int(&here)[3]) {
+    const bool begun = step.begun();
+    const auto pushes = [&](unsigned cell) {
+        const auto [now, before] = step.water.owners[cell];
+        return now >= 0 || (begun && before >= 0 && before < of_all.cubes);
+    };
+    each_cell_around(step, pushes, [&](const int(&here)[3]) {
         const unsigned at = lattice.at(here[0], here[1], here[2]);
-        const Owners owners = step.water.owners[at];
-        const bool holds = owners.now >= 0, changes = step.begun() && holds != (owners.before >= 0);
-        const int p = holds ? owners.now : owners.before;
-        if ((!holds && !changes) || p >= of_all.cubes) return;
+        const auto [now, before] = step.water.owners[at];
+        const bool holds = now >= 0, changes = begun && holds != (before >= 0);
+        const int p = holds ? now : before;
         const Cube& cube = step.water.cubes[p];
         const CellInCube cell(lattice, cube, here);
         const float u[3] = {cell.velocity.x, cell.velocity.y, cell.velocity.z};
@@ -497,7 +533,7 @@ Lattice lattice_of(const Box& box) {
 }
 
 LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
-    constexpr double cells_of_thread = 4, around = 2;  // cells of the box around a body for one of its own
+    constexpr double cells_of_thread = 4, around = 2;  // threads by cell of a body, for four times the cells
     const double warps = std::pow(2 * sizes.reach + 1, 3) / (cells_of_thread * warp);
     const Lattice lattice = lattice_of(box);
     return {lattice, rates_in(box, h), inflow(box, h), cubes, static_cast<int>(std::clamp(std::ceil(warps), 1.0, 256.0)),
