@@ -36,6 +36,15 @@ json hoop() {
     return overrides;
 }
 
+/// Water that goes along with a fast swimmer, a cell at a time.
+json moving() {
+    return {{"duration", 0.4},
+            {"solver", {{"substeps", 48}}},
+            {"movingTank", {{"along", "xz"}, {"step", 0.02}}},
+            {"stopping", {{"noProgressAfter", 0}, {"planeContact", false}}}};
+}
+const Gait fast_wave{4, test::loach_wave.amplitude, test::loach_wave.phase};
+
 const Gait creature_wave{2, {0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45}, {0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65}};
 
 class GpuLatticeCompany : public test::OnGpu<testing::TestWithParam<Company>> {
@@ -127,10 +136,10 @@ TEST_P(GpuLatticeCompany, GoesOnFromASavedMoment) {
     const SimulationSetup setup{
         .scene = GetParam().scene, .overrides = GetParam().overrides.dump(), .gait = GetParam().gait};
     Simulation<float> whole(setup, on_gpu()), first(setup, on_gpu()), second(setup, on_gpu());
-    for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(first.step());
+    for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(first.step());
     second.restore(first.save());
-    for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(whole.step());
-    for (int frame = 0; frame < 6; ++frame) ASSERT_TRUE(second.step());
+    for (int frame = 0; frame < 24; ++frame) ASSERT_TRUE(whole.step());
+    for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(second.step());
     EXPECT_EQ(whole.save(), second.save());
 }
 
@@ -143,7 +152,7 @@ TEST_P(GpuLatticeCompany, SharingTheGpuEachHasItsOwnBits) {
             .scene = GetParam().scene, .overrides = overrides.dump(), .gait = GetParam().gait, .start = number};
         return std::make_unique<Simulation<float>>(setup, Execution{.gpu = 0, .shared = &gpu});
     };
-    constexpr int frames = 6, swims = 5;
+    constexpr int frames = 18, swims = 5;
     std::vector<std::string> alone;
     for (int number = 0; number < swims; ++number) {
         SharedGpu gpu;
@@ -157,14 +166,14 @@ TEST_P(GpuLatticeCompany, SharingTheGpuEachHasItsOwnBits) {
     for (int number = 0; number < swims; ++number) all.push_back(swim(number, gpu));
     std::string saved;
     for (int frame = 0; frame < frames; ++frame) {
-        if (frame == 3) saved = all[2]->save();
+        if (frame == 9) saved = all[2]->save();
         std::vector<Simulation<float>*> together;
         for (const auto& one : all) together.push_back(one.get());
         for (const bool stable : step_together(together, 4)) ASSERT_TRUE(stable);
     }
     for (int number = 0; number < swims; ++number) EXPECT_EQ(all[number]->save(), alone[number]) << number;
     EXPECT_TRUE(all[4]->restore(saved));
-    for (int frame = 3; frame < frames; ++frame) ASSERT_TRUE(all[4]->step());
+    for (int frame = 9; frame < frames; ++frame) ASSERT_TRUE(all[4]->step());
     EXPECT_EQ(state_hash(all[4]->state()), state_hash(all[2]->state()));
 }
 
@@ -201,7 +210,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GpuLatticeCompany,
                          testing::Values(Company{"pair", "plane/pair", test::pair_json(json::object()),
                                                  test::loach_wave},
                                          Company{"crowd", "plane/pair", test::pair_json(test::crowd), test::loach_wave},
-                                         Company{"hoop", "lake/creature-2", hoop(), creature_wave}),
+                                         Company{"hoop", "lake/creature-2", hoop(), creature_wave},
+                                         Company{"moving", "plane/loach", moving(), fast_wave}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

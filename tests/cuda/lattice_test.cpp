@@ -237,6 +237,50 @@ TEST_F(GpuLattice, HasTheSameBitsInEachRun) {
     EXPECT_EQ(run(), run());
 }
 
+/// Of so many cells that numbers of populations need 64 bits.
+TEST_F(GpuLattice, HasRoomForManyCells) {
+    const auto begun = [](const Eigen::Vector3i& cells) {
+        Box box = box_of(cells.x(), cells.y(), cells.z());
+        box.viscosity = 0.01;
+        auto water = Water::on_gpu(box, 0);
+        water->set_cell(cells - Eigen::Vector3i(1, 1, 1), {0.01, {0.02, -0.03, 0.05}});
+        std::vector<Push> pushes;
+        for (int k = 0; k < 3; ++k) water->advance({}, 1, pushes);
+        return water;
+    };
+    const Eigen::Vector3i few(9, 8, 10), many(1000, 410, 400);
+    std::unique_ptr<Water> large;
+    try {
+        large = begun(many);
+    } catch (const std::bad_alloc&) {
+        GTEST_SKIP() << "no room for 164 million cells on this GPU";
+    }
+    const auto small = begun(few);
+    for_each_cell(small->box(), [&](const Eigen::Vector3i& at) {
+        const Eigen::Vector3i from_corner = at - few + Eigen::Vector3i(4, 4, 4);  // -5 ... 3 and so on
+        if ((from_corner.array() < -1).any() || (from_corner.array() > 5).any()) return;
+        const auto place = [&](const Eigen::Vector3i& cells) -> Eigen::Vector3i {
+            Eigen::Vector3i to;
+            for (int a = 0; a < 3; ++a) to[a] = (from_corner[a] - 4 + cells[a]) % cells[a];
+            return to;
+        };
+        EXPECT_EQ(large->cell(place(many)).velocity, small->cell(place(few)).velocity) << at.transpose();
+    });
+}
+
+/// An obstacle says so when its water has no numbers.
+TEST_F(GpuLattice, BadWaterIsNoPush) {
+    Bar bar;
+    const auto water = Water::on_gpu(bar.box_, 0);
+    std::vector<Push> pushes;
+    water->advance(bar.cubes(), 1, pushes);
+    for (const Push& push : pushes) ASSERT_EQ(push.j[0], 0);
+    water->set_cell({8, 10, 10}, {std::nan(""), {0, 0, 0}});
+    for (int k = 0; k < 3; ++k) water->advance(bar.cubes(), 1, pushes);
+    EXPECT_TRUE(std::isnan(pushes.front().j[0]));
+    EXPECT_EQ(pushes.back().j[0], 0);
+}
+
 TEST_F(GpuLattice, SaysWhatItHasNoRoomFor) {
     EXPECT_THROW(Water::on_gpu(box_of(2000, 1000, 1000), 0), std::bad_alloc);
     EXPECT_THROW(Water::on_gpu(box_of(4000, 4000, 4000), 0), std::bad_alloc);

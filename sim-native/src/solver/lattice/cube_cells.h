@@ -10,6 +10,13 @@ namespace natator::lattice {
 struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
+    /// Where its cell number k is.
+    NATATOR_HD void place(int k, int (&to)[3]) const {
+        const int row = k / count[0], plane = row / count[1];
+        to[0] = low[0] + k - row * count[0];
+        to[1] = low[1] + row - plane * count[1];
+        to[2] = low[2] + plane;
+    }
 };
 
 NATATOR_HD CellRange cells_around(const Cube& cube, const int (&cells)[3], const bool (&periodic)[3]) {

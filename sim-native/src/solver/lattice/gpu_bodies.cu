@@ -82,7 +82,8 @@ __device__ Vec3<double> impulse_of(const PushSums& push, double unit) {
 /// What a cube hands on, of a weight.
 __device__ Vec3<double> handed_on(const PushSums& push, double unit, const Vec3<double>& weight) {
     const auto row = [&](int a) {
-        return unit * push[3 + 3 * a] * weight.x + unit * push[4 + 3 * a] * weight.y + unit * push[5 + 3 * a] * weight.z;
+        return unit * push[3 + 3 * a] * weight.x + unit * push[4 + 3 * a] * weight.y +
+               unit * push[5 + 3 * a] * weight.z;
     };
     return {row(0), row(1), row(2)};
 }
@@ -195,7 +196,8 @@ public:
         const auto h = static_cast<double>(launch.slots.h);
         // At least by one thread, which looks whether the State is over.
         launch.template report_slots<lay_out_cubes<Real>>(std::max(1, bodies_.particles), bodies_, waters_.data());
-        launch_step(lattice_step(box_, h, bodies_.cubes, coupled_.sizes()), waters_.data(), launch.states, launch.stream);
+        launch_step(lattice_step(box_, h, bodies_.cubes, coupled_.sizes()), waters_.data(), launch.states,
+                    launch.stream);
         launch.template each_slot<take_pushes<Real>, push_lanes>(
             bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()), impulse_unit(box_, h));
         cuda::check(cudaGetLastError(), "launch");

@@ -13,8 +13,7 @@ namespace {
 
 using namespace physics;
 
-constexpr int block = 128, range_block = 256;  ///< threads
-constexpr unsigned warp = 32;
+constexpr int block = 128, range_block = 256, warp = 32;  ///< threads
 
 constexpr Key nobody = ~Key{0};
 constexpr int kind_of_saved = 2;  // on a CPU there are moments, before this there were populations that had come
@@ -96,35 +95,33 @@ __global__ void __launch_bounds__(range_block)
 }
 
 /// Does something with those of the cells around the cubes, now and before, that are wanted: work(place) where
-/// wanted(cell), a block some at a time. Few are, and what is done with them shall keep whole warps busy.
+/// wanted(cell). They are few, so a block looks for them among some cells, then its first threads have one each: whole
+/// warps.
 template <class Wanted, class Work>
 __device__ void each_cell_around(const Step& step, const Wanted& wanted, const Work& work) {
-    constexpr unsigned of_thread = 4, of_block = of_thread * block;
-    __shared__ unsigned chosen[of_block], count;
+    constexpr int of_thread = 4, of_block = of_thread * block;
+    __shared__ int chosen[of_block], count;
     const CellRange& range = step.water.around;
-    const auto size = static_cast<unsigned>(range.size());
-    struct Place {
-        int x[3];
-    };
-    const auto place = [&](unsigned k) -> Place {
-        const unsigned row = k / range.count[0], plane = row / range.count[1];
-        return {{range.low[0] + static_cast<int>(k - row * range.count[0]),
-                 range.low[1] + static_cast<int>(row - plane * range.count[1]), range.low[2] + static_cast<int>(plane)}};
-    };
-    for (unsigned first = blockIdx.x * of_block; first < size; first += gridDim.x * of_block) {
-        if (threadIdx.x == 0) count = 0;
+    const int size = range.size(), own = static_cast<int>(threadIdx.x), blocks = static_cast<int>(gridDim.x);
+    for (int first = static_cast<int>(blockIdx.x) * of_block; first < size; first += blocks * of_block) {
+        if (own == 0) count = 0;
         __syncthreads();
         bool is_wanted[of_thread];
 #pragma unroll
-        for (unsigned k = 0; k < of_thread; ++k) {
-            const unsigned number = first + k * block + threadIdx.x;
-            const auto [x] = place(min(number, size - 1));
+        for (int k = 0; k < of_thread; ++k) {
+            const int number = first + k * block + own;
+            int x[3];
+            range.place(min(number, size - 1), x);
             is_wanted[k] = number < size && wanted(step.lattice.at(x[0], x[1], x[2]));
         }
-        for (unsigned k = 0; k < of_thread; ++k)
-            if (is_wanted[k]) chosen[atomicAdd(&count, 1u)] = first + k * block + threadIdx.x;
+        for (int k = 0; k < of_thread; ++k)
+            if (is_wanted[k]) chosen[atomicAdd(&count, 1)] = first + k * block + own;
         __syncthreads();
-        for (unsigned k = threadIdx.x; k < count; k += block) work(place(chosen[k]).x);
+        for (int k = own; k < count; k += block) {
+            int x[3];
+            range.place(chosen[k], x);
+            work(x);
+        }
         __syncthreads();
     }
 }
@@ -155,20 +152,19 @@ __device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
 /// Finds the cells that each cube holds, by some warps for each, and begins its sums.
 __global__ void __launch_bounds__(block) hold(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
     const Step step(of_all, waters);
-    const unsigned threads = of_all.warps * warp, thread = blockIdx.x * block + threadIdx.x, p = thread / threads,
-                   first = thread - p * threads;
+    const int threads = of_all.warps * warp;
+    const unsigned thread = blockIdx.x * block + threadIdx.x, p = thread / threads;
     if (p >= static_cast<unsigned>(of_all.cubes) || !step.water.goes_on) return;
+    const int first = static_cast<int>(thread - p * threads);
     if (first == 0) step.water.pushes[p] = {};
     const Cube cube = step.water.cubes[p];
     const CellRange range = cells_around(cube, step.lattice.cells, step.lattice.periodic);
-    const auto size = static_cast<unsigned>(range.size());
-    for (unsigned k = first; k < size; k += threads) {
-        const unsigned row = k / range.count[0], plane = row / range.count[1];
-        const int x[3] = {range.low[0] + static_cast<int>(k - row * range.count[0]),
-                          range.low[1] + static_cast<int>(row - plane * range.count[1]),
-                          range.low[2] + static_cast<int>(plane)};
-        Key* const key = step.key_of(step.lattice.inside(0, x[0]), step.lattice.inside(1, x[1]),
-                                     step.lattice.inside(2, x[2]));
+    const int size = range.size();
+    for (int k = first; k < size; k += threads) {
+        int x[3], here[3];
+        range.place(k, x);
+        for (int a = 0; a < 3; ++a) here[a] = step.lattice.inside(a, x[a]);
+        Key* const key = step.key_of(here[0], here[1], here[2]);
         const PlaceInCube in = place_in(cube, x[0], x[1], x[2]);
         if (key && in.out <= cube.edge) atomicMin(key, Key{__float_as_uint(in.out)} << 32 | p);
     }
@@ -179,8 +175,8 @@ __device__ constexpr int along(int i, int axis) {
     return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1;
 }
 
-/// Where the populations that come to a cell lie. Number: unsigned, holds the number of any population; what goes down is
-/// added modulo its size.
+/// Where the populations that come to a cell lie. Number: unsigned, holds the number of any population; what goes down
+/// is added modulo its size.
 template <class Number>
 class Sources {
 public:
@@ -214,7 +210,8 @@ public:
     /// Population i as the water of this cell has it, which is on its way to others.
     __device__ Number own(int i) const { return cell_ + i * count_; }
     __device__ bool at_open_end() const { return opens_ != 0; }
-    /// Whether population i comes in from outside. Where a wall meets an open end, one along x gives way, as on the CPU.
+    /// Whether population i comes in from outside. Where a wall meets an open end, one along x gives way, as on the
+    /// CPU.
     __device__ bool comes_in(int i) const {
         constexpr unsigned along_x = 3;
         return (opens_ & crossed(i)) != 0 && (bounces_ & crossed(i) & ~along_x) == 0;
@@ -246,8 +243,9 @@ __device__ void load_moments(const float* __restrict__ populations, const Source
     moments_of(f, m);
 }
 using AnySources = Sources<std::size_t>;
-/// Density less that at rest, and momentum, of what comes to a cell. Rarely asked, and apart: its registers are no
-/// others'.
+
+/// Density less that at rest, and momentum, of what comes to a cell. Rarely asked, and so apart: the kernels have few
+/// registers to give.
 __device__ __noinline__ float4 arrived_at(const Lattice& lattice, const float* populations, int x, int y, int z) {
     const int place[3] = {x, y, z};
     const AnySources sources(lattice, place);
@@ -258,11 +256,11 @@ __device__ __noinline__ float4 arrived_at(const Lattice& lattice, const float* p
 #pragma unroll
         for (int e = 0; e < 9; ++e) f[e] = __ldg(populations + sources(9 * plane + e));
         const float low = f[0] + f[1] + f[2], middle = f[3] + f[4] + f[5], high = f[6] + f[7] + f[8];
-        const float all = low + middle + high;
-        sum.x += all;
+        const float of_plane = low + middle + high;
+        sum.x += of_plane;
         sum.y += (f[2] + f[5] + f[8]) - (f[0] + f[3] + f[6]);
         sum.z += high - low;
-        sum.w += static_cast<float>(plane - 1) * all;
+        sum.w += static_cast<float>(plane - 1) * of_plane;
     }
     return sum;
 }
@@ -309,8 +307,8 @@ struct Put {
     }
 };
 
-/// Streams and collides: a thread a cell. It reads what others have written for it and writes its own: the other way
-/// round the writes would not be aligned, which costs a third of the speed (H200).
+/// Streams and collides: a thread a cell. It reads what comes from the cells beside and writes its own: the other way
+/// round writes are not aligned, at two thirds of the speed (H200).
 template <bool eddies, class Number>
 __global__ void __launch_bounds__(block)
     advance_cells(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
@@ -406,8 +404,7 @@ __device__ void add_links(const Step& step, const int (&here)[3], const float (&
             const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
             if (!(free & 1u << i)) continue;
             const float in_ = in[e] - moving_population(i, u), out_ = out[e] - moving_population(opposite, u);
-            for (int a = 0; a < 3; ++a)
-                j[a] += link_push(in_, out_, static_cast<float>(along(i, a)), u[a]);
+            for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(along(i, a)), u[a]);
         }
     }
 }
@@ -533,10 +530,14 @@ Lattice lattice_of(const Box& box) {
 }
 
 LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
-    constexpr double cells_of_thread = 4, around = 2;  // threads by cell of a body, for four times the cells
-    const double warps = std::pow(2 * sizes.reach + 1, 3) / (cells_of_thread * warp);
+    constexpr double cells_of_thread = 4, around = 2;  // threads for a body's cell and what lies around it
     const Lattice lattice = lattice_of(box);
-    return {lattice, rates_in(box, h), inflow(box, h), cubes, static_cast<int>(std::clamp(std::ceil(warps), 1.0, 256.0)),
+    const double warps = std::pow(2 * sizes.reach + 1, 3) / (cells_of_thread * warp);
+    return {lattice,
+            rates_in(box, h),
+            inflow(box, h),
+            cubes,
+            static_cast<int>(std::clamp(std::ceil(warps), 1.0, 256.0)),
             static_cast<unsigned>(std::clamp<double>(around * sizes.cells, 1, lattice.count))};
 }
 

@@ -30,8 +30,9 @@ struct Handover {
 
 /// What pushes a cube, summed as whole numbers: the same bits in any order.
 struct PushSums {
-    static constexpr int numbers = 12;  ///< as Push has them
-    static constexpr double unit = 1.0 / (1ll << 40), most = 1 << 10;  ///< of what a cell adds: more is no water
+    static constexpr int numbers = 12;                 ///< as Push has them
+    static constexpr double unit = 1.0 / (1ll << 40);  ///< far below the rounding of what is added
+    static constexpr double most = 1 << 10;            ///< that is added at once: more is no water
 
     unsigned long long sum[numbers], bad;  ///< bad: whether something had no number, or too large a one
 
@@ -44,7 +45,8 @@ struct PushSums {
     }
 #endif
     NATATOR_HD double operator[](int number) const {
-        return bad != 0 ? std::numeric_limits<double>::quiet_NaN() : unit * static_cast<double>(static_cast<long long>(sum[number]));
+        return bad != 0 ? std::numeric_limits<double>::quiet_NaN()
+                        : unit * static_cast<double>(static_cast<long long>(sum[number]));
     }
     Push push() const {
         Push all;
