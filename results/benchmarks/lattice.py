@@ -11,10 +11,10 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import lakes  # noqa: E402
 
-SIDES = (2.85, 1.2, 1.2)
-# Width of cells, units; frames of the shorter run of one swim, of 150, and of one on a core.
-SIZES = ((0.0375, 120, 12, 40), (0.025, 60, 12, 8), (0.0125, 30, 3, 1), (0.00625, 8, 0, 0))
-REPEATS = 5
+HEIGHT_AND_WIDTH = (1.2, 1.2)
+# Width of cells and length of the water, units; frames of the shorter run of one swim, of 150, and of one on a core.
+SIZES = ((0.075, 2.85, 120, 40, 120), (0.0375, 2.85, 120, 12, 40), (0.025, 2.85, 60, 12, 8), (0.0125, 2.85, 30, 3, 1), (0.00625, 2.85, 8, 0, 0), (0.00375, 3.6, 1, 0, 0))
+REPEATS = 3
 
 
 def gaits(count):
@@ -22,8 +22,8 @@ def gaits(count):
     return [{"frequency": 1.5 + chance.random(), "amplitude": [0.1 + 0.3 * chance.random()] * 8, "phase": [round(-k * chance.uniform(0.05, 0.15) % 1, 4) for k in range(8)]} for _ in range(count)]
 
 
-def seconds(cell, swims, frames, backend):
-    requests = [{"id": k, "scene": "lake/creature-2", "gait": gait, "overrides": lakes.lake(SIDES, cell, 0.72, seconds=frames / 60)} for k, gait in enumerate(gaits(swims))]
+def seconds(cell, sides, swims, frames, backend):
+    requests = [{"id": k, "scene": "lake/creature-2", "gait": gait, "overrides": lakes.lake(sides, cell, 0.72, seconds=frames / 60)} for k, gait in enumerate(gaits(swims))]
     begin = time.time()
     answers = lakes.answers(requests, backend)
     took = time.time() - begin
@@ -42,16 +42,17 @@ def main():
     backend = "cpu" if chosen.core else "cuda"
     to = csv.writer(sys.stdout, lineterminator="\n")
     to.writerow(["cell", "cells", "swims", "frames", "updates_per_s", "least", "most"])
-    for cell, *frames_of in SIZES:
-        box = lakes.lake(SIDES, cell, 0.72)
+    for cell, length, *frames_of in SIZES:
+        sides = (length, *HEIGHT_AND_WIDTH)
+        box = lakes.lake(sides, cell, 0.72)
         cells, substeps = 1, box["solver"]["substeps"]
         for count in box["fluid"]["count"]:
             cells *= count
         for swims, frames in ((1, frames_of[2]),) if chosen.core else zip((1, 150), frames_of):
             if frames == 0 or cells > chosen.most or chosen.swims not in (None, swims):
                 continue
-            seconds(cell, swims, 1, backend)
-            rates = [swims * cells * substeps * 2 * frames / (seconds(cell, swims, 3 * frames, backend) - seconds(cell, swims, frames, backend)) for _ in range(REPEATS)]
+            seconds(cell, sides, swims, 1, backend)
+            rates = [swims * cells * substeps * 2 * frames / (seconds(cell, sides, swims, 3 * frames, backend) - seconds(cell, sides, swims, frames, backend)) for _ in range(REPEATS)]
             to.writerow([cell, cells, swims, 3 * frames, *(f"{rate:.3g}" for rate in (statistics.median(rates), min(rates), max(rates)))])
             sys.stdout.flush()
 
