@@ -274,11 +274,11 @@ TEST_F(GpuLattice, BadWaterIsNoPush) {
     const auto water = Water::on_gpu(bar.box_, 0);
     std::vector<Push> pushes;
     water->advance(bar.cubes(), 1, pushes);
-    for (const Push& push : pushes) ASSERT_EQ(push.j[0], 0);
+    for (const Push& push : pushes) ASSERT_LT(std::abs(push.j[0]), 1e-6);
     water->set_cell({8, 10, 10}, {std::nan(""), {0, 0, 0}});
     for (int k = 0; k < 3; ++k) water->advance(bar.cubes(), 1, pushes);
     EXPECT_TRUE(std::isnan(pushes.front().j[0]));
-    EXPECT_EQ(pushes.back().j[0], 0);
+    EXPECT_LT(std::abs(pushes.back().j[0]), 1e-6);
 }
 
 TEST_F(GpuLattice, SaysWhatItHasNoRoomFor) {
