@@ -51,7 +51,7 @@ public record GenerationSummary(int generation, double best, double mean, double
     static GenerationSummary of(int generation, List<Individual> population, int evaluations, int unstable,
             int failed) {
         List<Individual> measured = population.stream().filter(Individual::isMeasured).toList();
-        boolean distances = measured.stream().allMatch(one -> one.objectives() == null && one.result().goals() == null);
+        boolean distances = measured.stream().allMatch(Individual::isDistance);
         double[] scores = (distances ? population : measured).stream().mapToDouble(Individual::score).toArray();
         return of(generation, scores, evaluations, unstable, failed).withPopulation(population.size());
     }

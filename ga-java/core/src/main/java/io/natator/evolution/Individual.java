@@ -37,9 +37,9 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
         return estimate == null ? result.score() : estimate.score();
     }
 
-    /** The score that selection works with: never negative, and 0 for what was not measured. */
-    public double fitness() {
-        return isMeasured() ? Math.max(score(), 0.0) : 0.0;
+    /** By how much its score is above a floor: what selection works with, never negative, and 0 for what was not measured. */
+    public double fitness(double floor) {
+        return isMeasured() ? Math.max(score() - floor, 0.0) : 0.0;
     }
 
     /** What it is worth by each of the run's objectives; null where it has none. */
@@ -50,6 +50,11 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
     /** What its runs took together; null where nobody asked. */
     public Effort effort() {
         return estimate == null ? result.effort() : estimate.effort();
+    }
+
+    /** Whether its score is how far it came, and not what goals or objectives make of that. */
+    boolean isDistance() {
+        return objectives() == null && result.goals() == null;
     }
 
     /** How many runs the score rests on. */

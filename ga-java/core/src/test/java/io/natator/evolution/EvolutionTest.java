@@ -8,6 +8,7 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
 import io.natator.process.FakePool;
 import io.natator.protocol.Results;
 import io.natator.protocol.SimulationResult;
@@ -105,10 +106,28 @@ class EvolutionTest {
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
         assertThat(second.subList(0, 50)).allSatisfy(one -> assertThat(firstGenes).contains(one.genes()));
         assertThat(second.subList(50, second.size())).extracting(Individual::age).containsOnly(0);
-        List<Double> tenBest = first.stream().map(Individual::fitness).sorted(Comparator.reverseOrder())
+        List<Double> tenBest = first.stream().map(one -> one.fitness(0)).sorted(Comparator.reverseOrder())
                 .limit(10).toList();
-        assertThat(second.subList(0, 10)).extracting(Individual::fitness).isEqualTo(tenBest);
+        assertThat(second.subList(0, 10)).extracting(one -> one.fitness(0)).isEqualTo(tenBest);
         assertThat(tenBest.get(0)).isPositive();
+    }
+
+    /** Where work has a price all may lose by swimming: the best go on all the same. */
+    @Test
+    void theBestGoOnWhereAllScoresAreNegative() {
+        EvolutionSettings dear = settings(OperatorSet.CORRECTED, 50, 3, 5)
+                .withObjectives(OptimizerKind.JGAP, WeightedObjective.parse("distance=1,work=10"));
+        List<EvolutionState> states = ToyEvolution.run(dear).states;
+
+        List<Double> first = scores(states.get(0));
+        assertThat(first.get(0)).isNegative();
+        assertThat(scores(states.get(1)).subList(0, 10)).zipSatisfy(first.subList(0, 10),
+                (next, before) -> assertThat(next).isGreaterThanOrEqualTo(before));
+        assertThat(scores(states.get(3)).get(0)).isGreaterThan(first.get(0));
+    }
+
+    private static List<Double> scores(EvolutionState state) {
+        return state.population().stream().map(Individual::score).sorted(Comparator.reverseOrder()).toList();
     }
 
     /** Backward swimmers have fitness 0 for JGAP, and their distance in the record. */

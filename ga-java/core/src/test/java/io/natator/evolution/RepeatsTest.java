@@ -121,10 +121,10 @@ class RepeatsTest {
                 .withSize(20, 1).withStarts(STARTS, Aggregate.MEAN)).states;
 
         List<List<Double>> best = states.get(0).population().stream()
-                .sorted((a, b) -> Double.compare(b.fitness(), a.fitness())).limit(4).map(Individual::genes).toList();
+                .sorted((a, b) -> Double.compare(b.score(), a.score())).limit(4).map(Individual::genes).toList();
         assertThat(states.get(1).population().subList(0, 4)).extracting(Individual::genes).isEqualTo(best);
         assertThat(states.get(0).population().stream().filter(one -> best.contains(one.genes())))
-                .allMatch(one -> one.fitness() > 0 && one.runs() > STARTS);
+                .allMatch(one -> one.score() > 0 && one.runs() > STARTS);
     }
 
     @ParameterizedTest
