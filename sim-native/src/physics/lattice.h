@@ -27,6 +27,11 @@ struct LatticeRates {
 
 inline namespace NATATOR_SET {
 
+/// Where population i goes along an axis in a step: -1, 0, 1.
+NATATOR_HD constexpr int along(int i, int axis) {
+    return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1;
+}
+
 /// The relaxation for a kinematic viscosity, cells^2/step, above 0, and Smagorinsky's constant C. Bulk viscosity: the
 /// trace is relaxed at once. Third cumulants so that (1/w - 1/2)(1/w_3 - 1/2) = 1/4, which puts a wall of forced cells
 /// on their centres at any viscosity (d'Humières, Ginzburg: Viscosity independent numerical errors for lattice
@@ -38,10 +43,11 @@ NATATOR_HD LatticeRates lattice_rates(double viscosity, double smagorinsky) {
             static_cast<float>(slack), static_cast<float>(18 * root_of_two * smagorinsky * smagorinsky)};
 }
 
-/// a / b, on a GPU to two units in the last place, for b from 2^-126 to 2^126.
+/// a / b; on a GPU of floats, to two units in the last place for b from 2^-126 to 2^126, 0 beyond.
 template <class V>
 NATATOR_HD V quotient(V a, V b) {
 #if defined(__CUDA_ARCH__)
+    static_assert(sizeof(V) == sizeof(float));
     return __fdividef(a, b);
 #else
     return a / b;
@@ -104,10 +110,9 @@ NATATOR_HD float moving_part(int c, float u) {
 /// Population i of water in equilibrium that moves at u with the density at rest, less that of water at rest.
 NATATOR_HD float moving_population(int i, const float (&u)[3]) {
     float product = 1, rest = 1;
-    const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
     for (int a = 0; a < 3; ++a) {
-        product *= moving_part(c[a], u[a]);
-        rest *= c[a] == 0 ? 2.0f / 3 : 1.0f / 6;
+        product *= moving_part(along(i, a), u[a]);
+        rest *= along(i, a) == 0 ? 2.0f / 3 : 1.0f / 6;
     }
     return product - rest;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,18 +12,6 @@ namespace natator::lattice {
 
 /// A substep: a Mach number of 0.5. Well below it water is as good as incompressible; above 1 it is nothing.
 constexpr double max_cells_per_substep = 0.3;
-
-/// How large some cubes are at rest, cells.
-struct CubeSizes {
-    double reach = 0;  ///< the farthest from a middle along an axis
-    double cells = 0;  ///< in all of the boxes around them
-
-    void add(const Eigen::Vector3d& half) {
-        reach = std::max(reach, half.maxCoeff());
-        cells += 8 * half.prod();
-    }
-    void add(const Cube& cube) { add(Eigen::Vector3d(cube.reach[0], cube.reach[1], cube.reach[2])); }
-};
 
 /// What of a Model of scheme `lattice` is in its water.
 class CoupledBodies {

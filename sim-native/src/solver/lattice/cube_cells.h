@@ -1,7 +1,7 @@
 #pragma once
 
 #include "immersed.h"
-#include "physics/number.h"
+#include "physics/lattice.h"
 
 namespace natator::lattice {
 
@@ -11,11 +11,11 @@ struct CellRange {
     int low[3], count[3];
     NATATOR_HD int size() const { return count[0] * count[1] * count[2]; }
     /// Where its cell number k is.
-    NATATOR_HD void place(int k, int (&to)[3]) const {
-        const int row = k / count[0], plane = row / count[1];
-        to[0] = low[0] + k - row * count[0];
-        to[1] = low[1] + row - plane * count[1];
-        to[2] = low[2] + plane;
+    NATATOR_HD void place(unsigned k, int (&to)[3]) const {
+        const unsigned x = count[0], y = count[1], row = k / x, plane = row / y;
+        to[0] = low[0] + static_cast<int>(k - row * x);
+        to[1] = low[1] + static_cast<int>(row - plane * y);
+        to[2] = low[2] + static_cast<int>(plane);
     }
 };
 
@@ -50,10 +50,9 @@ NATATOR_HD int nearest_copy(float x, int at, int cells, bool periodic) {
 /// The cell that population i streams to from this one (physics/lattice.h), inside periodic ends. False if that is this
 /// one or beyond a wall.
 NATATOR_HD bool neighbour(int i, const int (&here)[3], const int (&cells)[3], const bool (&periodic)[3], int (&to)[3]) {
-    const int c[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
-    bool inside = c[0] != 0 || c[1] != 0 || c[2] != 0;
+    bool inside = i != physics::lattice_populations / 2;
     for (int a = 0; a < 3; ++a) {
-        to[a] = here[a] + c[a];
+        to[a] = here[a] + physics::along(i, a);
         if (periodic[a]) to[a] = wrapped(to[a], cells[a]);
         inside = inside && to[a] >= 0 && to[a] < cells[a];
     }

@@ -82,8 +82,8 @@ __device__ Vec3<double> impulse_of(const PushSums& push, double unit) {
 /// What a cube hands on, of a weight.
 __device__ Vec3<double> handed_on(const PushSums& push, double unit, const Vec3<double>& weight) {
     const auto row = [&](int a) {
-        return unit * push[3 + 3 * a] * weight.x + unit * push[4 + 3 * a] * weight.y +
-               unit * push[5 + 3 * a] * weight.z;
+        const auto of = [&](int b) { return unit * push[PushSums::moment(a, b)]; };
+        return of(0) * weight.x + of(1) * weight.y + of(2) * weight.z;
     };
     return {row(0), row(1), row(2)};
 }

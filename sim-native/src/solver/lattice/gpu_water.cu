@@ -14,6 +14,7 @@ namespace {
 using namespace physics;
 
 constexpr int block = 128, range_block = 256, warp = 32;  ///< threads
+constexpr unsigned cells_of_thread = 4;                   ///< among which it looks for those that bodies have
 
 constexpr Key nobody = ~Key{0};
 constexpr int kind_of_saved = 2;  // on a CPU there are moments, before this there were populations that had come
@@ -99,25 +100,26 @@ __global__ void __launch_bounds__(range_block)
 /// warps.
 template <class Wanted, class Work>
 __device__ void each_cell_around(const Step& step, const Wanted& wanted, const Work& work) {
-    constexpr int of_thread = 4, of_block = of_thread * block;
-    __shared__ int chosen[of_block], count;
+    constexpr unsigned of_block = cells_of_thread * block;
+    __shared__ unsigned chosen[of_block], count;
     const CellRange& range = step.water.around;
-    const int size = range.size(), own = static_cast<int>(threadIdx.x), blocks = static_cast<int>(gridDim.x);
-    for (int first = static_cast<int>(blockIdx.x) * of_block; first < size; first += blocks * of_block) {
-        if (own == 0) count = 0;
+    const auto size = static_cast<unsigned>(range.size());
+    for (unsigned first = blockIdx.x * of_block; first < size; first += gridDim.x * of_block) {
+        if (threadIdx.x == 0) count = 0;
         __syncthreads();
-        bool is_wanted[of_thread];
+        bool is_wanted[cells_of_thread];
 #pragma unroll
-        for (int k = 0; k < of_thread; ++k) {
-            const int number = first + k * block + own;
+        for (unsigned k = 0; k < cells_of_thread; ++k) {
+            const unsigned number = first + k * block + threadIdx.x;
             int x[3];
             range.place(min(number, size - 1), x);
             is_wanted[k] = number < size && wanted(step.lattice.at(x[0], x[1], x[2]));
         }
-        for (int k = 0; k < of_thread; ++k)
-            if (is_wanted[k]) chosen[atomicAdd(&count, 1)] = first + k * block + own;
+#pragma unroll
+        for (unsigned k = 0; k < cells_of_thread; ++k)
+            if (is_wanted[k]) chosen[atomicAdd(&count, 1u)] = first + k * block + threadIdx.x;
         __syncthreads();
-        for (int k = own; k < count; k += block) {
+        for (unsigned k = threadIdx.x; k < count; k += block) {
             int x[3];
             range.place(chosen[k], x);
             work(x);
@@ -152,15 +154,14 @@ __device__ bool has_neighbours_in(const Cube& cube, const PlaceInCube& place) {
 /// Finds the cells that each cube holds, by some warps for each, and begins its sums.
 __global__ void __launch_bounds__(block) hold(const __grid_constant__ LatticeStep of_all, const WaterOnGpu* waters) {
     const Step step(of_all, waters);
-    const int threads = of_all.warps * warp;
-    const unsigned thread = blockIdx.x * block + threadIdx.x, p = thread / threads;
+    const unsigned threads = of_all.warps * warp, thread = blockIdx.x * block + threadIdx.x, p = thread / threads,
+                   first = thread - p * threads;
     if (p >= static_cast<unsigned>(of_all.cubes) || !step.water.goes_on) return;
-    const int first = static_cast<int>(thread - p * threads);
     if (first == 0) step.water.pushes[p] = {};
     const Cube cube = step.water.cubes[p];
     const CellRange range = cells_around(cube, step.lattice.cells, step.lattice.periodic);
-    const int size = range.size();
-    for (int k = first; k < size; k += threads) {
+    const auto size = static_cast<unsigned>(range.size());
+    for (unsigned k = first; k < size; k += threads) {
         int x[3], here[3];
         range.place(k, x);
         for (int a = 0; a < 3; ++a) here[a] = step.lattice.inside(a, x[a]);
@@ -170,9 +171,16 @@ __global__ void __launch_bounds__(block) hold(const __grid_constant__ LatticeSte
     }
 }
 
-/// Where population i goes along an axis: -1, 0, 1.
-__device__ constexpr int along(int i, int axis) {
-    return (axis == 0 ? i : axis == 1 ? i / 3 : i / 9) % 3 - 1;
+/// The population that goes the other way.
+__device__ constexpr int opposite(int i) {
+    return lattice_populations - 1 - i;
+}
+/// The ends on whose side population i comes from: bits, along each axis the lower and the upper one.
+__device__ constexpr unsigned sides_of(int i) {
+    unsigned ends = 0;
+    for (int a = 0; a < 3; ++a)
+        if (const int c = along(i, a); c != 0) ends |= 1u << (2 * a + (c > 0 ? 0 : 1));
+    return ends;
 }
 
 /// Where the populations that come to a cell lie. Number: unsigned, holds the number of any population; what goes down
@@ -200,12 +208,12 @@ public:
         }
     }
 
-    /// Of population i, the number of what it is now.
+    /// The number of the population that comes as population i.
     __device__ Number operator()(int i) const {
         Number from = cell_ + i * count_;
         for (int a = 0; a < 3; ++a)
             if (const int c = along(i, a); c != 0) from += by_[a][c > 0 ? 0 : 1];
-        return ((bounces_ | opens_) & crossed(i)) != 0 ? cell_ + opposite(i) * count_ : from;
+        return ((bounces_ | opens_) & sides_of(i)) != 0 ? cell_ + opposite(i) * count_ : from;
     }
     /// Population i as the water of this cell has it, which is on its way to others.
     __device__ Number own(int i) const { return cell_ + i * count_; }
@@ -214,19 +222,10 @@ public:
     /// CPU.
     __device__ bool comes_in(int i) const {
         constexpr unsigned along_x = 3;
-        return (opens_ & crossed(i)) != 0 && (bounces_ & crossed(i) & ~along_x) == 0;
+        return (opens_ & sides_of(i)) != 0 && (bounces_ & sides_of(i) & ~along_x) == 0;
     }
 
 private:
-    __device__ static int opposite(int i) { return lattice_populations - 1 - i; }
-    /// The ends on whose side population i comes from.
-    __device__ static unsigned crossed(int i) {
-        unsigned ends = 0;
-        for (int a = 0; a < 3; ++a)
-            if (const int c = along(i, a); c != 0) ends |= 1u << (2 * a + (c > 0 ? 0 : 1));
-        return ends;
-    }
-
     Number count_, cell_;
     /// along each axis down and up: to the cell there, or to the mirrored population of the cell here
     Number by_[3][2];
@@ -376,15 +375,9 @@ __device__ void add_links(const Step& step, const int (&here)[3], const float (&
     // All loads of a kind are under way together.
     const auto beside = [&](int i) {  // where population i comes from; 0, which is held, beyond an end
         int from = 0;
-        unsigned crosses = 0;
-        for (int a = 0; a < 3; ++a) {
-            const int c = along(i, a);
-            if (c == 0) continue;
-            const int up = c < 0 ? 1 : 0;
-            from += by[a][up];
-            crosses |= 1u << (2 * a + up);
-        }
-        return (crosses & ends) != 0 ? 0 : from;
+        for (int a = 0; a < 3; ++a)
+            if (const int c = along(i, a); c != 0) from += by[a][c < 0 ? 1 : 0];
+        return (sides_of(i) & ends) != 0 ? 0 : from;
     };
     unsigned free = 0;
 #pragma unroll
@@ -394,16 +387,16 @@ __device__ void add_links(const Step& step, const int (&here)[3], const float (&
         float in[9], out[9];
 #pragma unroll
         for (int e = 0; e < 9; ++e) {
-            const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+            const int i = 9 * part + e;
             const bool is_free = (free & 1u << i) != 0;
             in[e] = is_free ? after[i * cells + beside(i)] : 0;
-            out[e] = is_free ? after[opposite * cells] : 0;
+            out[e] = is_free ? after[opposite(i) * cells] : 0;
         }
 #pragma unroll
         for (int e = 0; e < 9; ++e) {
-            const int i = 9 * part + e, opposite = lattice_populations - 1 - i;
+            const int i = 9 * part + e;
             if (!(free & 1u << i)) continue;
-            const float in_ = in[e] - moving_population(i, u), out_ = out[e] - moving_population(opposite, u);
+            const float in_ = in[e] - moving_population(i, u), out_ = out[e] - moving_population(opposite(i), u);
             for (int a = 0; a < 3; ++a) j[a] += link_push(in_, out_, static_cast<float>(along(i, a)), u[a]);
         }
     }
@@ -413,7 +406,7 @@ __device__ void add_links(const Step& step, const int (&here)[3], const float (&
 __device__ void add_push(const float (&j)[3], const float (&xi)[3], PushSums& sums) {
     for (int a = 0; a < 3; ++a) {
         sums.add(a, j[a]);
-        for (int b = 0; b < 3; ++b) sums.add(3 + 3 * a + b, static_cast<double>(j[a]) * xi[b]);
+        for (int b = 0; b < 3; ++b) sums.add(PushSums::moment(a, b), static_cast<double>(j[a]) * xi[b]);
     }
 }
 
@@ -497,17 +490,16 @@ __global__ void __launch_bounds__(block)
     set_arrivals(AnySources(lattice, place), with, populations);
 }
 
-/// Density and velocity, cells/step, of each of so many cells from one on. The density, over that at rest, is less
-/// 1 - `rest`.
-__global__ void __launch_bounds__(block) read_cells(Lattice lattice, unsigned first, unsigned count, float rest,
-                                                    const float* __restrict__ populations, float4* to) {
+/// Density less that at rest and velocity, cells/step, of each of so many cells from one on.
+__global__ void __launch_bounds__(block)
+    read_cells(Lattice lattice, unsigned first, unsigned count, const float* __restrict__ populations, float4* to) {
     const unsigned k = blockIdx.x * block + threadIdx.x;
     if (k >= count) return;
     int place[3];
     lattice.place(first + k, place);
     const auto [excess, x, y, z] = arrived_at(lattice, populations, place[0], place[1], place[2]);
     const float density = 1 + excess;
-    to[k] = {rest + excess, x / density, y / density, z / density};
+    to[k] = {excess, x / density, y / density, z / density};
 }
 
 unsigned blocks_of(std::size_t threads) {
@@ -530,20 +522,22 @@ Lattice lattice_of(const Box& box) {
 }
 
 LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
-    constexpr double cells_of_thread = 4, around = 2;  // threads for a body's cell and what lies around it
+    constexpr double of_warp = 4 * warp,
+                     around = 3;     // cells for a warp; those around bodies, for one around a particle
+    constexpr double threads = 4e9;  // at most, of all cubes
     const Lattice lattice = lattice_of(box);
-    const double warps = std::pow(2 * sizes.reach + 1, 3) / (cells_of_thread * warp);
+    const double most = threads / warp / std::max(1, cubes), all = lattice.count;
     return {lattice,
             rates_in(box, h),
             inflow(box, h),
             cubes,
-            static_cast<int>(std::clamp(std::ceil(warps), 1.0, 256.0)),
-            static_cast<unsigned>(std::clamp<double>(around * sizes.cells, 1, lattice.count))};
+            static_cast<int>(std::clamp(std::ceil(sizes.largest / of_warp), 1.0, std::clamp(most, 1.0, 256.0))),
+            static_cast<unsigned>(std::ceil(std::min(around * sizes.sum, all) / cells_of_thread))};
 }
 
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream) {
     const auto size = static_cast<unsigned>(count);
-    const dim3 by_cell(blocks_of(step.lattice.count), size), around(blocks_of(step.around), size),
+    const dim3 by_cell(blocks_of(step.lattice.count), size), around(blocks_of(step.threads_around), size),
         by_cube(blocks_of(static_cast<std::size_t>(step.cubes) * step.warps * warp), size);
     begin_step<<<dim3(1, size), range_block, 0, stream>>>(step, waters);
     if (step.cubes > 0) hold<<<by_cube, block, 0, stream>>>(step, waters);
@@ -621,7 +615,7 @@ void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<
     const int count = static_cast<int>(cubes.size());
     make_room(count, cubes);
     CubeSizes sizes;
-    for (const Cube& cube : cubes) sizes.add(cube);
+    for (const Cube& cube : cubes) sizes.add(cube, box_);
     const auto copy = [&](void* to, const void* from, std::size_t bytes) {
         if (bytes > 0) cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_.get()), "copy");
     };
@@ -654,10 +648,10 @@ void GpuWater::shift(const Eigen::Vector3i& by) {
     }
 }
 
-std::vector<Eigen::Vector4f> GpuWater::read(unsigned first, unsigned count, float rest) const {
+std::vector<Eigen::Vector4f> GpuWater::read_from(unsigned first, unsigned count) const {
     choose();
     cuda::DeviceBuffer<float4> read(count);
-    read_cells<<<blocks_of(count), block, 0, stream_.get()>>>(lattice_, first, count, rest, now().data(), read.data());
+    read_cells<<<blocks_of(count), block, 0, stream_.get()>>>(lattice_, first, count, now().data(), read.data());
     cuda::check(cudaGetLastError(), "launch");
     std::vector<Eigen::Vector4f> all(count);
     static_assert(sizeof(Eigen::Vector4f) == sizeof(float4));
@@ -669,12 +663,14 @@ std::vector<Eigen::Vector4f> GpuWater::read(unsigned first, unsigned count, floa
 }
 
 Cell GpuWater::cell(const Eigen::Vector3i& at) const {
-    const Eigen::Vector4f one = read(lattice_.at(at.x(), at.y(), at.z()), 1, 0).front();
+    const Eigen::Vector4f one = read_from(lattice_.at(at.x(), at.y(), at.z()), 1).front();
     return {one[0], one.tail<3>().cast<double>()};
 }
 
 std::vector<Eigen::Vector4f> GpuWater::cells() const {
-    return read(0, lattice_.count, 1);
+    std::vector<Eigen::Vector4f> all = read_from(0, lattice_.count);
+    for (Eigen::Vector4f& one : all) one[0] += 1;
+    return all;
 }
 
 namespace {
@@ -692,7 +688,7 @@ Populations in_equilibrium(const Cell& cell) {
 
 }  // namespace
 
-void GpuWater::fill(unsigned first, unsigned count, const Cell& with) {
+void GpuWater::fill_from(unsigned first, unsigned count, const Cell& with) {
     choose();
     fill_cells<<<blocks_of(count), block, 0, stream_.get()>>>(lattice_, first, count, in_equilibrium(with),
                                                               now().data());
@@ -701,11 +697,11 @@ void GpuWater::fill(unsigned first, unsigned count, const Cell& with) {
 }
 
 void GpuWater::set_cell(const Eigen::Vector3i& at, const Cell& cell) {
-    fill(lattice_.at(at.x(), at.y(), at.z()), 1, cell);
+    fill_from(lattice_.at(at.x(), at.y(), at.z()), 1, cell);
 }
 
 void GpuWater::set_cells(const Cell& all) {
-    fill(0, lattice_.count, all);
+    fill_from(0, lattice_.count, all);
 }
 
 void GpuWater::save(ByteWriter& to) const {

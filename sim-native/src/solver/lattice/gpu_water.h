@@ -3,7 +3,6 @@
 #include <limits>
 #include <vector>
 
-#include "coupling.h"
 #include "cube_cells.h"
 #include "physics/vec3.h"
 #include "solver/cuda/device.h"
@@ -30,12 +29,13 @@ struct Handover {
 
 /// What pushes a cube, summed as whole numbers: the same bits in any order.
 struct PushSums {
-    static constexpr int numbers = 12;                 ///< as Push has them
-    static constexpr double unit = 1.0 / (1ll << 40);  ///< far below the rounding of what is added
-    static constexpr double most = 1 << 10;            ///< that is added at once: more is no water
+    static constexpr double unit = 1.0 / (1ll << 40);  ///< of the momentum of a cell at 1 cell/step
+    static constexpr double most = 16;                 ///< that a cell adds: more is no water
 
-    unsigned long long sum[numbers], bad;  ///< bad: whether something had no number, or too large a one
+    unsigned long long sum[12];  ///< numbers as Push has them
+    unsigned long long bad;      ///< whether something had no number, or too large a one
 
+    static NATATOR_HD constexpr int moment(int a, int b) { return 3 + 3 * a + b; }
 #if defined(__CUDACC__)
     __device__ void add(int number, double value) {
         if (fabs(value) < most)
@@ -50,15 +50,19 @@ struct PushSums {
     }
     Push push() const {
         Push all;
-        for (int a = 0; a < 3; ++a) all.j[a] = (*this)[a];
-        for (int k = 0; k < 9; ++k) all.moment[k] = (*this)[3 + k];
+        for (int a = 0; a < 3; ++a) {
+            all.j[a] = (*this)[a];
+            for (int b = 0; b < 3; ++b) all.moment[3 * a + b] = (*this)[moment(a, b)];
+        }
         return all;
     }
 };
 
 /// A water and its bodies in device memory, as steps take and leave them.
 struct WaterOnGpu {
-    float* populations[2];  ///< as each cell sends them out; those of now are number steps % 2
+    /// as each cell sends them out, but for what comes in at open ends in place of it; those of now are number steps %
+    /// 2
+    float* populations[2];
     Owners* owners;
     Key* keys;                        ///< by cell; nobody's between steps
     Handover* handovers;              ///< by cell; none between steps
@@ -83,10 +87,7 @@ struct Lattice {
     }
     NATATOR_HD int inside(int axis, int at) const { return periodic[axis] ? wrapped(at, cells[axis]) : at; }
     NATATOR_HD void place(unsigned at, int (&to)[3]) const {
-        const unsigned row = at / cells[0];
-        to[0] = static_cast<int>(at - row * cells[0]);
-        to[2] = static_cast<int>(row / cells[1]);
-        to[1] = static_cast<int>(row - static_cast<unsigned>(to[2]) * cells[1]);
+        CellRange{{0, 0, 0}, {cells[0], cells[1], cells[2]}}.place(at, to);
     }
 };
 /// Throws std::bad_alloc if no GPU has room for so many cells.
@@ -97,8 +98,8 @@ struct LatticeStep {
     Lattice lattice;
     physics::LatticeRates rates;
     Populations inflow;
-    int cubes, warps;  ///< and warps to find the cells of each
-    unsigned around;   ///< threads for the cells around all of them
+    int cubes, warps;         ///< and warps to find the cells of each
+    unsigned threads_around;  ///< for the cells around all of them
 };
 /// Of so long, s.
 LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes);
@@ -139,8 +140,10 @@ private:
     void wait() const { cuda::check(cudaStreamSynchronize(stream_.get()), "lattice"); }
     cuda::DeviceBuffer<float>& now() { return populations_[on_gpu_.steps % 2]; }
     const cuda::DeviceBuffer<float>& now() const { return populations_[on_gpu_.steps % 2]; }
-    std::vector<Eigen::Vector4f> read(unsigned first, unsigned count, float rest) const;
-    void fill(unsigned first, unsigned count, const Cell& with);
+    /// Of so many cells from one on: density less that at rest, of that at rest, and velocity, cells/step.
+    std::vector<Eigen::Vector4f> read_from(unsigned first, unsigned count) const;
+    /// Makes as many the same.
+    void fill_from(unsigned first, unsigned count, const Cell& with);
     void point_to_buffers();
 
     int device_;
