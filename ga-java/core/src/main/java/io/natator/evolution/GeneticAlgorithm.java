@@ -43,8 +43,6 @@ final class GeneticAlgorithm implements Optimizer {
     private List<IChromosome> bred = List.of();
     /** Those of them that are evaluated, and their parents, by their genes. */
     private final Map<List<Double>, Individual> known = new HashMap<>();
-    /** The score that has fitness 0 in this generation. */
-    private double floor;
 
     GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges) {
         this.settings = settings;
@@ -63,7 +61,7 @@ final class GeneticAlgorithm implements Optimizer {
         configuration.setRandomGenerator(random);
         configuration.setEventManager(new EventManager());
         configuration.setFitnessEvaluator(new DefaultFitnessEvaluator());
-        configuration.setFitnessFunction(new KnownFitness());
+        configuration.setFitnessFunction(new KnownFitness(known));
         configuration.setPopulationSize(settings.search().population());
         configuration.setKeepPopulationSizeConstant(false);
         configuration.setSampleChromosome(chromosome(ranges.stream().map(GeneRange::lower).toList()));
@@ -80,7 +78,6 @@ final class GeneticAlgorithm implements Optimizer {
         random.setSeed(Seeds.of(settings.search().seed(), generation));
         known.clear();
         know(parents);
-        floor = floorOf(parents);
         try {
             bred = List.of((generation == 0 ? first() : children(parents)).toChromosomes());
         } catch (InvalidConfigurationException e) {
@@ -106,15 +103,6 @@ final class GeneticAlgorithm implements Optimizer {
         return individuals;
     }
 
-    /**
-     * 0 for distances, as in the thesis: who goes backwards has no fitness. Other scores may all be negative, so the least
-     * counts (windowing: Grefenstette, Optimization of control parameters for genetic algorithms, 1986).
-     */
-    static double floorOf(List<Individual> parents) {
-        return parents.stream().allMatch(Individual::isDistance) ? 0.0
-                : parents.stream().filter(Individual::isMeasured).mapToDouble(Individual::score).min().orElse(0.0);
-    }
-
     private void know(List<Individual> individuals) {
         individuals.forEach(individual -> known.put(individual.genes(), individual));
     }
@@ -135,7 +123,7 @@ final class GeneticAlgorithm implements Optimizer {
         for (Individual parent : parents) {
             IChromosome chromosome = chromosome(parent.genes());
             chromosome.setAge(parent.age());
-            chromosome.setFitnessValueDirectly(parent.fitness(floor));
+            chromosome.setFitnessValueDirectly(parent.fitness());
             population.addChromosome(chromosome);
         }
         return breeder.evolve(population, configuration);
@@ -161,11 +149,17 @@ final class GeneticAlgorithm implements Optimizer {
 
     /** What JGAP asks for a fitness that it does not have: only those of evaluated chromosomes exist. */
     @SuppressWarnings("serial") // JGAP makes fitness functions serializable; this one never is serialized.
-    private final class KnownFitness extends FitnessFunction {
+    private static final class KnownFitness extends FitnessFunction {
+
+        private final transient Map<List<Double>, Individual> known;
+
+        KnownFitness(Map<List<Double>, Individual> known) {
+            this.known = known;
+        }
 
         @Override
         protected double evaluate(IChromosome chromosome) {
-            return known.get(genesOf(chromosome)).fitness(floor);
+            return known.get(genesOf(chromosome)).fitness();
         }
     }
 }

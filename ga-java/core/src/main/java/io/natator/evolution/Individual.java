@@ -20,6 +20,8 @@ import java.util.Objects;
 public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate)
         implements IndividualBuilder.With {
 
+    private static final double NEXT_TO_NOTHING = 1e-9;
+
     /** Copies the genes; requires them and a result with its id. */
     public Individual {
         genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
@@ -37,9 +39,24 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
         return estimate == null ? result.score() : estimate.score();
     }
 
-    /** By how much its score is above a floor: what selection works with, never negative, and 0 for what was not measured. */
-    public double fitness(double floor) {
-        return isMeasured() ? Math.max(score() - floor, 0.0) : 0.0;
+    /**
+     * The score that selection works with: never negative, and 0 for what was not measured, as for who goes backwards. Where
+     * more than the distance counts all scores may be below 0, as where work has a price: these are next to nothing, in their
+     * order.
+     */
+    public double fitness() {
+        if (!isMeasured()) {
+            return 0.0;
+        }
+        if (isDistance()) {
+            return Math.max(score(), 0.0);
+        }
+        return score() > 0 ? score() + NEXT_TO_NOTHING : NEXT_TO_NOTHING / (1 - score());
+    }
+
+    /** Whether its score is how far it came, and not what goals or objectives make of that. */
+    boolean isDistance() {
+        return objectives() == null && result.goals() == null;
     }
 
     /** What it is worth by each of the run's objectives; null where it has none. */
@@ -50,11 +67,6 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
     /** What its runs took together; null where nobody asked. */
     public Effort effort() {
         return estimate == null ? result.effort() : estimate.effort();
-    }
-
-    /** Whether its score is how far it came, and not what goals or objectives make of that. */
-    boolean isDistance() {
-        return objectives() == null && result.goals() == null;
     }
 
     /** How many runs the score rests on. */

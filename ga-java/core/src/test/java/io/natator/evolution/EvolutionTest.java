@@ -106,9 +106,9 @@ class EvolutionTest {
         assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
         assertThat(second.subList(0, 50)).allSatisfy(one -> assertThat(firstGenes).contains(one.genes()));
         assertThat(second.subList(50, second.size())).extracting(Individual::age).containsOnly(0);
-        List<Double> tenBest = first.stream().map(one -> one.fitness(0)).sorted(Comparator.reverseOrder())
+        List<Double> tenBest = first.stream().map(Individual::fitness).sorted(Comparator.reverseOrder())
                 .limit(10).toList();
-        assertThat(second.subList(0, 10)).extracting(one -> one.fitness(0)).isEqualTo(tenBest);
+        assertThat(second.subList(0, 10)).extracting(Individual::fitness).isEqualTo(tenBest);
         assertThat(tenBest.get(0)).isPositive();
     }
 

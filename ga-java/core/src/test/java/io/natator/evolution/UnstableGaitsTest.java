@@ -92,7 +92,7 @@ class UnstableGaitsTest {
             }
             assertThat(chosen).isNotEmpty().allSatisfy(one -> assertThat(broken).doesNotContain(one.genes()));
             assertThat(state.population()).filteredOn(one -> broken.contains(one.genes())).allSatisfy(one -> {
-                assertThat(one.fitness(0)).isZero();
+                assertThat(one.fitness()).isZero();
                 assertThat(one.score()).isNotPositive();
             });
         }
