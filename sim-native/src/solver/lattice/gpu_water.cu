@@ -522,9 +522,9 @@ Lattice lattice_of(const Box& box) {
 }
 
 LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
-    constexpr double of_warp = 4 * warp,
-                     around = 3;     // cells for a warp; those around bodies, for one around a particle
-    constexpr double threads = 4e9;  // at most, of all cubes
+    constexpr double of_warp = 4 * warp;  // cells that a warp looks at for a cube
+    constexpr double around = 3;          // cells around all bodies, for one around a particle
+    constexpr double threads = 4e9;       // at most, of all cubes
     const Lattice lattice = lattice_of(box);
     const double most = threads / warp / std::max(1, cubes), all = lattice.count;
     return {lattice,

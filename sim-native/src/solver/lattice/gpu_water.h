@@ -60,8 +60,7 @@ struct PushSums {
 
 /// A water and its bodies in device memory, as steps take and leave them.
 struct WaterOnGpu {
-    /// as each cell sends them out, but for what comes in at open ends in place of it; those of now are number steps %
-    /// 2
+    /// As cells send them out, at open ends with what comes in there; those of now are number steps % 2.
     float* populations[2];
     Owners* owners;
     Key* keys;                        ///< by cell; nobody's between steps
