@@ -23,11 +23,6 @@ CubeBox cube_box(const Box& box, double extension);
 constexpr double overlap = 1.02;     ///< by this cubes that meet overlap, so that rounding leaves no gaps between them
 constexpr double min_volume = 1e-3;  ///< of a cube's at rest; crushed or turned inside out it holds no cells
 
-/// How far the cube of a particle of half such a spacing reaches at rest, cells.
-inline double reach_at_rest(double half, double extension, const Box& box) {
-    return overlap * half / box.cell + extension;
-}
-
 /// What a particle is pushed by, where the last impulse counts `kept` and the present one 1.
 template <class Vector>
 NATATOR_HD Vector running_mean(const Vector& given, double kept, const Vector& last) {

@@ -47,15 +47,12 @@ CoupledBodies::CoupledBodies(const Model& model)
     for (std::size_t i = 0; i < spacing_.size(); ++i) {
         const double of_size = std::max(1.0, 2 * model.water_box->cell / spacing_[i]);
         kept_.push_back(of_size * std::max(1.0, displaced_[i] * model.inverse_mass[i]));
-        sizes_.add(Eigen::Vector3d::Constant(reach_at_rest(spacing_[i] / 2, immersed_.extension(), *model.water_box)),
-                   *model.water_box);
     }
     for (const WaterObstacle& one : model.water_box->obstacles) {
         const std::vector<Cube> own = cubes_of(one.obstacle, *model.water_box);
         cubes_of_obstacles_.push_back(own.size());
         obstacle_cubes_.insert(obstacle_cubes_.end(), own.begin(), own.end());
     }
-    for (const Cube& cube : obstacle_cubes_) sizes_.add(cube, *model.water_box);
 }
 
 Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box) {

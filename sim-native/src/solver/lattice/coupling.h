@@ -28,14 +28,12 @@ public:
     const std::vector<Cube>& obstacle_cubes() const { return obstacle_cubes_; }
     const std::vector<std::size_t>& cubes_of_obstacles() const { return cubes_of_obstacles_; }
     int cubes() const { return static_cast<int>(spacing_.size() + obstacle_cubes_.size()); }  ///< of all
-    const CubeSizes& sizes() const { return sizes_; }
 
 private:
     std::vector<double> spacing_, displaced_, kept_;
     Immersed immersed_;
     std::vector<Cube> obstacle_cubes_;
     std::vector<std::size_t> cubes_of_obstacles_;
-    CubeSizes sizes_;
 };
 
 Eigen::Vector3i whole_cells(const Eigen::Vector3d& length, const Box& box);

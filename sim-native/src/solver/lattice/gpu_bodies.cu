@@ -157,6 +157,10 @@ public:
                 {weight.x(), weight.y(), weight.z()}, model.inverse_mass[p], coupled_.kept(p), pushed[p].handed, begin,
                 static_cast<int>(all_given.size())};
         }
+        const std::vector<Eigen::Vector3d> rest(model.position.begin(), model.position.begin() + particles);
+        at_rest_ = immersed.cubes(rest, std::vector<Eigen::Vector3d>(particles, Eigen::Vector3d::Zero()), box_, 1);
+        const std::vector<Cube>& obstacles = coupled_.obstacle_cubes();
+        at_rest_.insert(at_rest_.end(), obstacles.begin(), obstacles.end());
         std::vector<int> of_cube;
         int particle = particles;
         for (std::size_t k = 0; k < coupled_.cubes_of_obstacles().size(); ++k) {
@@ -196,8 +200,7 @@ public:
         const auto h = static_cast<double>(launch.slots.h);
         // At least by one thread, which looks whether the State is over.
         launch.template report_slots<lay_out_cubes<Real>>(std::max(1, bodies_.particles), bodies_, waters_.data());
-        launch_step(lattice_step(box_, h, bodies_.cubes, coupled_.sizes()), waters_.data(), launch.states,
-                    launch.stream);
+        launch_step(lattice_step(box_, h, at_rest_), waters_.data(), launch.states, launch.stream);
         launch.template each_slot<take_pushes<Real>, push_lanes>(
             bodies_.cubes, bodies_, static_cast<const WaterOnGpu*>(waters_.data()), impulse_unit(box_, h));
         cuda::check(cudaGetLastError(), "launch");
@@ -210,6 +213,7 @@ private:
 
     Box box_;
     CoupledBodies coupled_;
+    std::vector<Cube> at_rest_;
     DeviceBuffer<WaterOnGpu> waters_;
     cuda::HostBuffer<WaterOnGpu> staged_;
     std::vector<WaterOnGpu*> of_state_;

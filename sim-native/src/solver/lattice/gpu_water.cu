@@ -521,18 +521,25 @@ Lattice lattice_of(const Box& box) {
     return lattice;
 }
 
-LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes) {
+LatticeStep lattice_step(const Box& box, double h, const std::vector<Cube>& cubes) {
     constexpr double of_warp = 4 * warp;  // cells that a warp looks at for a cube
     constexpr double around = 3;          // cells around all bodies, for one around a particle
     constexpr double threads = 4e9;       // at most, of all cubes
     const Lattice lattice = lattice_of(box);
-    const double most = threads / warp / std::max(1, cubes), all = lattice.count;
+    const double most = threads / warp / std::max(1.0, static_cast<double>(cubes.size())), all = lattice.count;
+    double largest = 0, sum = 0;  // cells in the boxes around cubes
+    for (const Cube& cube : cubes) {
+        double cells = 1;
+        for (int a = 0; a < 3; ++a) cells *= std::clamp<double>(2 * cube.reach[a] + 1, 1, box.cells[a]);
+        largest = std::max(largest, cells);
+        sum += cells;
+    }
     return {lattice,
             rates_in(box, h),
             inflow(box, h),
-            cubes,
-            static_cast<int>(std::clamp(std::ceil(sizes.largest / of_warp), 1.0, std::clamp(most, 1.0, 256.0))),
-            static_cast<unsigned>(std::ceil(std::min(around * sizes.sum, all) / cells_of_thread))};
+            static_cast<int>(cubes.size()),
+            static_cast<int>(std::clamp(std::ceil(largest / of_warp), 1.0, std::clamp(most, 1.0, 256.0))),
+            static_cast<unsigned>(std::ceil(std::min(around * sum, all) / cells_of_thread))};
 }
 
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream) {
@@ -614,13 +621,11 @@ void GpuWater::make_room(int cubes, const std::vector<Cube>& last) {
 void GpuWater::advance(const std::vector<Cube>& cubes, double step, std::vector<Push>& pushes) {
     const int count = static_cast<int>(cubes.size());
     make_room(count, cubes);
-    CubeSizes sizes;
-    for (const Cube& cube : cubes) sizes.add(cube, box_);
     const auto copy = [&](void* to, const void* from, std::size_t bytes) {
         if (bytes > 0) cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_.get()), "copy");
     };
     copy(own_step_.data(), &on_gpu_, sizeof on_gpu_);
-    launch_step(lattice_step(box_, step, count, sizes), own_step_.data(), 1, stream_.get());
+    launch_step(lattice_step(box_, step, cubes), own_step_.data(), 1, stream_.get());
     copy(&on_gpu_, own_step_.data(), sizeof on_gpu_);
     std::vector<PushSums> sums(cubes.size());
     copy(sums.data(), pushes_.data(), cubes.size() * sizeof(PushSums));

@@ -100,8 +100,8 @@ struct LatticeStep {
     int cubes, warps;         ///< and warps to find the cells of each
     unsigned threads_around;  ///< for the cells around all of them
 };
-/// Of so long, s.
-LatticeStep lattice_step(const Box& box, double h, int cubes, const CubeSizes& sizes);
+/// Of so long, s, with as many cubes as these, which are about as large.
+LatticeStep lattice_step(const Box& box, double h, const std::vector<Cube>& cubes);
 /// Asks for a step of so many waters.
 void launch_step(const LatticeStep& step, WaterOnGpu* waters, int count, cudaStream_t stream);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -27,21 +26,6 @@ struct Cube {
     float reach[3];    ///< half of the box around it, cells
     float edge;        ///< it has the cells whose |xi| is at most this
     int round;         ///< 1: it is the ball of the xi whose square is at most `edge`; else 0
-};
-
-/// Cells in the boxes around some cubes.
-struct CubeSizes {
-    double largest = 0, sum = 0;
-
-    /// One that reaches so far from its middle along each axis, cells.
-    void add(const Eigen::Vector3d& reach, const Box& box) {
-        const double cells = (2 * reach.array() + 1).max(1).min(box.cells.array().cast<double>()).prod();
-        largest = std::max(largest, cells);
-        sum += cells;
-    }
-    void add(const Cube& cube, const Box& box) {
-        add(Eigen::Vector3d(cube.reach[0], cube.reach[1], cube.reach[2]), box);
-    }
 };
 
 /// What stands in the water, as cubes that do not move: a sphere or a box is one, a mesh has one for each of its
