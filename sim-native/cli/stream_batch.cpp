@@ -145,14 +145,11 @@ void StreamBatch<Real>::act(std::string_view message) {
         const stream::Actions actions = parse_stream_actions(message, swims_.size());
         id = actions.id;
         std::vector<stream::Outcome> outcomes(swims_.size());
-        const Swims all = those([](std::size_t) { return true; });
-        if (together_) {
-            at_once(all, [&](std::size_t i) { swims_[i]->begin_act(actions.of[i]); });
-            go_on_together();
-            at_once(all, [&](std::size_t i) { outcomes[i] = swims_[i]->end_act(); });
-        } else {
-            at_once(all, [&](std::size_t i) { outcomes[i] = swims_[i]->act(actions.of[i]); });
-        }
+        const auto all = [](std::size_t) { return true; };
+        if (together_)
+            act_together(actions, outcomes);
+        else
+            at_once(those(all), [&](std::size_t i) { outcomes[i] = swims_[i]->act(actions.of[i]); });
         write();
         own_ += stream_outcomes(actions.id, outcomes);
     } catch (const InputError& error) {
@@ -161,19 +158,35 @@ void StreamBatch<Real>::act(std::string_view message) {
     write();
 }
 
-/// The frames of all actions, the first of each by the same kernels, then the second, and so on.
+/// In groups that do not wait for each other: while the GPU computes frames of some, processors do what comes between
+/// those of others.
 template <class Real>
-void StreamBatch<Real>::go_on_together() {
+void StreamBatch<Real>::act_together(const stream::Actions& actions, std::vector<stream::Outcome>& outcomes) {
+    constexpr std::size_t groups = 3;
+    side_by_side(
+        groups,
+        [&](std::size_t group) {
+            const Swims own = those([&](std::size_t i) { return i * groups / swims_.size() == group; });
+            at_once(own, [&](std::size_t i) { swims_[i]->begin_act(actions.of[i]); });
+            go_on_together(own);
+            at_once(own, [&](std::size_t i) { outcomes[i] = swims_[i]->end_act(); });
+        },
+        groups);
+}
+
+/// The frames of these swims' actions, the first of each by the same kernels, then the second, and so on.
+template <class Real>
+void StreamBatch<Real>::go_on_together(Swims swims) {
     for (;;) {
         std::vector<Simulation<Real>*> next(swims_.size());
-        at_once(those([](std::size_t) { return true; }), [&](std::size_t i) { next[i] = swims_[i]->next_of_act(); });
-        const Swims going = those([&](std::size_t i) { return next[i] != nullptr; });
-        if (going.empty()) return;
+        at_once(swims, [&](std::size_t i) { next[i] = swims_[i]->next_of_act(); });
+        std::erase_if(swims, [&](std::size_t i) { return next[i] == nullptr; });
+        if (swims.empty()) return;
         std::erase(next, nullptr);
         const auto begin = Pace::Clock::now();
         const std::vector<bool> stable = step_together(next, size_.threads);
         const double seconds = std::chrono::duration<double>(Pace::Clock::now() - begin).count();
-        for (std::size_t k = 0; k < going.size(); ++k) swims_[going[k]]->end_frame_of_act(stable[k], seconds);
+        for (std::size_t k = 0; k < swims.size(); ++k) swims_[swims[k]]->end_frame_of_act(stable[k], seconds);
     }
 }
 

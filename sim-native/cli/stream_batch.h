@@ -40,7 +40,8 @@ private:
     void hand_over(nlohmann::json command);
     void carry_out_waiting();
     void act(std::string_view message);
-    void go_on_together();
+    void act_together(const stream::Actions& actions, std::vector<stream::Outcome>& outcomes);
+    void go_on_together(Swims swims);
     void refuse(const nlohmann::json& id, const std::string& why);
     void write();
     /// Calls work(swim) for these, as many at a time as there are threads.

@@ -268,7 +268,8 @@ public:
         const double time_step = model.time_step;
         const int substeps = model.parameters.substeps;
         const auto runner = pool.lend(static_cast<int>(frames.size()));
-        const std::vector<cuda::Progress> progress = run(*runner, solvers, states, time_step, substeps, drives, {});
+        const std::vector<cuda::Progress> progress =
+            run(*runner, solvers, states, time_step, substeps, drives, {}, &pool.turns());
         std::vector<std::optional<Instability>> found(frames.size());
         for (std::size_t k = 0; k < frames.size(); ++k)
             found[k] = solvers[k]->end(*states[k], time_step, substeps, drives[k], progress[k]);
@@ -298,14 +299,15 @@ private:
     /// An update of the States, which are the first of the runner, and of what their solvers keep.
     static std::vector<cuda::Progress> run(cuda::GridRunner<Real>& runner, const std::vector<GridSolver*>& solvers,
                                            const std::vector<State<Real>*>& states, double time_step, int substeps,
-                                           const std::vector<Drive>& drives, const cuda::Trace<Real>& trace) {
+                                           const std::vector<Drive>& drives, const cuda::Trace<Real>& trace,
+                                           cuda::Turns* turns = nullptr) {
         runner.upload_all({states.begin(), states.end()});
         const bool in_lattice = solvers.front()->swim_.has_value();
         const auto h = static_cast<double>(static_cast<Real>(time_step) / static_cast<Real>(substeps));
         for (int k = 0; in_lattice && k < runner.states(); ++k)
             runner.set_water(
                 k, k < static_cast<int>(states.size()) ? solvers[k]->swim_->begin(states[k]->time, h) : nullptr);
-        typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false};
+        typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false, turns};
         for (std::size_t k = 0; k < drives.size(); ++k) update.muscles.push_back({drives[k], states[k]->time});
         update.muscles.resize(drives.empty() ? 0 : runner.states());
         const auto ends = runner.run(update, nullptr, trace);
@@ -437,8 +439,8 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
-    constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
-    constexpr double cells_of_a_stream = 4e6;                        // of a lattice: fewer would not fill a GPU
+    constexpr int max_streams = cuda::at_a_time, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
+    constexpr double cells_of_a_stream = 4e6;  // of a lattice: fewer would not fill a GPU
     using Pool = cuda::GridPool<Real>;
     std::map<Pool*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -28,6 +28,22 @@ struct CapturedGraph {
     }
 };
 
+/// One of the turns, if there are any.
+class Turn {
+public:
+    explicit Turn(Turns* turns) : turns_(turns) {
+        if (turns_) turns_->acquire();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+    ~Turn() {
+        if (turns_) turns_->release();
+    }
+
+private:
+    Turns* turns_;
+};
+
 }  // namespace
 
 template <class Real>
@@ -76,6 +92,14 @@ bool GridRunner<Real>::had_room() {
 template <class Real>
 void GridRunner<Real>::wait() const {
     check(cudaStreamSynchronize(base_.stream), "run");
+}
+
+/// Without a processor, which others may need meanwhile.
+template <class Real>
+void GridRunner<Real>::wait_asleep() const {
+    const Event end(cudaEventBlockingSync | cudaEventDisableTiming);
+    end.record(base_.stream);
+    end.wait();
 }
 
 template <class Real>
@@ -235,6 +259,7 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
     set_muscles(update);
     std::optional<StageClock> clock;
     if (lattice_) lattice_->stage();
+    std::optional<Turn> turn(update.turns);
     for (;;) {
         clock.reset();
         if (profile) clock.emplace(base_.stream);
@@ -242,11 +267,12 @@ std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& 
             launch(update, clock ? &*clock : nullptr, trace);
         else
             check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
-        wait();
+        update.turns ? wait_asleep() : wait();
         if (had_room()) break;
         for (int k = 0; k < base_.states; ++k)
             memory_.restore_before(k);  // and once more, with room for all neighbours
     }
+    turn.reset();
     if (lattice_) lattice_->take_back();
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <semaphore>
 #include <tuple>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "substep.cuh"
 
 namespace natator::cuda {
+
+using Turns = std::counting_semaphore<>;
 
 /// Advances States of a Model side by side by kernels of the whole GPU. An update is a graph of kernels, launched at
 /// once; the host waits for its end.
@@ -53,6 +56,7 @@ public:
         int substeps = 1;
         std::vector<Muscles> muscles{};  ///< by State; without, they are left as they are
         bool settling = false;           ///< velocities to 0 in the end
+        Turns* turns = nullptr;          ///< one of which its kernels wait for
     };
     struct End {
         bool finite = true;
@@ -111,6 +115,7 @@ private:
     End end_of(int k) const;
     void go_to(int k, int substep, const Update& update);
     void wait() const;
+    void wait_asleep() const;
 
     const Model& host_model_;
     DeviceModel<Real> device_model_;
