@@ -166,27 +166,39 @@ void StreamBatch<Real>::act_together(const stream::Actions& actions, std::vector
     side_by_side(
         groups,
         [&](std::size_t group) {
-            const Swims own = those([&](std::size_t i) { return i * groups / swims_.size() == group; });
-            at_once(own, [&](std::size_t i) { swims_[i]->begin_act(actions.of[i]); });
-            go_on_together(own);
-            at_once(own, [&](std::size_t i) { outcomes[i] = swims_[i]->end_act(); });
+            const auto own = [&](std::size_t i) { return i * groups / swims_.size() == group; };
+            act_together(those(own), actions, outcomes);
         },
         groups);
 }
 
-/// The frames of these swims' actions, the first of each by the same kernels, then the second, and so on.
+/// The actions of these swims: the first frame of each by the same kernels, then the second, and so on.
 template <class Real>
-void StreamBatch<Real>::go_on_together(Swims swims) {
+void StreamBatch<Real>::act_together(Swims swims, const stream::Actions& actions,
+                                     std::vector<stream::Outcome>& outcomes) {
+    std::vector<Simulation<Real>*> next(swims_.size());
+    const auto go_on_or_end = [&](std::size_t i) {
+        next[i] = swims_[i]->next_of_act();
+        if (!next[i]) outcomes[i] = swims_[i]->end_act();
+    };
+    at_once(swims, [&](std::size_t i) {
+        swims_[i]->begin_act(actions.of[i]);
+        go_on_or_end(i);
+    });
     for (;;) {
-        std::vector<Simulation<Real>*> next(swims_.size());
-        at_once(swims, [&](std::size_t i) { next[i] = swims_[i]->next_of_act(); });
         std::erase_if(swims, [&](std::size_t i) { return next[i] == nullptr; });
         if (swims.empty()) return;
-        std::erase(next, nullptr);
+        std::vector<Simulation<Real>*> going;
+        for (const std::size_t i : swims) going.push_back(next[i]);
         const auto begin = Pace::Clock::now();
-        const std::vector<bool> stable = step_together(next, size_.threads);
+        const std::vector<bool> stable = step_together(going, size_.threads);
         const double seconds = std::chrono::duration<double>(Pace::Clock::now() - begin).count();
-        for (std::size_t k = 0; k < swims.size(); ++k) swims_[swims[k]]->end_frame_of_act(stable[k], seconds);
+        std::vector<bool> of_swim(swims_.size());
+        for (std::size_t k = 0; k < swims.size(); ++k) of_swim[swims[k]] = stable[k];
+        at_once(swims, [&](std::size_t i) {
+            swims_[i]->end_frame_of_act(of_swim[i], seconds);
+            go_on_or_end(i);
+        });
     }
 }
 

@@ -41,7 +41,7 @@ private:
     void carry_out_waiting();
     void act(std::string_view message);
     void act_together(const stream::Actions& actions, std::vector<stream::Outcome>& outcomes);
-    void go_on_together(Swims swims);
+    void act_together(Swims swims, const stream::Actions& actions, std::vector<stream::Outcome>& outcomes);
     void refuse(const nlohmann::json& id, const std::string& why);
     void write();
     /// Calls work(swim) for these, as many at a time as there are threads.

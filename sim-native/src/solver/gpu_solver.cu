@@ -268,8 +268,8 @@ public:
         const double time_step = model.time_step;
         const int substeps = model.parameters.substeps;
         const auto runner = pool.lend(static_cast<int>(frames.size()));
-        const std::vector<cuda::Progress> progress =
-            run(*runner, solvers, states, time_step, substeps, drives, {}, &pool.turns());
+        const std::vector<cuda::Progress> progress = run(*runner, solvers, states, time_step, substeps, drives, {},
+                                                         fill_gpu(model, frames.size()) ? &pool.turns() : nullptr);
         std::vector<std::optional<Instability>> found(frames.size());
         for (std::size_t k = 0; k < frames.size(); ++k)
             found[k] = solvers[k]->end(*states[k], time_step, substeps, drives[k], progress[k]);
@@ -277,6 +277,13 @@ public:
     }
 
 private:
+    /// Do so many States keep a GPU busy?
+    static bool fill_gpu(const Model& model, std::size_t states) {
+        constexpr double particles = 1e5, cells = 5e5;
+        const auto count = static_cast<double>(states);
+        return model.water_box ? count * model.water_box->cells.cast<double>().prod() > cells
+                               : count * model.particles() > particles;
+    }
     using Muscles = typename Implementation::Muscles;
     void save_water(ByteWriter& saved) const override {
         if (swim_) swim_->save(saved);

@@ -11,7 +11,7 @@
 namespace natator::cuda {
 
 /// Runners of a Model that compute at a time: with more, they are in each other's way.
-inline constexpr int at_a_time = 3;
+inline constexpr int at_a_time = 2;
 
 /// GridRunners of a Model, lent to whoever computes. Any number of threads.
 template <class Real>
