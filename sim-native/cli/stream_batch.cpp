@@ -162,7 +162,8 @@ void StreamBatch<Real>::act(std::string_view message) {
 /// those of others.
 template <class Real>
 void StreamBatch<Real>::act_together(const stream::Actions& actions, std::vector<stream::Outcome>& outcomes) {
-    constexpr std::size_t groups = 3;
+    constexpr std::size_t of_a_group = 64;  // fewer take a GPU nearly as long
+    const std::size_t groups = std::clamp<std::size_t>(swims_.size() / of_a_group, 1, 3);
     side_by_side(
         groups,
         [&](std::size_t group) {

@@ -254,8 +254,9 @@ public:
     bool shared() const override { return !own_; }
 
     cuda::GridPool<Real>* pool() const { return pool_.get(); }
-    /// A frame of each of some that have this pool.
-    static std::vector<std::optional<Instability>> frames(cuda::GridPool<Real>& pool, std::span<const Frame> frames) {
+    /// A frame of each of some that have this pool, in one of these turns if there are any.
+    static std::vector<std::optional<Instability>> frames(cuda::GridPool<Real>& pool, std::span<const Frame> frames,
+                                                          cuda::Turns* turns) {
         std::vector<GridSolver*> solvers;
         std::vector<State<Real>*> states;
         std::vector<Drive> drives;
@@ -268,8 +269,8 @@ public:
         const double time_step = model.time_step;
         const int substeps = model.parameters.substeps;
         const auto runner = pool.lend(static_cast<int>(frames.size()));
-        const std::vector<cuda::Progress> progress = run(*runner, solvers, states, time_step, substeps, drives, {},
-                                                         fill_gpu(model, frames.size()) ? &pool.turns() : nullptr);
+        const std::vector<cuda::Progress> progress =
+            run(*runner, solvers, states, time_step, substeps, drives, {}, turns);
         std::vector<std::optional<Instability>> found(frames.size());
         for (std::size_t k = 0; k < frames.size(); ++k)
             found[k] = solvers[k]->end(*states[k], time_step, substeps, drives[k], progress[k]);
@@ -277,13 +278,6 @@ public:
     }
 
 private:
-    /// Do so many States keep a GPU busy?
-    static bool fill_gpu(const Model& model, std::size_t states) {
-        constexpr double particles = 1e5, cells = 5e5;
-        const auto count = static_cast<double>(states);
-        return model.water_box ? count * model.water_box->cells.cast<double>().prod() > cells
-                               : count * model.particles() > particles;
-    }
     using Muscles = typename Implementation::Muscles;
     void save_water(ByteWriter& saved) const override {
         if (swim_) swim_->save(saved);
@@ -446,26 +440,34 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Driv
 
 template <class Real>
 std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vector<Frame>& all) {
-    constexpr int max_streams = cuda::at_a_time, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
-    constexpr double cells_of_a_stream = 4e6;  // of a lattice: fewer would not fill a GPU
+    constexpr int max_streams = 3, particles_at_a_time = 2'000'000;  // as evaluate_on_gpu
     using Pool = cuda::GridPool<Real>;
     std::map<Pool*, std::vector<std::size_t>> by_pool;
     for (std::size_t k = 0; k < all.size(); ++k) {
         check_state(all[k].solver->implementation_->model(), *all[k].state);
         by_pool[static_cast<GridSolver&>(*all[k].solver->implementation_).pool()].push_back(k);
     }
-    std::vector<std::pair<Pool*, std::vector<std::size_t>>> parts;
+    struct Part {
+        Pool* pool;
+        cuda::Turns* turns;
+        std::vector<std::size_t> numbers;
+    };
+    std::vector<Part> parts;
     for (const auto& [pool, numbers] : by_pool) {
-        const int most = particles_at_a_time / max_streams / pool->host_model().particles() + 1;
-        const WaterBox* const box = pool->host_model().water_box ? &*pool->host_model().water_box : nullptr;
-        const double filled =
-            box ? static_cast<double>(numbers.size()) * box->cells.cast<double>().prod() / cells_of_a_stream
-                : max_streams;
-        const cuda::Parts own(static_cast<int>(numbers.size()), most,
-                              std::clamp(static_cast<int>(filled), 1, max_streams));
+        const Model& model = pool->host_model();
+        const int most = particles_at_a_time / max_streams / model.particles() + 1;
+        const auto count = static_cast<double>(numbers.size());
+        bool full = count * model.particles() > 2e5;  // of a GPU, which others' kernels then delay
+        int streams = full ? cuda::at_a_time : max_streams;
+        if (model.water_box) {
+            const double cells = count * model.water_box->cells.cast<double>().prod();
+            full = cells > 1e6;
+            streams = cells > 8e6 ? cuda::at_a_time : 1;
+        }
+        const cuda::Parts own(static_cast<int>(numbers.size()), most, streams);
         for (int part = 0; part < own.count; ++part) {
             const auto first = numbers.begin() + own.first(part);
-            parts.push_back({pool, {first, first + own.size_of(part)}});
+            parts.push_back({pool, full ? &pool->turns() : nullptr, {first, first + own.size_of(part)}});
         }
     }
     std::vector<std::optional<Instability>> found(all.size());
@@ -474,10 +476,10 @@ std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vecto
     side_by_side(
         parts.size(),
         [&](std::size_t part) {
-            const auto& [pool, numbers] = parts[part];
+            const auto& [pool, turns, numbers] = parts[part];
             std::vector<Frame> own;
             for (const std::size_t k : numbers) own.push_back(all[k]);
-            const auto ends = GridSolver::frames(*pool, own);
+            const auto ends = GridSolver::frames(*pool, own, turns);
             for (std::size_t i = 0; i < numbers.size(); ++i) found[numbers[i]] = ends[i];
         },
         at_once);
