@@ -110,7 +110,7 @@ def answered(requests, results):
     return starts((one, answers[one["id"]]) for one in lines(requests))
 
 
-def endless(chance):  # the four starts of a tank are within 2 %
+def endless(chance):  # the eight starts of a tank are within 3 %
     yield from swims(chance, [row for row in answered("endless/requests.jsonl", "endless/results.jsonl") if row[0]["duration"] == 4], 1, 0.05)
 
 

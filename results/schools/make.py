@@ -192,7 +192,7 @@ def make(folder):
     wake, left = wakes()
     locked = {level: f"{at(own)} ({len(own)} of {count} swims)" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, count) in turns.items()}
     answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish; at half the step "
-              f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (one swim).\n")
+              f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (two swims).\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
     drawn_pairs(folder)
     for file in sorted(HERE.glob("*.npz")):
