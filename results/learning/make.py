@@ -163,7 +163,7 @@ def make(folder):
     forward, away = mean("ahead", "return", 4), mean("station", "away")
     answer = (f"**In {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns, by three seeds, at half the time step and in half the cells, too, to swim ahead at "
               f"{learned('ahead', forward)} body lengths/s (the evolved gait: {ends(forward, ['evolved'])}), to reach {learned('turn', there)} of 16 targets (a rule that bends "
-              f"that gait: {ends(there, ['steered-0.4'])}), and to stay on average {learned('station', away)} body lengths from a station in a current (a resting body: "
+              f"that gait, its limit chosen: {ends(there, ['steered-0.4'])}), and to stay on average {learned('station', away)} body lengths from a station in a current (a resting body: "
               f"{ends(away, ['rest'])}).**\n")
     curves(folder)
     paths(folder)
