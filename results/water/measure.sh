@@ -7,8 +7,7 @@ set -eu
 output=${1:-results/water/water.csv}
 
 natator-sim bench water --scheme flex --resolution 20 --output "$output"
-natator-sim bench water --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 5 --output "$output"
-natator-sim bench water --scheme conserving --setting 2x4 --resolution 20 --start 6 7 8 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity still-water column couette poiseuille neutral-sphere added-mass spinning-sphere --output "$output"
+natator-sim bench water --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 5 6 7 8 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity still-water column couette poiseuille neutral-sphere added-mass heavier-sphere lighter-sphere spinning-sphere slow-sphere towed-sphere towed-cylinder --output "$output"
 natator-sim bench water --scheme conserving --setting 1x4 1x6 1x8 --resolution 20 --start 1 2 3 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity still-water column couette poiseuille neutral-sphere added-mass heavier-sphere lighter-sphere spinning-sphere slow-sphere towed-sphere --output "$output"
 natator-sim bench water --scheme conserving --setting 1x4 --resolution 20 --start 1 2 3 --case towed-cylinder --output "$output"
 natator-sim bench water --scheme conserving --setting 1x6 1x8 --resolution 20 --case towed-cylinder --output "$output"
@@ -17,7 +16,8 @@ natator-sim bench water --scheme conserving --setting 4x4 --resolution 20 --star
 natator-sim bench water --scheme conserving --setting 4x4 --resolution 40 --start 1 2 --case neutral-sphere added-mass couette poiseuille --output "$output"
 natator-sim bench water --scheme conserving --setting 2x4 --resolution 16 --case travelling-wave --output "$output"
 natator-sim bench water --scheme conserving --setting 2x4 --resolution 14 --case shedding-cylinder --output "$output"
-natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 5 --output "$output"
+natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 5 --case heavier-sphere lighter-sphere slow-sphere towed-sphere towed-cylinder --output "$output"
+natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 20 --start 4 5 6 7 8 --case travelling-wave shedding-cylinder --output "$output"
 natator-sim bench water --backend cuda --scheme conserving --setting 4x4 --resolution 20 --start 1 2 3 --output "$output"
 natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 40 --start 1 2 3 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity --output "$output"
 natator-sim bench water --backend cuda --scheme conserving --setting 4x4 --resolution 40 --start 1 2 --case vortex stirred-vortex viscous-vortex standing-wave tilted-gravity neutral-sphere added-mass column couette poiseuille heavier-sphere lighter-sphere slow-sphere --output "$output"
