@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <system_error>
 #include <utility>
+
+#include "natator/error.h"
 
 namespace natator::cli {
 LineQueue::LineQueue(Limits limits) : limits_(limits), reader_([this] { read(); }) {}
@@ -112,6 +115,12 @@ void LineQueue::wait() {
 bool LineQueue::exhausted() {
     const std::lock_guard lock(mutex_);
     return ended_ && lines_.empty();
+}
+
+void LineQueue::check_end() const {
+    if (const int error = input_.error())
+        throw InputError("standard input: cannot be read (" + std::generic_category().message(error) +
+                         "); must be a file, a pipe or a terminal");
 }
 
 std::vector<std::string> LineQueue::take_locked(std::size_t max_lines) {

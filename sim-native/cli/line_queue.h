@@ -45,6 +45,8 @@ public:
     void wait();
     /// True if the stream has ended and all its lines are taken.
     bool exhausted();
+    /// Throws InputError if it ended because it could not be read.
+    void check_end() const;
 
 private:
     void read();

@@ -150,6 +150,7 @@ int serve(ServeOptions& options) {
         if (lines.empty()) break;
         serve_batch(lines, options, tally);
     }
+    queue.check_end();
     if (options.summary)
         std::cerr << "natator-sim: " << tally.requests << (tally.requests == 1 ? " request, " : " requests, ")
                   << tally.evaluations << (tally.evaluations == 1 ? " evaluation\n" : " evaluations\n");

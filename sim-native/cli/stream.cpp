@@ -63,7 +63,9 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 std::string read_state(const std::string& name) {
     std::ifstream file(name, std::ios::binary);
     std::ostringstream content;
-    if (!file || !(content << file.rdbuf())) throw InputError("--state: " + quoted(name) + " cannot be read");
+    if (!file || !(content << file.rdbuf()))
+        throw InputError("--state: " + quoted(name) +
+                         " cannot be read; must be a file of a STAT body, as save sends it");
     return std::move(content).str();
 }
 
@@ -91,6 +93,7 @@ void run_stream(StreamOptions& options) {
                         .message_bytes = stream::max_message,
                         .letters = {std::string(stream::state_letters), std::string(stream::action_letters)}});
     batch.run(commands);
+    commands.check_end();
 }
 
 int stream_scene(StreamOptions& options) {

@@ -122,6 +122,17 @@ TEST(ServeProtocolTest, AClosedInputHasNoRequests) {
     EXPECT_EQ(outcome.out + outcome.err, "");
 }
 
+TEST(ServeProtocolTest, AFolderIsNoInput) {
+    using Words = std::vector<std::string>;
+    for (const Words& command : {Words{"serve"}, Words{"stream", "bench/small-tank", "--paused"}}) {
+        const Outcome outcome = run_limited("exec </tmp", command);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_EQ(outcome.err,
+                  "natator-sim: standard input: cannot be read (Is a directory); must be a file, a pipe or a "
+                  "terminal\n");
+    }
+}
+
 TEST(ServeProtocolTest, AnsweringIntoAFullDiskIsAFailure) {
     EXPECT_EQ(run_simulator({"serve"}, request(1), "/dev/full").exit_code, 1);
 }

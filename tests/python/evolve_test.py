@@ -21,7 +21,7 @@ class Given:
     """An optimizer that asks for the same gaits in each generation, and keeps what it is told."""
 
     def __init__(self, genes=None):
-        self.genes = genes or [frequency + [0.5] * 4 for frequency in FREQUENCIES]
+        self.genes = genes if genes is not None else [frequency + [0.5] * 4 for frequency in FREQUENCIES]
         self.told = []
 
     def ask(self):
@@ -128,7 +128,9 @@ class EvolveTest(unittest.TestCase):
                 ({"seed": 2**32}, "^seed = 4294967296: must be below 2..32$"), ({"duration": -1}, r"duration = -1(\.0)?: must be"),
                 ({"workers": -2}, "^workers = -2: must be"), ({"creature_or_scene": "pool/water"}, "must have a creature with actuators$"),
                 ({"optimizer": Given([[0.5] * 3])}, r"^optimizer.ask\(\) gave \[0.5, 0.5, 0.5\]: must be 5 numbers in \[0, 1\]$"),
-                ({"optimizer": Given([[0.5] * 4 + [1.1]])}, r"must be 5 numbers in \[0, 1\]$")]:
+                ({"optimizer": Given([[0.5] * 4 + [1.1]])}, r"must be 5 numbers in \[0, 1\]$"),
+                ({"optimizer": Given([])}, r"^optimizer: ask\(\) gave no candidate: must be a list of at least one$"),
+                ({"optimizer": 5}, "^optimizer = 5: must be cma-es, map-elites, cma-me, or an object with ask and tell$")]:
             with self.subTest(options), self.assertRaisesRegex(natator.InputError, message) as raised:
                 natator.evolve(**{"creature_or_scene": TANK, "generations": 1, **options})
             self.assertNotIn("\n", str(raised.exception))

@@ -125,7 +125,7 @@ class EnvironmentTest(unittest.TestCase):
                              ({"target": (1, 2)}, "target"), ({"flow": [(99, "left")]}, "flow.0..slice = 99"),
                              ({"frames": None}, "frames = None"), ({"starts": 2.5}, "starts = 2.5"), ({"duration": 0}, "duration = 0"),
                              ({"reached": -1}, "reached = -1: must be at least 0"), ({"work_cost": np.nan}, "work_cost = nan"),
-                             ({"work_cost": "a"}, "work_cost = 'a'"), ({"flow": -1}, "flow = -1"), ({"flow": True}, "flow = True"),
+                             ({"work_cost": "a"}, "work_cost = 'a'"), ({"work_cost": 5}, "work_cost = 5: must be 0 in scheme flex"), ({"flow": -1}, "flow = -1"), ({"flow": True}, "flow = True"),
                              ({"flow": 2.5}, "flow = 2.5"), ({"flow": [1, 2]}, "flow = .1, 2.: must be pairs"),
                              ({"target": ((1, 1, 1), (0, 2, 2))}, "the first corner must be the lower one"),
                              ({"target": (9, 0.4, 0.6)},

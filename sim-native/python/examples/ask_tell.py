@@ -1,4 +1,4 @@
-"""An optimizer outside of natator, here pycma. The same command goes on with an interrupted run. Other options are those of natator evolve."""
+"""An optimizer outside of natator, here pycma. The same command goes on with an interrupted run. Other options are those of natator evolve, which a run keeps."""
 
 import argparse
 import json
@@ -12,8 +12,8 @@ parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
 parser.add_argument("run", help="its folder")
 arguments, options = parser.parse_known_args()
 run = arguments.run
-command = ["resume", run] if os.path.exists(f"{run}/config.json") else ["evolve", "--optimizer", "external", "--output-dir", run]
-with subprocess.Popen([os.environ.get("NATATOR", "natator"), *command, *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as natator:
+command = ["resume", run] if os.path.exists(f"{run}/config.json") else ["evolve", "--optimizer", "external", "--output-dir", run, *options]
+with subprocess.Popen([os.environ.get("NATATOR", "natator"), *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as natator:
     for line in natator.stdout:
         message = json.loads(line)
         if message["do"] == "begin":

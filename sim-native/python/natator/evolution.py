@@ -69,6 +69,8 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
 
         for _ in _shown(range(generations), lambda: best and _fitness(best[0][1])):
             asked = [list(map(float, genes)) for genes in optimizer.ask()]
+            if not asked:
+                raise InputError("optimizer: ask() gave no candidate: must be a list of at least one")
             gaits = [_gait(genes, actuators) for genes in asked]
             ways, scheme, kinds = runs(gaits, starts)
             judged += zip(gaits, ways)
@@ -160,6 +162,8 @@ def _maker(optimizer, population, seed):
         if optimizer not in ("map-elites", "cma-me"):
             raise InputError(f'optimizer = "{optimizer}": must be cma-es, map-elites, cma-me, or an object with ask and tell')
         return lambda genes: MapElites(optimizer, genes, population, seed)
+    if not all(callable(getattr(optimizer, name, None)) for name in ("ask", "tell")):
+        raise InputError(f"optimizer = {optimizer!r}: must be cma-es, map-elites, cma-me, or an object with ask and tell")
     return lambda _: optimizer
 
 

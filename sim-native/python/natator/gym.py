@@ -58,6 +58,8 @@ class SwimmerEnv(gymnasium.Env):
         self.actuators, self.length = stream.actuators, stream.scene["bodyLength"]
         if self.actuators == 0:
             raise InputError(f"scene \"{stream.scene['scene']}\": must have a creature with actuators")
+        if self.work_cost > 0 and stream.scene["scheme"] == "flex":
+            raise InputError(f"work_cost = {self.work_cost:g}: must be 0 in scheme flex, which knows no work")
         _check_in_tank(self.target, stream.scene)
         self.by_gait = actions == "gait"
         self.gait = None

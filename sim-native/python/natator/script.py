@@ -10,6 +10,8 @@ from natator.errors import InputError, NatatorError
 def run(parser, work):
     """Calls work(arguments) of an argparse parser. What goes wrong is said in one line: exit code 2 for what can't be used, 1 for
     other errors of this package; 130 if interrupted. Nothing is wrong if nobody reads the output to its end."""
+    if sys.stdout is None:
+        parser.exit(1, f"{parser.prog}: standard output: is closed; must be open\n")
     try:
         work(parser.parse_args())
         sys.stdout.flush()

@@ -72,6 +72,8 @@ public:
     /// Waits until there is something to read, and reads at most `size` bytes. 0 at the end of the stream, and once it
     /// is stopped.
     std::size_t read(char* buffer, std::size_t size);
+    /// errno of a read that failed, and returned 0 for that; 0 if none has.
+    int error() const { return error_; }
     /// Ends a read, and makes all further ones return 0.
     void stop();
 
@@ -79,6 +81,7 @@ private:
     std::intptr_t wake_[2] = {-1,
                               -1};  ///< on POSIX a pipe, readable once it is stopped; on Windows the thread that reads
     std::atomic<bool> stopped_ = false, reading_ = false;
+    std::atomic<int> error_ = 0;
 };
 
 }  // namespace natator::system

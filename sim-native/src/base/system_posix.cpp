@@ -173,12 +173,15 @@ std::size_t Input::read(char* buffer, std::size_t size) {
         std::array<pollfd, 2> files{{{STDIN_FILENO, POLLIN, 0}, {static_cast<int>(wake_[0]), POLLIN, 0}}};
         if (::poll(files.data(), files.size(), -1) < 0) {
             if (errno == EINTR) continue;
+            error_ = errno;
             return 0;
         }
         if (files[1].revents != 0) return 0;
         const ssize_t count = ::read(STDIN_FILENO, buffer, size);
         if (count >= 0) return static_cast<std::size_t>(count);
-        if (errno != EINTR && errno != EAGAIN) return 0;
+        if (errno == EINTR || errno == EAGAIN) continue;
+        if (errno != EBADF) error_ = errno;  // a closed one has nothing
+        return 0;
     }
 }
 

@@ -20,7 +20,7 @@ void check_gait(const Gait& gait, int actuators) {
     if (!gait.offset.empty()) check_values("gait.offset", gait.offset, actuators, -2, 2, none);
     for (std::size_t i = 0; i < gait.offset.size(); ++i) {
         const double most = 2 - gait.amplitude[i];
-        check_range("gait.offset[" + std::to_string(i) + "]", gait.offset[i], -most, most, false,
+        check_range("gait.offset[" + std::to_string(i) + "]", gait.offset[i], 0 - most, most, false,
                     " (a muscle has no length below 0)");
     }
 }

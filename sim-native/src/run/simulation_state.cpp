@@ -74,7 +74,8 @@ bool same_overrides(const std::string& a, const std::string& b) {
 
 /// What stands between head and tail, of bytes that are whole.
 std::string_view content_of(std::string_view saved) {
-    if (saved.size() < letters.size() || !saved.starts_with(letters)) refuse_saved("is no saved state");
+    if (saved.size() < letters.size() || !saved.starts_with(letters))
+        refuse_saved("is no saved state; must be a STAT body, as save sends it");
     std::uint64_t size = 0, sum = 0;
     if (saved.size() >= head_size) std::memcpy(&size, saved.data() + letters.size(), sizeof size);
     if (saved.size() < head_size + tail_size || saved.size() < size)
