@@ -35,6 +35,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "compare NEVER|natator compare: RUN requires at least 2 values, but only 1 were specified: [",
             "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
             "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
+            "compare NEVER NEVER --force|--force goes with --json; give both",
             "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
             "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
             "evolve --seeds 2|--seeds goes with --output-dir; give both",
