@@ -65,6 +65,8 @@ class EvaluateCommandTest extends FakeSimulatorTest {
             "{'amplitude':[1,1],'phase':[0,0.5]}|frequency: expected a number",
             "{'frequency':1,'amplitude':[1],'phase':[0,0.5]}|gait has 1 amplitude and 2 phases; expected as many of both",
             "{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'speed':1}|speed: unknown key; expected some of ",
+            "{'description':'x','frequency':1,'amplitude':[1,1],'phase':[0,0.5]}|description: unknown key; expected some of frequency, amplitude, phase, power, offset",
+            "{'gait':{'frequency':'1','speed':{}}}|speed: unknown key; expected some of ",
             "[null,1]|gait is [null,1]; expected an object with frequency, amplitude and phase",
             "{'gait':null}|gait is null; expected an object with frequency, amplitude and phase",
             "null|gait is null; expected an object with frequency, amplitude and phase"})
