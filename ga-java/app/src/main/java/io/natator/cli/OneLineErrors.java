@@ -107,7 +107,8 @@ final class OneLineErrors {
         }
     }
 
-    private static void print(CommandLine command, String message) {
+    /** Says what went wrong. */
+    static void print(CommandLine command, String message) {
         String line = message.strip().replaceAll("\\s*\\R\\s*", " | ");
         command.getErr().println(command.getCommandSpec().qualifiedName() + ": " + line);
     }

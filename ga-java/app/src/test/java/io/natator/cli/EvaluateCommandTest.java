@@ -84,5 +84,17 @@ class EvaluateCommandTest extends FakeSimulatorTest {
         JsonNode result = Json.parse(out.toString(), JsonNode.class);
         assertThat(result.get("status").asText()).isEqualTo("failed");
         assertThat(result.get("error").asText()).contains("out of luck");
+        assertThat(err.toString()).hasLineCount(1).startsWith("natator evaluate: the simulation failed: ")
+                .contains("out of luck");
+    }
+
+    @Test
+    void anUnstableSimulationSaysWhenAndWhyAndEndsWithStatus1() throws IOException {
+        assertThat(natator("evaluate", "--scene", "fault/unstable", "--gait", "1.5", "0.1", "0.2", "0.3")).isEqualTo(1);
+
+        assertThat(Json.parse(out.toString(), JsonNode.class).get("status").asText()).isEqualTo("unstable");
+        assertThat(err.toString()).isEqualTo(
+                "natator evaluate: the simulation became unstable at 0.50 s (broke law tank), in stage frame\n");
+        ok(natator("evaluate", "--help")).contains("1 unstable or failed");
     }
 }
