@@ -99,6 +99,7 @@ final class EvolveCommand implements Callable<Integer> {
         RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
             Path folder = outputDir != null ? outputDir : freeFolder(settings.problem().scene());
+            RunWriter.check(folder);
             StringWriter whole = new StringWriter();  // of what is refused meanwhile nothing is printed
             preview.print(folder, new PrintWriter(whole));
             spec.commandLine().getOut().print(whole);

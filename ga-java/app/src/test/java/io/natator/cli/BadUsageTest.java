@@ -59,6 +59,26 @@ class BadUsageTest extends FakeSimulatorTest {
             refused(evolve(one.getKey().toString())).isEqualTo(
                     "natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
         }
+        for (Path one : List.of(file, file.resolve("a/b"), link)) {
+            refused(evolve(one.toString(), "--dry-run")).isEqualTo(
+                    "natator evolve: output folder " + one + " cannot be made: " + reasons.get(one) + "\n");
+        }
+        assertThat(file).isEmptyFile();
+    }
+
+    /** As the command itself is. */
+    @Test
+    void aDryRunIntoAFolderThatIsNotEmptyIsRefused() throws IOException {
+        Path full = Files.createDirectories(folder.resolve("full"));
+        Path mine = Files.writeString(full.resolve("mine"), "");
+        for (String[] more : new String[][] {{}, {"--dry-run"}}) {
+            refused(evolve("full", more)).isEqualTo("natator evolve: output folder " + full
+                    + " is not empty; choose another by --output-dir, or continue the run in it by natator resume\n");
+            assertThat(out.toString()).isEmpty();
+        }
+        Files.delete(mine);
+        ok(evolve("full", "--dry-run"));
+        assertThat(full).isEmptyDirectory();
     }
 
     @ParameterizedTest
