@@ -149,6 +149,7 @@ final class EvolveCommand implements Callable<Integer> {
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
         Preset preset = searchOptions.preset();
         String sceneName = choice.scene(spec, preset);
+        choice.checkCreature(preset, execution.simulator());
         EncodingKind encoding = searchOptions.encoding(sceneName);
         int actuators = SceneInfo.toEvolve(sceneName, encoding, sceneOptions.overrides(), execution.simulator())
                 .actuators();
