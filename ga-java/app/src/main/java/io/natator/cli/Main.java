@@ -16,7 +16,7 @@ import picocli.CommandLine.Spec;
                 CheckCommand.class, ConvergeCommand.class,
                 CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
         mixinStandardHelpOptions = true, versionProvider = Main.Version.class,
-        footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
+        footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input, 130 Ctrl-C, 143 SIGTERM."})
 public final class Main implements Callable<Integer> {
 
     @Spec
