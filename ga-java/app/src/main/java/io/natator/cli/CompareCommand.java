@@ -8,12 +8,13 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
-import io.natator.file.AtomicFile;
+import io.natator.file.OutputFile;
 import io.natator.process.Evaluator;
 import io.natator.run.EvolutionRun;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -55,6 +56,10 @@ final class CompareCommand implements Callable<Integer> {
                     + "what its best gaits at a tenth, a quarter, half and all of the budgets were worth from the fresh starts.")
     private Path json;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--force", description = "Replace the file of --json if it is already there.")
+    private boolean force;
+
     @Section(Topic.EXTENT)
     @Option(names = "--rank-starts", paramLabel = "N",
             description = "For --json: run all gaits of each last generation from so many fresh starts, from 1, too.")
@@ -72,12 +77,18 @@ final class CompareCommand implements Callable<Integer> {
         if (rankStarts != null) {
             Limits.checkCount("--rank-starts", rankStarts, Limits.STARTS);
         }
-        if (json == null ? rankStarts != null : starts == 0) {
-            throw new InvalidInputException(json == null ? "--rank-starts goes with --json; give both"
-                    : "--json goes without --starts 0; leave one of them out");
+        if (json == null && (rankStarts != null || force)) {
+            throw new InvalidInputException(
+                    (force ? "--force" : "--rank-starts") + " goes with --json; give both");
+        }
+        if (json != null && starts == 0) {
+            throw new InvalidInputException("--json goes without --starts 0; leave one of them out");
         }
         List<RunReader> runs = folders.stream().map(RunReader::in).toList();
         RejectRepeated.checkFolders("RUN", folders);
+        if (json != null) {
+            OutputFile.check(json, "--json", force);
+        }
         if (starts > 0) {
             Path simulator = executionOptions.execution(Backend.CPU).simulator();
             for (RunReader run : runs) {
@@ -109,8 +120,9 @@ final class CompareCommand implements Callable<Integer> {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
             comparison.run(evaluator, execution.simulator());
             if (json != null) {
-                AtomicFile.write(json, String.join("\n",
-                        comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n");
+                String lines = String.join("\n",
+                        comparison.json(rankStarts == null ? 0 : rankStarts, evaluator, execution.simulator())) + "\n";
+                OutputFile.write(json, lines.getBytes(StandardCharsets.UTF_8));
             }
         }
         comparison.lines().forEach(out::println);

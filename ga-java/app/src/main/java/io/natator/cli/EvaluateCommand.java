@@ -34,7 +34,8 @@ import picocli.CommandLine.Spec;
         customSynopsis = "natator evaluate --scene NAME|FILE --gait FILE|GENE... [OPTIONS]",
         footer = {"", "Examples:",
                 "  natator evaluate --scene pool/eel --gait runs/eel/best.json --duration 2",
-                "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
+                "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648",
+                "", "Exit status: 0 done, 1 unstable or failed, 2 bad usage or input."})
 final class EvaluateCommand implements Callable<Integer> {
 
     @Spec
@@ -73,7 +74,20 @@ final class EvaluateCommand implements Callable<Integer> {
             result = evaluator.evaluate(request);
         }
         spec.commandLine().getOut().println(Json.line(result));
-        return result.status() == SimulationResult.Status.OK ? ExitCode.OK : ExitCode.SOFTWARE;
+        if (result.status() == SimulationResult.Status.OK) {
+            return ExitCode.OK;
+        }
+        OneLineErrors.print(spec.commandLine(), why(result));
+        return ExitCode.SOFTWARE;
+    }
+
+    private static String why(SimulationResult result) {
+        if (result.status() != SimulationResult.Status.UNSTABLE) {
+            return "the simulation failed: " + result.error();
+        }
+        SimulationResult.Instability where = result.unstable();
+        return "the simulation became " + result.whyUnstable()
+                + (where == null || where.stage() == null ? "" : ", in stage " + where.stage());
     }
 
     private Swimmer swimmer(String sceneName, Path simulator) throws InterruptedException {

@@ -99,6 +99,7 @@ final class EvolveCommand implements Callable<Integer> {
         RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
             Path folder = outputDir != null ? outputDir : freeFolder(settings.problem().scene());
+            RunWriter.check(folder);
             StringWriter whole = new StringWriter();  // of what is refused meanwhile nothing is printed
             preview.print(folder, new PrintWriter(whole));
             spec.commandLine().getOut().print(whole);
@@ -148,6 +149,7 @@ final class EvolveCommand implements Callable<Integer> {
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
         Preset preset = searchOptions.preset();
         String sceneName = choice.scene(spec, preset);
+        choice.checkCreature(preset, execution.simulator());
         EncodingKind encoding = searchOptions.encoding(sceneName);
         int actuators = SceneInfo.toEvolve(sceneName, encoding, sceneOptions.overrides(), execution.simulator())
                 .actuators();

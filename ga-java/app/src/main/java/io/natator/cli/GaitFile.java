@@ -7,7 +7,11 @@ import io.natator.base.InvalidInputException;
 import io.natator.body.Swimmer;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
+import java.lang.reflect.RecordComponent;
 import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
 
 /** A gait that the user names by a file, and the body that a run's {@code best.json} has beside it. */
 final class GaitFile {
@@ -34,12 +38,23 @@ final class GaitFile {
                     + "; expected an object with frequency, amplitude and phase");
         }
         keys.remove("$schema");
+        requireKnown(file, keys);
         requireNumbers(file, "", gait);
         try {
             return new Swimmer(Json.tree(gait, Gait.class), body);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
         }
+    }
+
+    /** Before values are looked at, which of an unknown key can be anything. */
+    private static void requireKnown(Path file, ObjectNode gait) {
+        List<String> known = Arrays.stream(Gait.class.getRecordComponents()).map(RecordComponent::getName).toList();
+        gait.properties().stream().map(Map.Entry::getKey).filter(key -> !known.contains(key)).findFirst()
+                .ifPresent(key -> {
+                    throw new InvalidInputException("--gait " + file + ": " + key
+                            + ": unknown key; expected some of " + String.join(", ", known));
+                });
     }
 
     /** A gait has numbers only, in lists or not: no text that looks like one, and no null for what can be left out. */

@@ -1,6 +1,5 @@
 package io.natator.cli;
 
-import io.natator.base.Numbers;
 import java.io.PrintWriter;
 import java.nio.charset.Charset;
 import java.nio.charset.StandardCharsets;
@@ -17,7 +16,7 @@ import picocli.CommandLine.Spec;
                 CheckCommand.class, ConvergeCommand.class,
                 CompareCommand.class, ViewCommand.class, PageCommand.class, NewCommand.class},
         mixinStandardHelpOptions = true, versionProvider = Main.Version.class,
-        footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
+        footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input, 130 Ctrl-C, 143 SIGTERM."})
 public final class Main implements Callable<Integer> {
 
     @Spec
@@ -77,20 +76,11 @@ public final class Main implements Callable<Integer> {
                 .setParameterExceptionHandler(OneLineErrors::badUsage)
                 .setExecutionExceptionHandler(OneLineErrors::failure);
         EnumNames.install(command);
-        command.registerConverter(double.class, Main::number).registerConverter(Double.class, Main::number);
+        NumberValues.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);
         OneLineErrors.installJava(command);
         return command;
-    }
-
-    /** By this program's rules, not by Java's. */
-    private static double number(String text) {
-        try {
-            return Numbers.parse(text);
-        } catch (NumberFormatException e) {
-            throw new CommandLine.TypeConversionException("'" + text + "' is not a number");
-        }
     }
 
     /** The version in the jar's manifest. */

@@ -29,7 +29,8 @@ final class OneLineErrors {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
         String what = unmatched != null ? unknown(unmatched, command)
-                : error.getMessage().replaceFirst("positional parameter at index \\S+ \\((.*?)\\)", "$1")
+                : NumberValues.withLeast(error.getArgSpec(), error.getMessage())
+                        .replaceFirst("positional parameter at index \\S+ \\((.*?)\\)", "$1")
                         .replaceFirst("\\.$", "");
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName()
                 + " --help");
@@ -107,7 +108,8 @@ final class OneLineErrors {
         }
     }
 
-    private static void print(CommandLine command, String message) {
+    /** Says what went wrong. */
+    static void print(CommandLine command, String message) {
         String line = message.strip().replaceAll("\\s*\\R\\s*", " | ");
         command.getErr().println(command.getCommandSpec().qualifiedName() + ": " + line);
     }

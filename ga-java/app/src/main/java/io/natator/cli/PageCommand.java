@@ -16,7 +16,6 @@ import io.natator.replay.ReplayRecorder;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import io.natator.verdict.WinnerFacts;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -118,7 +117,7 @@ final class PageCommand implements Callable<Integer> {
             throw new InvalidInputException(
                     "--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
-        checkOutput();
+        OutputFile.check(output, "--output", force);
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
         for (SwimSource swimmer : sources.stream().map(this::swimmers).flatMap(List::stream).toList()) {
@@ -136,14 +135,6 @@ final class PageCommand implements Callable<Integer> {
         return ExitCode.OK;
     }
 
-    private void checkOutput() {
-        OutputFile.check(output);
-        if (!force && Files.exists(output)) {
-            throw new InvalidInputException("output file " + output
-                    + " is already there; choose another by --output, or replace it by --force");
-        }
-    }
-
     private int writeLive() throws InterruptedException {
         List<String> given = Stream
                 .concat(sources.stream(), spec.commandLine().getParseResult().matchedOptions().stream()
@@ -153,7 +144,7 @@ final class PageCommand implements Callable<Integer> {
             throw new InvalidInputException(
                     "--live with " + given.get(0) + "; expected --output, --force and --title beside it at most");
         }
-        checkOutput();
+        OutputFile.check(output, "--output", force);
         long bytes = LivePageHtml.write(simulatorOption.path(),
                 title != null ? title : "A swimmer of Natator", output);
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB%n", output, bytes / MEGABYTE);

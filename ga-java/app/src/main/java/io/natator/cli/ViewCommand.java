@@ -10,6 +10,7 @@ import io.natator.checkpoint.RunReader;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
+import io.natator.config.Preset;
 import io.natator.config.Scheme;
 import io.natator.process.SceneInfo;
 import io.natator.stream.StreamOptions;
@@ -163,6 +164,7 @@ final class ViewCommand implements Callable<Integer> {
         if (run != null) {
             return start(RunReader.settings(run), given, RunReader.best(run), program);
         }
+        choice.checkCreature(Preset.THESIS, program);
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisGaits.in(scene), null);
         ObjectNode overrides = InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()),
                 sceneOptions.scheme());

@@ -35,6 +35,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "compare NEVER|natator compare: RUN requires at least 2 values, but only 1 were specified: [",
             "compare NEVER NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
             "compare NEVER NEVER --rank-starts 2|--rank-starts goes with --json; give both",
+            "compare NEVER NEVER --force|--force goes with --json; give both",
             "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
             "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
             "evolve --seeds 2|--seeds goes with --output-dir; give both",
@@ -58,14 +59,39 @@ class BadUsageTest extends FakeSimulatorTest {
             refused(evolve(one.getKey().toString())).isEqualTo(
                     "natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
         }
+        for (Path one : List.of(file, file.resolve("a/b"), link)) {
+            refused(evolve(one.toString(), "--dry-run")).isEqualTo(
+                    "natator evolve: output folder " + one + " cannot be made: " + reasons.get(one) + "\n");
+        }
+        assertThat(file).isEmptyFile();
+    }
+
+    /** As the command itself is. */
+    @Test
+    void aDryRunIntoAFolderThatIsNotEmptyIsRefused() throws IOException {
+        Path full = Files.createDirectories(folder.resolve("full"));
+        Path mine = Files.writeString(full.resolve("mine"), "");
+        for (String[] more : new String[][] {{}, {"--dry-run"}}) {
+            refused(evolve("full", more)).isEqualTo("natator evolve: output folder " + full
+                    + " is not empty; choose another by --output-dir, or continue the run in it by natator resume\n");
+            assertThat(out.toString()).isEmpty();
+        }
+        Files.delete(mine);
+        ok(evolve("full", "--dry-run"));
+        assertThat(full).isEmptyDirectory();
     }
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
             "--population 1|population is 1",
             "--generations -1|generations is -1",
-            "--generations many|'many' is not an int; see natator evolve --help",
-            "--duration 0x1p3|'0x1p3' is not a number; see natator evolve --help",
+            "--generations many|Invalid value for option '--generations': expected a whole number but was 'many'; see natator evolve --help",
+            "--generations 1.5|expected a whole number but was '1.5'; see",
+            "--population 99999999999|expected a whole number from 2 to 2147483647 but was '99999999999'; see",
+            "--workers -99999999999|expected a whole number from -2147483648 to 2147483647 but was '-99999999999'; see",
+            "--seed one|expected a whole number but was 'one'; see natator evolve --help",
+            "--evaluations 1e3|expected a whole number but was '1e3'; see natator evolve --help",
+            "--duration 0x1p3|expected a number but was '0x1p3'; see natator evolve --help",
             "--optimizer nsga2 --objectives distance=0x1p3,work|--objectives has 'distance=0x1p3'; expected a weight above 0",
             "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
             "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",

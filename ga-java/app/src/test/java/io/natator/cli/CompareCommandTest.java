@@ -11,6 +11,7 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import org.assertj.core.api.AbstractStringAssert;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -161,6 +162,39 @@ class CompareCommandTest extends FakeSimulatorTest {
             });
             assertThat(run.get("last")).isNotEmpty().allSatisfy(one -> assertThat(one.get("runs")).hasSize(3));
         }
+    }
+
+    /** Before anything swims; what is there stays as it is. */
+    @Test
+    void aFileOfJsonIsReplacedOnlyIfWanted() throws IOException, InterruptedException {
+        ok(evolve("one"));
+        ok(evolve("two", "--optimizer", "random"));
+        Path file = Files.writeString(folder.resolve("runs.jsonl"), "mine");
+        Path link = Files.createSymbolicLink(folder.resolve("link"), file);
+        Path pipe = folder.resolve("pipe");
+        assertThat(new ProcessBuilder("mkfifo", pipe.toString()).start().waitFor()).isZero();
+        String what = ", which is a device or a pipe; expected the name of a file, new or to be replaced\n";
+
+        refusesJson(pipe, "--force").isEqualTo("natator compare: output file is " + pipe + what);
+        refusesJson(folder.resolve("no/runs.jsonl")).contains("; expected a folder that exists, unlike ");
+        for (Path there : List.of(file, link)) {
+            refusesJson(there).isEqualTo("natator compare: output file " + there
+                    + " is already there; choose another by --json, or replace it by --force\n");
+        }
+        assertThat(file).hasContent("mine");
+
+        ok(natator("compare", "--starts", "2", "--json", link.toString(), "--force", path("one"), path("two")));
+        assertThat(link).isSymbolicLink();
+        assertThat(Files.readAllLines(file)).hasSize(2);
+    }
+
+    private AbstractStringAssert<?> refusesJson(Path file, String... more) {
+        List<String> arguments = new ArrayList<>(
+                List.of("compare", "--starts", "2", "--json", file.toString(), path("one"), path("two")));
+        arguments.addAll(List.of(more));
+        AbstractStringAssert<?> said = refused(natator(arguments)).hasLineCount(1);
+        assertThat(out.toString()).isEmpty();
+        return said;
     }
 
     @ParameterizedTest

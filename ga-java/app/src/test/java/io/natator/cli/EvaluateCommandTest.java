@@ -65,6 +65,8 @@ class EvaluateCommandTest extends FakeSimulatorTest {
             "{'amplitude':[1,1],'phase':[0,0.5]}|frequency: expected a number",
             "{'frequency':1,'amplitude':[1],'phase':[0,0.5]}|gait has 1 amplitude and 2 phases; expected as many of both",
             "{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'speed':1}|speed: unknown key; expected some of ",
+            "{'description':'x','frequency':1,'amplitude':[1,1],'phase':[0,0.5]}|description: unknown key; expected some of frequency, amplitude, phase, power, offset",
+            "{'gait':{'frequency':'1','speed':{}}}|speed: unknown key; expected some of ",
             "[null,1]|gait is [null,1]; expected an object with frequency, amplitude and phase",
             "{'gait':null}|gait is null; expected an object with frequency, amplitude and phase",
             "null|gait is null; expected an object with frequency, amplitude and phase"})
@@ -82,5 +84,17 @@ class EvaluateCommandTest extends FakeSimulatorTest {
         JsonNode result = Json.parse(out.toString(), JsonNode.class);
         assertThat(result.get("status").asText()).isEqualTo("failed");
         assertThat(result.get("error").asText()).contains("out of luck");
+        assertThat(err.toString()).hasLineCount(1).startsWith("natator evaluate: the simulation failed: ")
+                .contains("out of luck");
+    }
+
+    @Test
+    void anUnstableSimulationSaysWhenAndWhyAndEndsWithStatus1() throws IOException {
+        assertThat(natator("evaluate", "--scene", "fault/unstable", "--gait", "1.5", "0.1", "0.2", "0.3")).isEqualTo(1);
+
+        assertThat(Json.parse(out.toString(), JsonNode.class).get("status").asText()).isEqualTo("unstable");
+        assertThat(err.toString()).isEqualTo(
+                "natator evaluate: the simulation became unstable at 0.50 s (broke law tank), in stage frame\n");
+        ok(natator("evaluate", "--help")).contains("1 unstable or failed");
     }
 }

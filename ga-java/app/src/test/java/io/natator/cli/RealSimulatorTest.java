@@ -8,6 +8,7 @@ import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.RunReader;
 import io.natator.config.Json;
+import io.natator.config.Preset;
 import io.natator.process.ProgramInfo;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -60,6 +61,34 @@ class RealSimulatorTest extends CommandTest {
         assumeThat(ProgramInfo.of(SIMULATOR).instructionSet()).isNotEqualTo("portable");
         elsewhere[elsewhere.length - 1] = "NATATOR_ISA=portable exec " + SIMULATOR + " serve";
         refused(natator(elsewhere)).contains("swims otherwise than this program", "NATATOR_ISA").containsOnlyOnce("\n");
+    }
+
+    /** By the names that are typed, of the scenes that the command has. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+            "evolve --dry-run --creature fry|pool/fry|1, 2, 3, 4, eel, jellyfish, loach, ray, tadpole, torus, tuna, turtle",
+            "evolve --dry-run --preset thesis --creature loach|open-water/loach|1, 2, 3, 4, eel, ray, tadpole, tuna",
+            "view --no-browser --port 0 --creature loach|open-water/loach|1, 2, 3, 4, eel, ray, tadpole, tuna"})
+    void aCreatureThatIsNotThereIsToldWithThoseThatAre(String command, String scene, String creatures) {
+        refused(natator(command)).isEqualTo("natator " + words(command)[0] + ": --creature "
+                + command.replaceFirst(".* ", "") + ": no scene " + scene + "; expected one of " + creatures + "\n");
+    }
+
+    @Test
+    void helpAndDocumentHaveAllCreatures() throws IOException, InterruptedException {
+        ok(execute("evolve", "--help"));
+        String help = out.toString().replaceAll("\\s+", " ");
+        String document = Files.readString(Path.of("../docs/evolving.md")).lines()
+                .filter(line -> line.startsWith("- `--creature`: 1 to 4, ")).findFirst().orElseThrow();
+        List<String> always = SceneChoice.creatures(Preset.THESIS, SIMULATOR);
+        List<String> quick = new ArrayList<>(SceneChoice.creatures(Preset.QUICK, SIMULATOR));
+        quick.removeAll(always);
+        List<String> names = always.subList(4, always.size());
+
+        assertThat(help).contains(
+                ": " + String.join(", ", names) + "; with the preset quick also " + String.join(", ", quick) + ".");
+        assertThat(document).isEqualTo("- `--creature`: 1 to 4, `" + String.join("`, `", names)
+                + "`; with `--preset quick` also `" + String.join("`, `", quick) + "`");
     }
 
     /** In the pool, whose scheme has no clamp; half a second is too short to swim, so only what was run is looked at. */

@@ -86,10 +86,34 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
         try {
             OutputFolder.make(directory);
             AtomicFile.deleteUnfinished(directory.resolve(CONFIG));  // of a kill before the file was whole
-            boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
-            if (isRun && !Files.exists(directory.resolve(CONFIG))) {
-                throw new InvalidInputException(directory + " is damaged: it has no " + CONFIG);
-            }
+        } catch (IOException e) {
+            throw OutputFolder.cannotBeMade(directory, e);
+        }
+        refuseOccupied(directory);
+        try {
+            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        } catch (UncheckedIOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
+        }
+        return new RunWriter(directory, settings);
+    }
+
+    /**
+     * Looks whether the folder of a new run can be made; makes nothing.
+     *
+     * @throws InvalidInputException as {@link #create}
+     */
+    public static void check(Path directory) {
+        OutputFolder.check(directory);
+        refuseOccupied(directory);
+    }
+
+    private static void refuseOccupied(Path directory) {
+        boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
+        if (isRun && !Files.exists(directory.resolve(CONFIG))) {
+            throw new InvalidInputException(directory + " is damaged: it has no " + CONFIG);
+        }
+        try {
             if (isOccupied(directory)) {
                 throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
                         + "--output-dir, or continue the run in it by natator resume");
@@ -97,12 +121,6 @@ public final class RunWriter implements EvolutionListener, AutoCloseable {
         } catch (IOException e) {
             throw OutputFolder.cannotBeMade(directory, e);
         }
-        try {
-            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
-        } catch (UncheckedIOException e) {
-            throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
-        }
-        return new RunWriter(directory, settings);
     }
 
     /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */

@@ -32,6 +32,20 @@ public final class OutputFile {
     }
 
     /**
+     * Also looks whether a file is there already, which only {@code --force} replaces.
+     *
+     * @param option that names the file
+     * @throws InvalidInputException also if one is there, unless it is to be replaced
+     */
+    public static void check(Path file, String option, boolean force) {
+        check(file);
+        if (!force && Files.exists(file)) {
+            throw new InvalidInputException("output file " + file + " is already there; choose another by " + option
+                    + ", or replace it by --force");
+        }
+    }
+
+    /**
      * Replaces what is there, as {@link AtomicFile} does; of a symbolic link, what it leads to.
      *
      * @throws UncheckedIOException if that fails

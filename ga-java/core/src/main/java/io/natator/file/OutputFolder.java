@@ -4,6 +4,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.config.FileErrors;
 import java.io.IOException;
 import java.nio.file.Files;
+import java.nio.file.LinkOption;
 import java.nio.file.Path;
 
 /** A folder that the user names for what is going to be computed. */
@@ -25,6 +26,22 @@ public final class OutputFolder {
         }
         if (!Files.isWritable(folder)) {
             throw new InvalidInputException("output folder " + folder + " cannot be written to");
+        }
+    }
+
+    /**
+     * Looks whether {@link #make} would refuse it; makes nothing.
+     *
+     * @throws InvalidInputException as {@link #make}
+     */
+    public static void check(Path folder) {
+        Path whole = folder.toAbsolutePath().normalize();
+        Path there = whole;
+        while (!Files.exists(there, LinkOption.NOFOLLOW_LINKS)) {
+            there = there.getParent();
+        }
+        if (there.equals(whole) || !Files.isDirectory(there) || !Files.isWritable(there)) {
+            make(folder);  // which is there, or cannot be made
         }
     }
 

@@ -104,6 +104,19 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
     }
 
     /**
+     * The name of a scene's creature; empty of a scene without one.
+     *
+     * @throws InvalidInputException if the simulator does not know the scene
+     */
+    public static String creature(String scene, Path simulator) throws InterruptedException {
+        try {
+            return Json.parse(definition(scene, null, simulator), JsonNode.class).at("/creature/name").asText();
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("simulator does not define scene " + scene + ": " + Json.reason(e), e);
+        }
+    }
+
+    /**
      * The scene itself as one line of JSON, with all that it builds on: what a simulation of it depends on, besides the
      * rest of the request and the program.
      *
