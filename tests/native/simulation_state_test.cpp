@@ -189,8 +189,8 @@ TEST(SavedSimulation, RefusesInOneLineAndChangesNothing) {
         overrides.merge_patch(hardly_settled);
         return Simulation<float>(SimulationSetup{scene, overrides.dump()}).save();
     };
-    EXPECT_EQ(refusal(""), "state: is no saved state");
-    EXPECT_EQ(refusal("natator-sim"), "state: is no saved state");
+    EXPECT_EQ(refusal(""), "state: is no saved state; must be a STAT body, as save sends it");
+    EXPECT_EQ(refusal("natator-sim"), "state: is no saved state; must be a STAT body, as save sends it");
     EXPECT_EQ(refusal(saved.substr(0, 20)), "state: is cut off: has 20 bytes");
     EXPECT_EQ(refusal(saved.substr(0, 100)), "state: is cut off: has 100 bytes of " + std::to_string(saved.size()));
     EXPECT_EQ(refusal(saved + "more"), "state: is damaged: its checksum is another");
