@@ -20,8 +20,10 @@ constexpr int moments = physics::lattice_moments;
 /// By population, where it goes in a step; a zero more.
 constexpr auto directions = [] {
     std::array<std::array<float, 4>, physics::lattice_populations> all{};
-    for (int i = 0; i < physics::lattice_populations; ++i)
-        all[i] = {static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1), static_cast<float>(i / 9 - 1), 0};
+    for (int i = 0; i < physics::lattice_populations; ++i) {
+        const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+        all[i] = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
+    }
     return all;
 }();
 
