@@ -194,12 +194,13 @@ void StreamBatch<Real>::act_together(Swims swims, const stream::Actions& actions
         const auto begin = Pace::Clock::now();
         const std::vector<bool> stable = step_together(going, size_.threads);
         const double seconds = std::chrono::duration<double>(Pace::Clock::now() - begin).count();
-        std::vector<bool> of_swim(swims_.size());
-        for (std::size_t k = 0; k < swims.size(); ++k) of_swim[swims[k]] = stable[k];
-        at_once(swims, [&](std::size_t i) {
-            swims_[i]->end_frame_of_act(of_swim[i], seconds);
-            go_on_or_end(i);
-        });
+        side_by_side(
+            swims.size(),
+            [&](std::size_t k) {
+                swims_[swims[k]]->end_frame_of_act(stable[k], seconds);
+                go_on_or_end(swims[k]);
+            },
+            static_cast<std::size_t>(size_.threads));
     }
 }
 

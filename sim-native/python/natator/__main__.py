@@ -1,7 +1,6 @@
 """`python -m natator`: swims for other programs, pictures of them, and reports of evolutions."""
 
 import argparse
-import math
 import re
 import signal
 import sys
@@ -54,7 +53,7 @@ def parser():
                                  "Q-criterion, red where they turn to the left, seen from above")
             command.add_argument("--slice", choices=picture.SLICES, help="draw this on a plane in place of the water's surface")
             command.add_argument("--plane", default="level", choices=picture.PLANES, help="of --slice; default: %(default)s")
-            command.add_argument("--place", type=_finite, default=0, metavar="X", help="of the plane, in body lengths from the body; default: %(default)s")
+            command.add_argument("--place", type=float, default=0, metavar="X", help="of the plane, in body lengths from the body; default: %(default)s")
             command.add_argument("--pressure", action="store_true", help="colour the body by the pressure on it")
             command.add_argument("--forces", action="store_true", help="draw the water's force on each part of the body")
             command.add_argument("-o", "--output", metavar="FILE", help="default: the scene's name and .png")
@@ -70,14 +69,6 @@ def parser():
     command.add_argument("--duration", type=float, default=2, metavar="SECONDS", help="of each swim; default: %(default)s")
     command.add_argument("-o", "--output", metavar="FILE", default="gallery.html", help="default: %(default)s")
     return all_commands
-
-
-
-def _finite(text):
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text}: must be a finite number")
-    return value
 
 
 def shown(given):

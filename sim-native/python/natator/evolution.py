@@ -157,13 +157,12 @@ def _maker(optimizer, population, seed):
     """What gives the optimizer for a number of genes."""
     if optimizer in (None, "cma-es"):
         return lambda genes: _cma_es(genes, population, seed)
-    if isinstance(optimizer, str):
+    if optimizer in ("map-elites", "cma-me"):
         from natator.map_elites import MapElites
-        if optimizer not in ("map-elites", "cma-me"):
-            raise InputError(f'optimizer = "{optimizer}": must be cma-es, map-elites, cma-me, or an object with ask and tell')
         return lambda genes: MapElites(optimizer, genes, population, seed)
     if not all(callable(getattr(optimizer, name, None)) for name in ("ask", "tell")):
-        raise InputError(f"optimizer = {optimizer!r}: must be cma-es, map-elites, cma-me, or an object with ask and tell")
+        shown = f'"{optimizer}"' if isinstance(optimizer, str) else repr(optimizer)
+        raise InputError(f"optimizer = {shown}: must be cma-es, map-elites, cma-me, or an object with ask and tell")
     return lambda _: optimizer
 
 

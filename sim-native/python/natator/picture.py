@@ -11,6 +11,7 @@ import numpy as np
 from natator.errors import InputError
 from natator.export.bodies import Swim
 from natator.export.water import WaterSurface
+from natator.gait import number
 from natator.script import package
 from natator.stream import Stream
 from natator.trajectory import frames
@@ -54,6 +55,7 @@ def picture(scene, file, gait=None, at=None, view="side", size=None, water=True,
     forces: draws an arrow of the water's force on each cluster of the body. The last three not in scheme flex, but velocity and vorticity. Returns the size and the time. Raises InputError, ProgramError, Unstable
     and OSError.
     """
+    number("--place", at_plane[1])
     pyvista = package("pyvista", "pyvista", "a picture")
     from vtkmodules import vtkRenderingOpenGL2
     from vtkmodules.vtkCommonCore import vtkLogger
