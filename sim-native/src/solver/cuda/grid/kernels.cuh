@@ -18,7 +18,7 @@ __device__ bool left_out(const Slots<Real>& slots) {
     return states == Of::running && slots.failed();
 }
 
-// The kernels of the whole grid are these three: what they do is a device function. The y of the grid is the State's
+// The kernels of the whole grid are these four: what they do is a device function. The y of the grid is the State's
 // number. Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
 
 /// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.
@@ -39,6 +39,39 @@ __global__ void __launch_bounds__(block) for_each_crowded_slot(const __grid_cons
     if (left_out<which>(slots) || !slots.shared().high) return;
     const int step = static_cast<int>(gridDim.x * blockDim.x) / lanes;
     for (int s = own_index() / lanes; s < count; s += step) work(model, slots, s);
+}
+
+/// Arrays of a State's water, at which a block looks on its chip.
+template <auto... arrays>
+struct WaterOnChip {
+    template <class Real>
+    static std::size_t bytes(const Slots<Real>& slots, int count) {
+        return (0 + ... + sizeof(*(slots.water.*arrays))) * count;
+    }
+    template <class Real>
+    __device__ static void copy(Slots<Real>& slots, int count, char* chip) {
+        const auto copy_one = [&](auto*& array) {
+            auto* const own = reinterpret_cast<std::remove_reference_t<decltype(array)>>(chip);
+            for (int k = static_cast<int>(threadIdx.x); k < count; k += static_cast<int>(blockDim.x)) own[k] = array[k];
+            array = own;
+            chip += count * sizeof(*own);
+        };
+        (copy_one(slots.water.*arrays), ...);
+        __syncthreads();
+    }
+};
+
+/// for_each_slot by a grid of any size, whose blocks have a State's arrays on their chip: work may not change them.
+template <auto work, int lanes, int block, class Arrays, class Real, class... More>
+__global__ void __launch_bounds__(block)
+    for_each_slot_on_chip(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
+                          int count, More... more) {
+    extern __shared__ __align__(16) char chip_of_arrays[];
+    Slots<Real> slots = states.state(blockIdx.y);
+    if (left_out<Of::running>(slots)) return;
+    Arrays::copy(slots, count, chip_of_arrays);
+    const int step = static_cast<int>(gridDim.x * blockDim.x) / lanes;
+    for (int s = own_index() / lanes; s < count; s += step) work(model, slots, s, more...);
 }
 
 /// Calls work(model, slots, more...) by every thread.

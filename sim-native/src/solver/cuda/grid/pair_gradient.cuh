@@ -11,6 +11,7 @@ struct PairGradient {
 
     /// A gradient as it is kept; it becomes what value() gives.
     __device__ static PairGradient keep(const Vec3<Real>& gradient) { return {quad(gradient, Real(0))}; }
+    __device__ static PairGradient none() { return {}; }
     __device__ Vec3<Real> value() const { return xyz(kept); }
 };
 
@@ -34,6 +35,11 @@ struct PairGradient<float> {
         gradient = {(integer.x - zero) * one, (integer.y - zero) * one, (integer.z - zero) * one};
         const unsigned x = last_bits(integer.x), y = last_bits(integer.y), z = last_bits(integer.z);
         return {{x | y << 19, y >> 13 | z << 6 | upper}};
+    }
+    /// What keep gives for 0.
+    __device__ static PairGradient none() {
+        constexpr unsigned of_zero = 1 << 18;
+        return {{of_zero | of_zero << 19, of_zero >> 13 | of_zero << 6}};
     }
 
     __device__ Vec3<float> value() const {

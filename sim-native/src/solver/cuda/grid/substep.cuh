@@ -65,18 +65,38 @@ struct GridLaunch {
         for_each_state<work, Of::running, block, min_blocks><<<grid(blocks), block, 0, stream>>>(model, slots, more...);
     }
     /// Has a block so many bytes on its chip?
-    static bool has_room_on_chip(unsigned bytes) {
-        return bytes <= static_cast<unsigned>(device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin));
+    static bool has_room_on_chip(std::size_t bytes) {
+        return bytes <= static_cast<std::size_t>(device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin));
+    }
+    /// Lets a kernel have as many bytes on a block's chip as there are. The limit belongs to the kernel, for all Models
+    /// and threads.
+    template <class Kernel>
+    static void open_chip(const Kernel& kernel) {
+        check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                   device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin)),
+              "shared memory");
     }
     /// The same by one block for each State, with so many bytes on its chip.
     template <auto work, int block, class... More>
     void each_state_on_chip(unsigned bytes, More... more) const {
         const auto kernel = for_each_state<work, Of::running, block, 0, Real, More...>;
-        // The limit belongs to the kernel, for all Models and threads.
-        check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                   device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin)),
-              "shared memory");
+        open_chip(kernel);
         kernel<<<grid(1), block, bytes, stream>>>(model, slots, more...);
+    }
+    /// each_slot by blocks that fill the GPU once and have these arrays of the State's water on their chip. Returns
+    /// whether there is room for them.
+    template <auto work, int lanes, auto... arrays, class... More>
+    bool each_slot_on_chip(int count, More... more) const {
+        using Arrays = WaterOnChip<arrays...>;
+        constexpr int block = 1024;
+        const std::size_t bytes = Arrays::bytes(slots, count);
+        if (!has_room_on_chip(bytes)) return false;
+        const auto kernel = for_each_slot_on_chip<work, lanes, block, Arrays, Real, More...>;
+        open_chip(kernel);
+        const int blocks =
+            std::clamp(device_attribute(cudaDevAttrMultiProcessorCount) / states, 1, blocks_for(count * lanes, block));
+        kernel<<<grid(blocks), block, bytes, stream>>>(model, slots, count, more...);
+        return true;
     }
     /// The same by at least so many threads for each State.
     template <auto work, int max_threads = grid_threads, int min_blocks = 0, class... More>

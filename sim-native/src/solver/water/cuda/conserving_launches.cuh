@@ -13,10 +13,11 @@ template <Pairs pairs, class Real>
 struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base = LaunchEffects<Scheme::conserving, Real>;
     using Base::blocks, Base::launch, Base::model, Base::slots;
+    using Water = WaterArrays<Real>;
     static constexpr Grouping grouping = Grouping::fused;
     static constexpr bool effects = true;
-    // Blocks that act on the solids of a State, each on one multiprocessor: several small ones fit there.
-    static constexpr int few_threads = 512, warp_threads = 128;
+    // Blocks that act on the solids of a State, each on one multiprocessor: small ones leave room for others there.
+    static constexpr int few_threads = 256, more_threads = 512, warp_threads = 128;
 
     template <auto work>
     void each_particle() const {
@@ -26,9 +27,24 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     template <int at_once>
     static constexpr int min_blocks = std::is_same_v<Real, float> ? at_once : 0;
 
+    /// Have all States slots enough for few threads each?
+    bool fills_gpu() const {
+        constexpr std::size_t filling = 50'000;
+        return std::size_t(model.particles) * launch.states > filling;
+    }
+
     template <auto work, int at_once = 0, class... More>
     void each_pair(More... more) const {
         launch.template each_slot<work, pair_lanes, grid_threads, min_blocks<at_once>>(model.particles, more...);
+    }
+    /// The same by blocks that have what they ask of neighbours, these arrays, on their chip, where there is room for
+    /// it and enough to do.
+    template <auto work, int at_once, auto... arrays, class... More>
+    void each_pair_on_chip(More... more) const {
+        if constexpr (pairs == Pairs::listed && std::is_same_v<Real, float>)
+            if (fills_gpu() && launch.template each_slot_on_chip<work, pair_lanes, arrays...>(model.particles, more...))
+                return;
+        each_pair<work, at_once>(more...);
     }
     template <auto work>
     void each_pair_of_fluid() const {
@@ -43,7 +59,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if constexpr (pairs == Pairs::searched)
             each_pair<water_impulses<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 3,
+            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 5,
                                water_impulses<which, pairs, many_lanes, Real>, 6>();
     }
     template <Pass which>
@@ -57,8 +73,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     /// By few threads for a slot where that is enough to fill the GPU. Each with its own least blocks.
     template <auto by_few, int few_at_once, auto by_many, int many_at_once>
     void each_pair_by_lanes() const {
-        constexpr std::size_t filling = 50'000;  // slots: with fewer, many threads are faster
-        if (std::size_t(model.particles) * launch.states > filling)
+        if (fills_gpu())
             launch.template each_slot<by_few, few_lanes, grid_threads, min_blocks<few_at_once>>(model.particles);
         else
             launch.template each_slot<by_many, many_lanes, grid_threads, min_blocks<many_at_once>>(model.particles);
@@ -94,7 +109,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         else
             launch.template each_state<find_water_neighbours_on_grid<many, Real>, water_row>(rows);
     }
-    void compute_water_gradients() const { each_pair<water_gradients<pairs, Real>, 4>(); }
+    void compute_water_gradients() const {
+        each_pair_on_chip<water_gradients<pairs, Real>, 4, &Water::position, &Water::correction, &Water::shear,
+                          &Water::velocity>();
+    }
     bool begin_overlap_separation() const { return true; }  // the device knows whether there are any
     void separate_overlaps(int pass) const {
         if (pass == 0)
@@ -105,7 +123,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void end_overlap_separation() const {}
     void solve_divergence() const { push_apart<Pass::divergence>(); }
     void add_viscosity() const {
-        each_pair<water_viscosity<pairs, Real>>();
+        each_pair_on_chip<water_viscosity<pairs, Real>, 0, &Water::position, &Water::velocity, &Water::shear>();
         if (launch.keeps_forces) each_pair_of_solids<add_viscous_forces<pairs, Real>>();
     }
     void add_fluid_forces() const {
@@ -124,8 +142,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void compute_density_impulses() const { impulses<Pass::density>(); }
     void apply_density_impulses() const { push_apart<Pass::density>(); }
     void solve_solids_together() const {
-        if (model.solids > 2 * few_threads)
+        if (model.solids > 2 * more_threads)
             solve_solids<BlockTeam::threads>();
+        else if (model.solids > few_threads)
+            solve_solids<more_threads>();
         else if (model.solids > 0)
             solve_solids<few_threads>();
     }
@@ -140,7 +160,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void end_water_passes() const {
         each_particle<lay_out_zeroth_order_correction<Real>>();
-        each_pair<cuda::end_water_passes<pairs, Real>, 6>(model.planes > 0 && norm(model.water.weight_on_walls) > 0);
+        each_pair_on_chip<cuda::end_water_passes<pairs, Real>, 6, &Water::position, &Water::zeroth_order_correction>(
+            model.planes > 0 && norm(model.water.weight_on_walls) > 0);
     }
     void add_pressure_forces() const {
         if (launch.keeps_forces) each_pair_of_solids<cuda::add_pressure_forces<pairs, Real>>();

@@ -13,13 +13,14 @@ __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slo
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, const Vec4<Real>& v) {
             sum[list] += gradient.x + gradient.y + gradient.z + v.x + v.y + v.z;
         };
-        for_each_listed_pair<lanes, rows_of_velocities<lanes>>(slots, s, add, slots.water.velocity);
+        for_each_listed_pair<lanes, rows_of_velocities<lanes>, gathers_of_velocities<lanes>>(slots, s, add,
+                                                                                             slots.water.velocity);
     } else {
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real impulse) {
             sum[list] += gradient.x + gradient.y + gradient.z + impulse;
         };
         const Real* const impulse = slots.water.impulse;
-        for_each_listed_pair<lanes, rows_of_impulses<lanes>>(slots, s, add, impulse);
+        for_each_listed_pair<lanes, rows_of_impulses<lanes>, gathers_of_impulses<lanes>>(slots, s, add, impulse);
     }
     const Real all = sum.total();
     if (sum.first_lane()) sums[static_cast<std::size_t>(blockIdx.y) * model.particles + s] = all;
@@ -34,7 +35,7 @@ void launch_fetch(const GridLaunch<Real>& launch, Fetch what, Real* sums) {
     const int particles = launch.model.particles;
     if (what == Fetch::velocities)
         launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, grid_threads,
-                                  single ? 3 : 0>(particles, sums);
+                                  single ? 5 : 0>(particles, sums);
     else
         launch
             .template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads, single ? 4 : 0>(

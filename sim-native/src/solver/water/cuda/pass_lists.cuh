@@ -71,22 +71,20 @@ private:
 };
 
 /// Calls visit(list, G_ij, boundaries, value) for the neighbours of slot s in the lists of this thread, which are
-/// numbered from 0, once gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the
-/// lists are under way at a time.
-template <int lanes, int rows, class Real, class Visit, class Value>
+/// numbered from 0, once gradients are known; `value` is what is in `array` at the neighbour's slot. Lists that end
+/// before others have neighbours with a gradient of 0. `rows` of the lists are under way at a time, and the values of
+/// `gathers` neighbours.
+template <int lanes, int rows, int gathers, class Real, class Visit, class Value>
 __device__ void for_each_listed_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value* array) {
     constexpr int own = water_lists / lanes;
+    static_assert(rows * own % gathers == 0);
     const int lane = static_cast<int>(threadIdx.x) % lanes, count = slots.water.count[s];
     const int first_list = reversed_list(own * lane);
     const std::size_t first = slots.water_place(s) + own * lane;
     const int own_rows = (count - first_list + water_lists - 1) / water_lists;
-    const auto has = [&](int row, int list) {
-        return list == 0 || row * water_lists + first_list + reversed_list(list) < count;
-    };
     for (int begin = 0; begin < own_rows; begin += rows) {
         Several<unsigned, own> entry[rows];
         Several<PairGradient<Real>, own> gradient[rows];
-        Several<Value, own> there[rows];
 #pragma unroll
         for (int r = 0; r < rows; ++r) {
             const int row = min(begin + r, own_rows - 1);
@@ -95,19 +93,24 @@ __device__ void for_each_listed_pair(const Slots<Real>& slots, int s, const Visi
             gradient[r] = read_several<own>(slots.water.pair + place);
 #pragma unroll
             for (int list = 1; list < own; ++list)
-                if (!has(row, list)) entry[r].of[list] = entry[r].of[0];  // what stands there means nothing
+                if (row * water_lists + first_list + reversed_list(list) >= count) {  // what stands there means nothing
+                    entry[r].of[list] = entry[r].of[0];
+                    gradient[r].of[list] = PairGradient<Real>::none();
+                }
         }
 #pragma unroll
-        for (int r = 0; r < rows; ++r)
+        for (int done = 0; done < rows * own; done += gathers) {
+            if (begin + done / own >= own_rows) break;
+            Value there[gathers];
 #pragma unroll
-            for (int list = 0; list < own; ++list) there[r].of[list] = array[entry[r].of[list] & slot_mask];
+            for (int k = 0; k < gathers; ++k)
+                there[k] = array[entry[(done + k) / own].of[(done + k) % own] & slot_mask];
 #pragma unroll
-        for (int r = 0; r < rows; ++r) {
-            if (begin + r >= own_rows) break;
-#pragma unroll
-            for (int list = 0; list < own; ++list)
-                if (has(begin + r, list))
-                    visit(list, gradient[r].of[list].value(), entry[r].of[list] >> max_slot_bits, there[r].of[list]);
+            for (int k = 0; k < gathers; ++k) {
+                const int r = (done + k) / own, list = (done + k) % own;
+                if (begin + r >= own_rows) break;
+                visit(list, gradient[r].of[list].value(), entry[r].of[list] >> max_slot_bits, there[k]);
+            }
         }
     }
 }
@@ -132,19 +135,23 @@ __device__ void for_each_searched_pair(const ModelView<Real>& model, const Slots
 }
 
 /// Either, for none if they are not `wanted`.
-template <Pairs pairs, int lanes, int rows, class Real, class Visit, class Value>
+template <Pairs pairs, int lanes, int rows, int gathers, class Real, class Visit, class Value>
 __device__ void for_each_pass_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool wanted,
                                    const Visit& visit, const Value* array) {
     if constexpr (pairs == Pairs::searched)
         for_each_searched_pair<lanes>(model, slots, s, wanted, visit, array);
     else if (wanted)
-        for_each_listed_pair<lanes, rows>(slots, s, visit, array);
+        for_each_listed_pair<lanes, rows, gathers>(slots, s, visit, array);
 }
 
-// Rows that are under way at a time, by what is fetched of each neighbour.
+// Rows and values that are under way at a time, by what is fetched of each neighbour.
 template <int lanes>
 inline constexpr int rows_of_velocities = lanes == many_lanes ? 2 : 1;
 template <int lanes>
+inline constexpr int gathers_of_velocities = 2;
+template <int lanes>
 inline constexpr int rows_of_impulses = lanes == many_lanes ? 4 : 2;
+template <int lanes>
+inline constexpr int gathers_of_impulses = 4;
 
 }  // namespace natator::cuda
