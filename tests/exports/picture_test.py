@@ -175,6 +175,8 @@ class PictureTest(unittest.TestCase):
                 (f"{TANK} --at nan", "--at is nan; expected a time of the swim"),
                 (f"{TANK} --from behind", "argument --from: invalid choice: 'behind'"),
                 (f"{TANK} -o x.jpg", "--output is x.jpg; expected a name that ends in .png"),
+                (f"{TANK} --place 1", "--place is 1.0; expected --slice with it"),
+                (f"{TANK} --plane along", "--plane is along; expected --slice with it"),
                 (f"{TANK} -o no/x.png", "no/x.png cannot be written: there is no folder no")):
             with self.subTest(arguments):
                 done = self.command(*arguments.split())

@@ -52,8 +52,8 @@ def parser():
             command.add_argument("--vortices", action="store_true", help="draw them in place of the water's surface: surfaces of the "
                                  "Q-criterion, red where they turn to the left, seen from above")
             command.add_argument("--slice", choices=picture.SLICES, help="draw this on a plane in place of the water's surface")
-            command.add_argument("--plane", default="level", choices=picture.PLANES, help="of --slice; default: %(default)s")
-            command.add_argument("--place", type=float, default=0, metavar="X", help="of the plane, in body lengths from the body; default: %(default)s")
+            command.add_argument("--plane", choices=picture.PLANES, help="of --slice; default: level")
+            command.add_argument("--place", type=float, metavar="X", help="of the plane, in body lengths from the body; default: 0")
             command.add_argument("--pressure", action="store_true", help="colour the body by the pressure on it")
             command.add_argument("--forces", action="store_true", help="draw the water's force on each part of the body")
             command.add_argument("-o", "--output", metavar="FILE", help="default: the scene's name and .png")
@@ -125,10 +125,13 @@ def drawn(given):
     file = given.output or f"{swim.name}.png"
     if not file.lower().endswith(".png"):
         raise InputError(f"--output is {file}; expected a name that ends in .png")
+    for name in ("plane", "place"):
+        if getattr(given, name) is not None and not given.slice:
+            raise InputError(f"--{name} is {getattr(given, name)}; expected --slice with it")
     if given.vortices and given.slice:
         raise InputError(f"--vortices and --slice {given.slice}: expected one of them")
     size, time = picture.picture(swim.scene, file, swim.gait, given.at, given.view, size, not given.no_water, swim.duration,
-                                 given.vortices, given.slice, (given.plane, given.place), given.pressure, given.forces, overrides=swim.overrides, scheme=swim.scheme)
+                                 given.vortices, given.slice, (given.plane or "level", given.place or 0), given.pressure, given.forces, overrides=swim.overrides, scheme=swim.scheme)
     print(f"{file}: {size[0]} x {size[1]} pixels, at {time:.2f} s")
 
 
