@@ -22,7 +22,7 @@ def sample():
         changes = [float(row[f"distance_0.05_gravity_{gravity}"]) / float(row[f"distance_0.1_gravity_{gravity}"]) - 1 for row in rows("gaits.csv")]
         told.append((sum(abs(one) < 0.1 for one in changes), len(changes), *(f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes), max(changes)))))
     (few, count, least, most), (fewer, _, low, high) = told
-    return f"**Of {count} gaits {few} change by less than 10 % at half the spacing under the scene's gravity of 3 ({least} to {most} %), {fewer} under gravity 10 " \
+    return f"**Of {count} gaits, one start each, {few} change by less than 10 % at half the spacing under the scene's gravity of 3 ({least} to {most} %), {fewer} under gravity 10 " \
            f"({low} to {high} %).**\n"
 
 
@@ -38,7 +38,7 @@ def levels(found):
 
 def estimate(found):
     one, length = found["estimate"], found["bodyLength"]
-    return f"The estimate for time step and spacing 0 is {study.with_error(one['speed'], one['error'], 3)} (scatter {one['statistical']:.3f}, discretisation " \
+    return f"The estimate for time step and spacing 0{'' if one['time']['observed'] and one['spacing']['observed'] else ', by assumed first orders,'} is {study.with_error(one['speed'], one['error'], 3)} (scatter {one['statistical']:.3f}, discretisation " \
            f"{one['discretisation']:.3f}), or {one['speed'] / length:.2f} body lengths/s; at spacing 0.1 it is {found['levels'][0]['speed']['mean'] / length:.2f}.\n"
 
 

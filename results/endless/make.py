@@ -22,15 +22,18 @@ def make(folder):
     apart = statistics.fmean(moving) / statistics.fmean(fixed) - 1
     error = math.sqrt(sum(statistics.variance(own) / len(own) for own in (fixed, moving))) / statistics.fmean(fixed)
     interval = stats.t.ppf(0.975, len(fixed) + len(moving) - 2) * error
-    seen = "No difference is seen" if abs(apart) < interval else "They differ"
+    seen = "No difference in distance is seen" if abs(apart) < interval else "Distances differ"
+    def of(own):
+        return statistics.fmean(own), statistics.stdev(own) / math.sqrt(len(own))
+    opened = [[one["swimming"]["cavities"] for one in own] for own in (list(runs.values())[::-1])]
     table = study.table(["tank", "distances", "mean ± standard error"], [
-        [name, ", ".join(f"{way:.3f}" for way in own), study.with_error(statistics.fmean(own), statistics.stdev(own) / math.sqrt(len(own)), 3)]
+        [name, ", ".join(f"{way:.3f}" for way in own), study.with_error(*of(own), 3)]
         for name, own in (("6 long", fixed), ("4 long, moving", moving))], "<<<")
     renewals = [one["renewal"] for one in runs["endless/creature-2"]]
     last, = (one for one in lines("results.jsonl") if scenes[one["id"]][1] == 60)
     answer = f"**{seen} between a moving tank 4 long (`endless/creature-2`) and a fixed one 6 long (`open-water/creature-2`): {100 * apart:.1f} ± " \
              f"{100 * interval:.1f} % (95 %, Student's t).** Creature 2, fish-like gait, 4 s, " \
-             f"{len(fixed)} starts each:\n"
+             f"{len(fixed)} starts each; cavities are {' and '.join(study.with_error(*of(cavities), 2) for cavities in opened)} of the body's volume:\n"
     def ends(values, digits=0):
         least, most = (f"{end:.{digits}f}" for end in (min(values), max(values)))
         return least if least == most else f"{least} to {most}"
