@@ -19,6 +19,7 @@ import study
 
 HERE = pathlib.Path(__file__).parent
 EXECUTORS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000]
+NEAR = 1.03  # a limit is looked for until a simulated number of executors above it is so many times one below it
 REPEATS = 5  # with seeds 1, 2, ...
 ENOUGH = 0.8  # below it a cluster is taken to be badly used
 # s: the longest part, and that below which none is made shorter, as PartSize.java has them
@@ -212,30 +213,37 @@ class Simulation:
 
 
 def simulated(times):
-    """A row for each load and number of executors: means over the repeats."""
+    """A row for each load and number of executors, also of those near where the efficiency first falls below what is enough: means over the repeats."""
     rows = []
-    for (name, (evaluations, runs, generations, cluster)), executors in itertools.product(LOADS.items(), EXECUTORS):
-        found = [Simulation(cluster, evaluations, runs, generations, executors, times, seed) for seed in range(1, REPEATS + 1)]
-        means = {key: float(np.mean([getattr(one, key) for one in found])) for key in ("seconds", "efficiency", "lost", "copies")}
-        rows.append({"variant": name, "evaluations": evaluations, "runs_at_once": runs, "generations": generations,
-                     "seconds_per_part_of_driver": cluster.per_part, "seconds_per_evaluation_of_driver": cluster.per_evaluation,
-                     "second_tries": str(cluster.speculation).lower(), "executors": executors, "repeats": REPEATS, "seconds": means["seconds"],
-                     "efficiency": means["efficiency"], "efficiency_sd": float(np.std([one.efficiency for one in found], ddof=1)),
-                     "lost": means["lost"], "copies": means["copies"]})
+    for name in LOADS:
+        own = [row_of(name, executors, times) for executors in EXECUTORS]
+        while (between := crossing(own)) and between[1] > max(between[0] + 1, NEAR * between[0]):
+            own = sorted([*own, row_of(name, round(math.sqrt(between[0] * between[1])), times)], key=lambda row: row["executors"])
+        rows += own
     return pandas.DataFrame(rows)
 
 
+def row_of(name, executors, times):
+    evaluations, runs, generations, cluster = LOADS[name]
+    found = [Simulation(cluster, evaluations, runs, generations, executors, times, seed) for seed in range(1, REPEATS + 1)]
+    means = {key: float(np.mean([getattr(one, key) for one in found])) for key in ("seconds", "efficiency", "lost", "copies")}
+    return {"variant": name, "evaluations": evaluations, "runs_at_once": runs, "generations": generations,
+            "seconds_per_part_of_driver": cluster.per_part, "seconds_per_evaluation_of_driver": cluster.per_evaluation,
+            "second_tries": str(cluster.speculation).lower(), "executors": executors, "repeats": REPEATS, "seconds": means["seconds"],
+            "efficiency": means["efficiency"], "efficiency_sd": float(np.std([one.efficiency for one in found], ddof=1)),
+            "lost": means["lost"], "copies": means["copies"]}
+
+
+def crossing(rows):
+    """The largest number of executors whose efficiency is enough before the first that has not, and that one; None if none or all are below."""
+    below = next((k for k, row in enumerate(rows) if row["efficiency"] < ENOUGH), 0)
+    return (rows[below - 1]["executors"], rows[below]["executors"]) if below else None
+
+
 def limit(own):
-    """Executors from which on the efficiency is below what is enough, between two that were simulated."""
-    below = np.flatnonzero(own.efficiency < ENOUGH)
-    if not len(below):
-        return f"more than {EXECUTORS[-1]}"
-    if below[0] == 0:
-        return f"fewer than {EXECUTORS[0]}"
-    (above, high), (under, low) = own[["executors", "efficiency"]].iloc[below[0] - 1:below[0] + 1].to_numpy()
-    value = above * (under / above)**((high - ENOUGH) / (high - low))
-    unit = 10.0**(math.floor(math.log10(value)) - 1)
-    return f"{round(round(value / unit) * unit)}"
+    """Executors up to which the efficiency is enough, as simulated."""
+    between = crossing(own.to_dict("records"))
+    return f"{between[0]}" if between else f"fewer than {EXECUTORS[0]}" if own.efficiency.iloc[0] < ENOUGH else f"more than {EXECUTORS[-1]}"
 
 
 def draw(table, file):
@@ -251,7 +259,7 @@ def make(folder):
     known = {name: limit(own) for name, own in table.groupby("variant", sort=False)}
     answer = (f"**By simulation, one run of 150 gaits uses up to {known['one run, 150 gaits']} executors well, 32 runs with eight starts a gait "
               f"{known['32 runs at once, 150 gaits × 8 starts']}.**\n")
-    said = (f"Evaluations take what {len(times)} gaits drawn at random took, one after another (`times.csv`): median "
+    said = (f"Evaluations take what {len(times)} gaits drawn at random took in `thesis/creature-1`, one after another (`times.csv`): median "
             f"{sorted(times)[len(times) // 2]:.2f} s, from {min(times):.2f} to {max(times):.2f} s.\n")
     (folder / "README.md").write_text(study.filled(
         HERE / "README.md", answer=answer, times=said, limits="".join(f"- {name}: {value}\n" for name, value in known.items())), encoding="utf-8")

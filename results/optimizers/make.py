@@ -140,6 +140,15 @@ def tests_table(found):
     return study.table(["first", "second", "difference of medians", "p", "A"], rows, "<<>>>") if rows else "nothing to compare\n"
 
 
+def at_half_step(scene):
+    """In words what pairs of optimizers whose winners' distances, by fresh starts at half the time step, do not differ; none if all do."""
+    found = study.pairs({name: [run["best"]["fresh"]["halfStep"]["distance"]["mean"] for run in runs] for name, runs in scene.own.items()})
+    alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if row["verdict"].startswith("no difference")]
+    if len(alike) == len(found):
+        return f"; at half the time step no difference is seen (p {study.chance(min(row['p_holm'] for row in found))})"
+    return f"; at half the time step no difference is seen between {', '.join(alike)}" if alike else ""
+
+
 def answer(tables):
     """What the tests at the end say, by evaluations."""
     def told(row):
@@ -147,7 +156,7 @@ def answer(tables):
             return f"between {row['first']} and {row['second']} no difference is seen (p {study.chance(row.p_holm)})"
         return f"{row.verdict.split(' (')[0].replace(' further than', ' gets further than')} (p {study.chance(row.p_holm)})"
     return "**" + "; ".join(f"with {scene.name} " + ", ".join(told(row) for _, row in found[found.equal == TOLD].iterrows())
-                            for scene, _, _, found in tables).replace("with", "With", 1) + ".**\n"
+                            + at_half_step(scene) for scene, _, _, found in tables).replace("with", "With", 1) + ".**\n"
 
 
 def choice_table(scene):

@@ -51,7 +51,7 @@ def fry():
     mean = {level: statistics.fmean(speed[best, level]) for level in range(len(LEVELS))}
     (base, _, interval), others = sample(speed[best, 1]), [statistics.fmean(speed[seed, 1]) for seed in seeds if seed != best]
     answer = f"**In `lattice` an evolved fry swims {study.with_error(base, interval, 2)} body lengths/s, {study.fixed(mean[2], 2)} at half the time step, {study.fixed(mean[0], 2)} " \
-             f"in cells a third wider and {study.fixed(mean[3], 2)} in cells a third narrower;** two other evolutions {' and '.join(study.fixed(one, 2) for one in others)}. "
+             f"in cells and steps a third wider and {study.fixed(mean[3], 2)} in ones a third narrower;** two other evolutions {' and '.join(study.fixed(one, 2) for one in others)}. "
     swims = [one["swimming"] for one in found[best, 1]]
     reynolds, strouhal = (statistics.fmean(one[name] for one in swims) for name in ("reynolds", "strouhal"))
     frequency = json.loads((HERE / f"lattice/seed-{best}-best.json").read_text(encoding="utf-8"))["gait"]["frequency"]
@@ -97,12 +97,12 @@ def make(folder):
         row("half the spacing, the 2 starts that chose it", levels["spacing/2"], student * pooled["half_spacing"]),
         row("estimate for time step and spacing 0, fresh starts at the scene's spacing", estimate, error),
         row("… by the starts that chose it", best["estimate_bl_s"], best["estimate_se"]),
-        ["… mean of the twelve candidates", study.with_error(mean, sum(weights)**-0.5, 3), ""],
+        ["… mean of the twelve candidates", study.fixed(mean, 3), ""],
         ["with muscles at rest", study.fixed(statistics.fmean(ways["rest"]), 3), ""]])
     of_fry, fry_speeds, fry_does = fry()
     answer = of_fry + f"In `conserving` an eel swims {study.fixed(base, 2)} at a spacing of 0.1 and {study.fixed(levels['spacing/2'], 2)} at half of it; " \
              f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)}. It was chosen from twelve, whose mean estimate, weighted by errors, is " \
-             f"{study.with_error(mean, sum(weights)**-0.5, 2)}, as one has that was not selected.\n"
+             f"{study.fixed(mean, 2)}.\n"
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, fry_speeds=fry_speeds, fry_does=fry_does, speeds=speeds), encoding="utf-8")
 
 

@@ -81,8 +81,8 @@ class Trend:
         return told(self.differs(self.last, -1) and self.last.mean > self.usual.mean / 2)
 
     def is_unstable(self):
-        """Little is left of the swimming, or nothing that is sure."""
-        return told(self.last.mean < 0.1 * self.usual.mean or self.last.mean < self.last.interval)
+        """Little is left of the swimming; open where nothing is sure."""
+        return HOLDS if self.last.mean < 0.1 * self.usual.mean else OPEN if self.last.mean < self.last.interval else FAILS
 
     def text(self):
         return f"{fixed(self.usual.mean)}: " + ", ".join(f"{100 * one.mean / self.usual.mean:.0f}" for one in self.changed) + " %"
@@ -235,7 +235,7 @@ def activation(study, water):
         return abs(one.mean) > one.interval
 
     def turns(ahead, back):
-        return ahead.mean * back.mean < 0 and sure(ahead) and sure(back)
+        return ahead.mean > 0 > back.mean and sure(ahead) and sure(back)
 
     yield by_creatures("potentiation (p = 4) with 1 − Δφ swims backwards", ((POWERS[-1], 0.25, False), (POWERS[-1], 0.75, False)), turns)
     yield by_creatures("potentiation (p = 4) also accelerates in vacuum", ((1.0, 0.25, True), (POWERS[-1], 0.25, True)),

@@ -213,7 +213,7 @@ class Lake:
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
         speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % {CONTROLS[condition]}".replace("-", "−") for condition in ("half step", "half cells"))
         return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, the fastest {one[0].replace('-', ' ')} at " \
-               f"{measured.with_error(speed.mean, speed.interval)} units/s ({finer})."
+               f"{measured.with_error(speed.mean, speed.interval)} units/s (± over starts; {finer})."
 
     def cost(self, folder):
         """Evaluations of all evolutions, generations of each, seconds of a GPU, and by what they were."""

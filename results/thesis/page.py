@@ -258,7 +258,7 @@ class Page:
                f"body lengths/s{wall})"
 
     def without_water(self, water):
-        speeds = [abs(one) for subject in self.study.bests(water) if math.isfinite(one := self.study.means(subject, "vacuum").mean)]
+        speeds = [abs(one) for subject in self.study.evolved(water) if math.isfinite(one := self.study.means(subject, "vacuum").mean)]
         return f"{fixed(max(speeds))} units/s" if speeds else None
 
     def answer(self):

@@ -54,6 +54,12 @@ class Cluster(unittest.TestCase):
         self.assertAlmostEqual(4000, done.seconds * 20 * done.efficiency, 6)  # every evaluation counts once
         self.assertTrue(150 <= done.lost <= 260 and 0.5 <= done.efficiency <= 0.7, (done.lost, done.efficiency))
 
+    def test_a_limit_is_before_the_first_that_falls_below(self):
+        def rows(*efficiencies):
+            return page.pandas.DataFrame({"executors": [10, 20, 30][:len(efficiencies)], "efficiency": efficiencies})
+        self.assertEqual(["20", "10", "fewer than 10", "more than 10000"],
+                         [page.limit(one) for one in (rows(0.9, 0.8, 0.7), rows(0.9, 0.7, 0.9), rows(0.7, 0.9), rows(0.9, 0.9))])
+
     def test_the_committed_rows_are_what_it_gives(self):
         table = page.pandas.read_csv(ROOT / "results/cluster/efficiency.csv")
         times = page.pandas.read_csv(ROOT / "results/cluster/times.csv").seconds.tolist()
