@@ -25,7 +25,7 @@ def make(folder):
     seen = "No difference in distance is seen" if abs(apart) < interval else "Distances differ"
     def of(own):
         return statistics.fmean(own), statistics.stdev(own) / math.sqrt(len(own))
-    opened = [[one["swimming"]["cavities"] for one in own] for own in (list(runs.values())[::-1])]
+    opened = [[one["swimming"]["cavities"] for one in own] for own in reversed(runs.values())]
     table = study.table(["tank", "distances", "mean ± standard error"], [
         [name, ", ".join(f"{way:.3f}" for way in own), study.with_error(*of(own), 3)]
         for name, own in (("6 long", fixed), ("4 long, moving", moving))], "<<<")

@@ -80,12 +80,12 @@ def streets():
 
 
 def of_streets(found):
-    """The answer's sentence, of the place where less work is surest of four, with the scene's cells and steps."""
+    """The answer's sentence, of the place where less work is surest, with the scene's cells and steps."""
     (diameter, behind), levels = min(found.items(), key=lambda one: sum(one[1][1, 1][:2]))
     numbers = ", ".join(f"{words}{percent(-levels[level][0], levels[level][1])} ({levels[level][2]} swims)"
                         for level, words in (((1, 1), ""), ((1, 2), "at half the step "), ((2, 1), "in half the cells ")) if level in levels)
     sure = all(change + error < 0 for change, error, _, _ in levels.values())
-    return f"A loach that holds station {behind} units behind a cylinder {diameter} wide works less than in free water by {numbers}{'' if sure else ': open'} (the surest of four places)."
+    return f"A loach that holds station {behind} units behind a cylinder {diameter} wide works less than in free water by {numbers}{'' if sure else ': open'} (the surest of {len(found)} places)."
 
 
 def end_of(row):
@@ -95,7 +95,7 @@ def end_of(row):
 
 
 def pairs():
-    """The table and by level (gaps over the wavelength plus phase of followers that stay in the wake, all swims)."""
+    """The table and by level (gaps over the wavelength plus phase of followers that stay in the wake, their phases, all swims)."""
     made, found = [], {}
     for level, own in grouped(rows("pair"), "n", "steps").items():
         stay, turns = [], []
@@ -105,7 +105,7 @@ def pairs():
                 stay.append(row)
                 turns.append((gap / WAVE + row["phase"]) % 1)
         costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
-        found[level] = turns, len(own)
+        found[level] = turns, [row["phase"] for row in stay], len(own)
         made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*mean([row["speed"] for row in stay]), 2),
                                                                      percent(*mean(costs))] if len(stay) > 2 else [""] * 4)])
     return study.table(["cells and steps", "followers that stay", "gap/λ + phase", "p if none", "speed over ground", "cost of transport against the leader's"], made), found
@@ -190,8 +190,8 @@ def make(folder):
     street, held = streets()
     pair, turns = pairs()
     wake, left = wakes()
-    locked = {level: f"{at(own)} ({len(own)} of {count} swims)" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, count) in turns.items()}
-    answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish, mostly close behind at one phase; at half the step "
+    locked = {level: f"{at(own)} ({len(own)} of {count} swims, {phases.count(statistics.mode(phases))} with phase {statistics.mode(phases)})" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, phases, count) in turns.items()}
+    answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish; at half the step "
               f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (two swims).\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
     drawn_pairs(folder)

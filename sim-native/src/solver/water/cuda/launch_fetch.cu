@@ -13,14 +13,13 @@ __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slo
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, const Vec4<Real>& v) {
             sum[list] += gradient.x + gradient.y + gradient.z + v.x + v.y + v.z;
         };
-        for_each_listed_pair<lanes, rows_of_velocities<lanes>, gathers_of_velocities<lanes>>(slots, s, add,
-                                                                                             slots.water.velocity);
+        for_each_listed_pair<lanes, rows_of_velocities<lanes>, velocities_at_once>(slots, s, add, slots.water.velocity);
     } else {
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real impulse) {
             sum[list] += gradient.x + gradient.y + gradient.z + impulse;
         };
         const Real* const impulse = slots.water.impulse;
-        for_each_listed_pair<lanes, rows_of_impulses<lanes>, gathers_of_impulses<lanes>>(slots, s, add, impulse);
+        for_each_listed_pair<lanes, rows_of_impulses<lanes>, impulses_at_once>(slots, s, add, impulse);
     }
     const Real all = sum.total();
     if (sum.first_lane()) sums[static_cast<std::size_t>(blockIdx.y) * model.particles + s] = all;

@@ -148,10 +148,7 @@ __device__ void for_each_pass_pair(const ModelView<Real>& model, const Slots<Rea
 template <int lanes>
 inline constexpr int rows_of_velocities = lanes == many_lanes ? 2 : 1;
 template <int lanes>
-inline constexpr int gathers_of_velocities = 2;
-template <int lanes>
 inline constexpr int rows_of_impulses = lanes == many_lanes ? 4 : 2;
-template <int lanes>
-inline constexpr int gathers_of_impulses = 4;
+inline constexpr int velocities_at_once = 2, impulses_at_once = 4;
 
 }  // namespace natator::cuda

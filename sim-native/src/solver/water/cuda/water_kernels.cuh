@@ -66,8 +66,8 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned boundaries, const Vec4<Real>& u) {
             rates[list] += dot_unfused(xyz(reflected(model, u, boundaries)) - v, gradient);
         };
-        for_each_pass_pair<pairs, lanes, rows_of_velocities<lanes>, gathers_of_velocities<lanes>>(model, slots, s, wet,
-                                                                                                  add, velocity);
+        for_each_pass_pair<pairs, lanes, rows_of_velocities<lanes>, velocities_at_once>(model, slots, s, wet, add,
+                                                                                        velocity);
     }
     const Real rate = rates.total();
     if (!rates.first_lane()) return;
@@ -110,8 +110,7 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
     const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real its) {
         sums[list] += (own + its) * gradient;
     };
-    for_each_pass_pair<pairs, lanes, rows_of_impulses<lanes>, gathers_of_impulses<lanes>>(model, slots, s, true, add,
-                                                                                          impulse);
+    for_each_pass_pair<pairs, lanes, rows_of_impulses<lanes>, impulses_at_once>(model, slots, s, true, add, impulse);
     const Vec3<Real> sum = sums.total();
     if (!sums.first_lane()) return;
     const bool fluid = s < model.fluid;
