@@ -121,6 +121,12 @@ class Random:
         return ((states >> np.uint64(16)) & np.uint64(bound - 1) if bound & (bound - 1) == 0 else (states >> np.uint64(17)) % np.uint64(bound)).astype(int)
 
 
+def interval(values):
+    """A mean and half its 95 % interval by Student's t; NaN of a single value."""
+    half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else math.nan
+    return statistics.fmean(values), half
+
+
 def median_interval(*samples):
     """A median, or the difference of two, with its 95 % bootstrap interval: percentiles of the medians of 10 000 samples that are drawn from the
     sorted sample with replacement (Efron 1979). NaN where a sample has a single value. Returns (median, low, high)."""

@@ -24,7 +24,7 @@ def make(folder):
     interval = stats.t.ppf(0.975, len(fixed) + len(moving) - 2) * error
     seen = "No difference in distance is seen" if abs(apart) < interval else "Distances differ"
     def of(own):
-        return statistics.fmean(own), statistics.stdev(own) / math.sqrt(len(own))
+        return statistics.fmean(own), stats.sem(own)
     opened = [[one["swimming"]["cavities"] for one in own] for own in reversed(runs.values())]
     table = study.table(["tank", "distances", "mean ± standard error"], [
         [name, ", ".join(f"{way:.3f}" for way in own), study.with_error(*of(own), 3)]

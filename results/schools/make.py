@@ -23,16 +23,10 @@ def rows(kind):
     return [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()] if file.exists() else []
 
 
-def mean(values):
-    """Mean and its 95 % by Student's t."""
-    half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else float("nan")
-    return statistics.fmean(values), half
-
-
 def mean_turn(turns):
     """Mean of parts of a turn, which go on from 1 to 0, and its 95 %, of their distances from their direction's mean."""
     middle = np.angle(np.mean(np.exp(2j * np.pi * np.array(turns)))) / (2 * np.pi)
-    value, error = mean([middle + (turn - middle + 0.5) % 1 - 0.5 for turn in turns])
+    value, error = study.interval([middle + (turn - middle + 0.5) % 1 - 0.5 for turn in turns])
     return value, error
 
 
@@ -66,8 +60,8 @@ def streets():
     for (diameter, behind, *level), own in held.items():
         if len(own) < 2:
             continue
-        power, error = mean([row["power"] for row in own])
-        base, base_error = mean([row["power"] for row in held[0, 1.5, *level]])
+        power, error = study.interval([row["power"] for row in own])
+        base, base_error = study.interval([row["power"] for row in held[0, 1.5, *level]])
         ratio = power / base
         spread = ratio * ((error / power) ** 2 + (base_error / base) ** 2) ** 0.5
         of = len(groups[diameter, behind, *level])
@@ -106,8 +100,8 @@ def pairs():
                 turns.append((gap / WAVE + row["phase"]) % 1)
         costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
         found[level] = turns, [row["phase"] for row in stay], len(own)
-        made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*mean([row["speed"] for row in stay]), 2),
-                                                                     percent(*mean(costs))] if len(stay) > 2 else [""] * 4)])
+        made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*study.interval([row["speed"] for row in stay]), 2),
+                                                                     percent(*study.interval(costs))] if len(stay) > 2 else [""] * 4)])
     return study.table(["cells and steps", "followers that stay", "gap/λ + phase", "p if none", "speed over ground", "cost of transport against the leader's"], made), found
 
 
@@ -166,7 +160,7 @@ def frames():
     made = []
     for (n, steps), own in grouped(rows("frame"), "n", "steps").items():
         made.append([LEVELS[n, steps],
-                     *(study.with_error(*(lambda s: (s.mean(), s.std(ddof=1) / len(s) ** 0.5))(np.array(row["speeds"])), 2) for row in sorted(own, key=lambda row: row["current"]))])
+                     *(study.with_error(np.mean(row["speeds"]), stats.sem(row["speeds"]), 2) for row in sorted(own, key=lambda row: row["current"]))])
     currents = sorted({row["current"] for row in rows("frame")})
     return study.table(["speed through the water, in a current of", *(f"{current:g}" for current in currents)], made) if made else ""
 

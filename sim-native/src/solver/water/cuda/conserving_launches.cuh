@@ -59,7 +59,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if constexpr (pairs == Pairs::searched)
             each_pair<water_impulses<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, 5,
+            each_pair_by_lanes<water_impulses<which, pairs, few_lanes, Real>, blocks_of_velocities,
                                water_impulses<which, pairs, many_lanes, Real>, 6>();
     }
     template <Pass which>
@@ -67,7 +67,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if constexpr (pairs == Pairs::searched)
             each_pair<push_water_apart<which, pairs, many_lanes, Real>, 4>();
         else
-            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, 4,
+            each_pair_by_lanes<push_water_apart<which, pairs, few_lanes, Real>, blocks_of_impulses,
                                push_water_apart<which, pairs, many_lanes, Real>, 8>();
     }
     /// By few threads for a slot where that is enough to fill the GPU. Each with its own least blocks.

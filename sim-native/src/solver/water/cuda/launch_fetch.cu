@@ -34,11 +34,10 @@ void launch_fetch(const GridLaunch<Real>& launch, Fetch what, Real* sums) {
     const int particles = launch.model.particles;
     if (what == Fetch::velocities)
         launch.template each_slot<fetch_pairs<Fetch::velocities, few_lanes, Real>, few_lanes, grid_threads,
-                                  single ? 5 : 0>(particles, sums);
+                                  single ? blocks_of_velocities : 0>(particles, sums);
     else
-        launch
-            .template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads, single ? 4 : 0>(
-                particles, sums);
+        launch.template each_slot<fetch_pairs<Fetch::impulses, few_lanes, Real>, few_lanes, grid_threads,
+                                  single ? blocks_of_impulses : 0>(particles, sums);
     check(cudaGetLastError(), "launch");
 }
 

@@ -150,5 +150,7 @@ inline constexpr int rows_of_velocities = lanes == many_lanes ? 2 : 1;
 template <int lanes>
 inline constexpr int rows_of_impulses = lanes == many_lanes ? 4 : 2;
 inline constexpr int velocities_at_once = 2, impulses_at_once = 4;
+// Blocks of few_lanes that shall fit on a multiprocessor, likewise.
+inline constexpr int blocks_of_velocities = 5, blocks_of_impulses = 4;
 
 }  // namespace natator::cuda
