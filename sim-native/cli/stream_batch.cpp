@@ -182,10 +182,13 @@ void StreamBatch<Real>::act_together(Swims swims, const stream::Actions& actions
         next[i] = swims_[i]->next_of_act();
         if (!next[i]) outcomes[i] = swims_[i]->end_act();
     };
-    at_once(swims, [&](std::size_t i) {
-        swims_[i]->begin_act(actions.of[i]);
-        go_on_or_end(i);
-    });
+    {
+        const std::lock_guard one_after_the_other(beginning_);  // so that the GPU has something to do the sooner
+        at_once(swims, [&](std::size_t i) {
+            swims_[i]->begin_act(actions.of[i]);
+            go_on_or_end(i);
+        });
+    }
     for (;;) {
         std::erase_if(swims, [&](std::size_t i) { return next[i] == nullptr; });
         if (swims.empty()) return;

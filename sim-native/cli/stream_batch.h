@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -56,6 +57,7 @@ private:
     bool together_;  ///< on a GPU that they share
     std::vector<std::unique_ptr<StreamSession<Real>>> swims_;
     std::vector<std::vector<nlohmann::json>> waiting_;  ///< commands, by swim
+    std::mutex beginning_;                              ///< of a group of `act_together`
     std::string own_;                                   ///< messages of no swim that are to be written
     std::size_t told_ = SIZE_MAX;                       ///< swim of the last message
 };

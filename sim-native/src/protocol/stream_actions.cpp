@@ -89,6 +89,7 @@ stream::Actions parse_stream_actions(std::string_view message, std::size_t swims
     const auto count = from.take<std::uint32_t>();
     if (count != swims)
         throw InputError("ACTS: of " + std::to_string(count) + " swims: must be of " + std::to_string(swims));
+    actions.of.reserve(swims);
     for (std::size_t i = 0; i < swims; ++i) actions.of.push_back(read_action(from));
     if (!from.empty()) throw InputError("ACTS: has more than its swims");
     return actions;
@@ -137,6 +138,9 @@ std::vector<double> stream_sense_numbers(const Simulation<Real>& simulation, con
 
 std::string stream_outcomes(std::uint32_t id, const std::vector<stream::Outcome>& outcomes) {
     MessageWriter message("OBSV");
+    std::size_t numbers = 0;
+    for (const stream::Outcome& outcome : outcomes) numbers += 1 + outcome.senses.size();
+    message.reserve(numbers * sizeof(double) + 64);
     message.add(id);
     message.add(static_cast<std::uint32_t>(outcomes.size()));
     ordered_json refusals = ordered_json::object();
@@ -144,7 +148,8 @@ std::string stream_outcomes(std::uint32_t id, const std::vector<stream::Outcome>
         const stream::Outcome& outcome = outcomes[i];
         message.add(static_cast<std::uint32_t>(outcome.status));
         message.add(static_cast<std::uint32_t>(outcome.senses.size()));
-        for (const double number : outcome.senses) message.add(number);
+        message.add_text(
+            {reinterpret_cast<const char*>(outcome.senses.data()), outcome.senses.size() * sizeof(double)});
         if (!outcome.refusal.empty()) refusals[std::to_string(i)] = outcome.refusal;
     }
     message.add_text(refusals.dump(-1, ' ', false, ordered_json::error_handler_t::replace));

@@ -254,9 +254,9 @@ public:
     bool shared() const override { return !own_; }
 
     cuda::GridPool<Real>* pool() const { return pool_.get(); }
-    /// A frame of each of some that have this pool, in one of these turns if there are any.
+    /// A frame of each of some that have this pool, in these turns if there are any.
     static std::vector<std::optional<Instability>> frames(cuda::GridPool<Real>& pool, std::span<const Frame> frames,
-                                                          cuda::Turns* turns) {
+                                                          cuda::TurnsOfGpu* turns) {
         std::vector<GridSolver*> solvers;
         std::vector<State<Real>*> states;
         std::vector<Drive> drives;
@@ -301,14 +301,14 @@ private:
     static std::vector<cuda::Progress> run(cuda::GridRunner<Real>& runner, const std::vector<GridSolver*>& solvers,
                                            const std::vector<State<Real>*>& states, double time_step, int substeps,
                                            const std::vector<Drive>& drives, const cuda::Trace<Real>& trace,
-                                           cuda::Turns* turns = nullptr) {
-        runner.upload_all({states.begin(), states.end()});
+                                           cuda::TurnsOfGpu* turns = nullptr) {
         const bool in_lattice = solvers.front()->swim_.has_value();
         const auto h = static_cast<double>(static_cast<Real>(time_step) / static_cast<Real>(substeps));
         for (int k = 0; in_lattice && k < runner.states(); ++k)
             runner.set_water(
                 k, k < static_cast<int>(states.size()) ? solvers[k]->swim_->begin(states[k]->time, h) : nullptr);
-        typename cuda::GridRunner<Real>::Update update{time_step, substeps, {}, false, turns};
+        typename cuda::GridRunner<Real>::Update update{
+            .time_step = time_step, .substeps = substeps, .from{states.begin(), states.end()}, .turns = turns};
         for (std::size_t k = 0; k < drives.size(); ++k) update.muscles.push_back({drives[k], states[k]->time});
         update.muscles.resize(drives.empty() ? 0 : runner.states());
         const auto ends = runner.run(update, nullptr, trace);
@@ -449,7 +449,7 @@ std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vecto
     }
     struct Part {
         Pool* pool;
-        cuda::Turns* turns;
+        cuda::TurnsOfGpu* turns;
         std::vector<std::size_t> numbers;
     };
     std::vector<Part> parts;
@@ -458,11 +458,11 @@ std::vector<std::optional<Instability>> GpuSolver<Real>::frames(const std::vecto
         const int most = particles_at_a_time / max_streams / model.particles() + 1;
         const auto count = static_cast<double>(numbers.size());
         bool full = count * model.particles() > 2e5;  // of a GPU, which others' kernels then delay
-        int streams = full ? cuda::at_a_time : max_streams;
+        int streams = full ? cuda::TurnsOfGpu::at_a_time : max_streams;
         if (model.water_box) {
             const double cells = count * model.water_box->cells.cast<double>().prod();
             full = cells > 1e6;
-            streams = cells > 8e6 ? cuda::at_a_time : 1;
+            streams = cells > 8e6 ? cuda::TurnsOfGpu::at_a_time : 1;
         }
         const cuda::Parts own(static_cast<int>(numbers.size()), most, streams);
         for (int part = 0; part < own.count; ++part) {

@@ -1,11 +1,11 @@
 #include "evaluate_on_grid.h"
 
 #include <algorithm>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <utility>
 
+#include "base/side_by_side.h"
 #include "grid_scene.h"
 #include "solver/cuda/grid/parts.h"
 
@@ -69,14 +69,13 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const ModelGroup& 
     std::vector<std::unique_ptr<Stream<Real>>> streams;
     for (int k = 0; k < parts.streams; ++k)
         streams.push_back(std::make_unique<Stream<Real>>(scene, group, starts, parts, k, lists, options));
-    std::vector<std::future<void>> others;
-    for (int k = 1; k < parts.streams; ++k)
-        others.push_back(std::async(std::launch::async, [&stream = *streams[k], device] {
+    side_by_side(
+        streams.size(),
+        [&](std::size_t k) {
             check(cudaSetDevice(device), "choose device");
-            stream.evaluate();
-        }));
-    streams.front()->evaluate();
-    for (std::future<void>& other : others) other.get();
+            streams[k]->evaluate();
+        },
+        streams.size(), streams.size());
     if (options.times) add_times(streams, *options.times);
     std::vector<Evaluation> evaluations;
     for (int part = 0; part < parts.count; ++part)

@@ -10,9 +10,6 @@
 
 namespace natator::cuda {
 
-/// Runners of a Model that compute at a time: with more, they are in each other's way.
-inline constexpr int at_a_time = 2;
-
 /// GridRunners of a Model, lent to whoever computes. Any number of threads.
 template <class Real>
 class GridPool {
@@ -27,7 +24,7 @@ public:
     const DeviceModel<Real>& model() const { return model_; }
 
     /// For updates of runners that others use, too.
-    Turns& turns() { return turns_; }
+    TurnsOfGpu& turns() { return turns_; }
 
     /// Makes its device the current one of this thread.
     void choose() const { choose_device(device_); }
@@ -94,7 +91,7 @@ private:
     GridOptions options_;
     int device_;
     DeviceModel<Real> model_;
-    Turns turns_{at_a_time};
+    TurnsOfGpu turns_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<GridRunner<Real>>> free_;
 };

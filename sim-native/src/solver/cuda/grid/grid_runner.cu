@@ -28,22 +28,6 @@ struct CapturedGraph {
     }
 };
 
-/// One of the turns, if there are any.
-class Turn {
-public:
-    explicit Turn(Turns* turns) : turns_(turns) {
-        if (turns_) turns_->acquire();
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-    ~Turn() {
-        if (turns_) turns_->release();
-    }
-
-private:
-    Turns* turns_;
-};
-
 }  // namespace
 
 template <class Real>
@@ -256,10 +240,12 @@ typename GridRunner<Real>::End GridRunner<Real>::end_of(int k) const {
 template <class Real>
 std::vector<typename GridRunner<Real>::End> GridRunner<Real>::run(const Update& update, StageProfile* profile,
                                                                   const Trace<Real>& trace) {
+    std::optional<Turns::Turn> turn(update.turns ? &update.turns->preparing : nullptr);
+    if (!update.from.empty()) upload_all(update.from);
     set_muscles(update);
     std::optional<StageClock> clock;
     if (lattice_) lattice_->stage();
-    std::optional<Turn> turn(update.turns);
+    turn.emplace(update.turns ? &update.turns->computing : nullptr);
     for (;;) {
         clock.reset();
         if (profile) clock.emplace(base_.stream);

@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <semaphore>
 #include <tuple>
 #include <vector>
 
@@ -14,10 +13,9 @@
 #include "solver/cuda/host_buffer.h"
 #include "solver/cuda/stream.h"
 #include "substep.cuh"
+#include "turns.h"
 
 namespace natator::cuda {
-
-using Turns = std::counting_semaphore<>;
 
 /// Advances States of a Model side by side by kernels of the whole GPU. An update is a graph of kernels, launched at
 /// once; the host waits for its end.
@@ -42,8 +40,7 @@ public:
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
     State<Real> download(int k, const State<Real>& like) const { return memory_.download(k, like); }
-    /// The same of the first States, all of them together; downloads set spring rest lengths, too.
-    void upload_all(const std::vector<const State<Real>*>& states);
+    /// The same of the first States, all of them together, and their spring rest lengths.
     void download_all(const std::vector<State<Real>*>& states);
 
     /// What drives those of a State: asked for the update's start in scheme `flex`, else for the end of each substep.
@@ -54,9 +51,10 @@ public:
     struct Update {
         double time_step = 0;  ///< s
         int substeps = 1;
-        std::vector<Muscles> muscles{};  ///< by State; without, they are left as they are
-        bool settling = false;           ///< velocities to 0 in the end
-        Turns* turns = nullptr;          ///< one of which its kernels wait for
+        std::vector<Muscles> muscles{};          ///< by State; without, they are left as they are
+        bool settling = false;                   ///< velocities to 0 in the end
+        std::vector<const State<Real>*> from{};  ///< the first States, uploaded before it; without, they are there
+        TurnsOfGpu* turns = nullptr;
     };
     struct End {
         bool finite = true;
@@ -110,6 +108,7 @@ private:
     void launch_substeps(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
     void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
     cudaGraphExec_t graph_of(const Update& update);
+    void upload_all(const std::vector<const State<Real>*>& states);
     void set_muscles(const Update& update);
     physics::LawMeasures laws_of(int k) const;
     End end_of(int k) const;
