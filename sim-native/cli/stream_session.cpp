@@ -27,6 +27,26 @@ auto for_swimmer(int swimmer, bool named, const Work& work) {
     }
 }
 
+/// Refuses a model with other bodies.
+auto body_check(const stream::Bodies& asked) {
+    return [&asked](const Model& model) {
+        if (!asked) return;
+        const auto refuse = [](const std::string& who, int has, const char* of, const std::string& must) {
+            throw InputError(who + " would have " + std::to_string(has) + of + ": must have " + must);
+        };
+        if (model.swimmers() != static_cast<int>(asked->size()))
+            refuse("the scene", model.swimmers(), " swimmers", std::to_string(asked->size()));
+        for (int k = 0; k < model.swimmers(); ++k) {
+            const auto& [actuators, slices] = (*asked)[static_cast<std::size_t>(k)];
+            const int own = static_cast<int>(model.body_of(k).slices.size());
+            const std::string who = "swimmer " + std::to_string(k);
+            if (model.actuators_of(k) != actuators)
+                refuse(who, model.actuators_of(k), " actuators", std::to_string(actuators));
+            if (own < slices) refuse(who, own, " slices", "at least " + std::to_string(slices));
+        }
+    };
+}
+
 /// Part of values of all swimmers, one after the other, that is one's.
 std::vector<double> part_of(const std::vector<double>& values, const Model& model, int swimmer) {
     return {values.begin() + model.first_actuator_of(swimmer), values.begin() + model.first_actuator_of(swimmer + 1)};
@@ -321,7 +341,7 @@ void StreamSession<Real>::apply(const stream::Restore& restore) {
     if (!held_ || held_->empty()) throw InputError("restore: there is no state; must come behind a STAT, or a save");
     if (held_->size() > stream::max_message) throw InputError("state: is larger than 1 GiB");
     if (restore.sense) check_sensing(sensing_.front(), simulation_.model());
-    const bool changed = simulation_.restore(*held_);
+    const bool changed = simulation_.restore(*held_, body_check(restore.bodies));
     if (!senses_fit()) forget_senses();
     restart_policy();
     if (changed) scene_changed(false);
@@ -355,7 +375,7 @@ void StreamSession<Real>::apply(const stream::NewGait& gait) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
-    const bool restarted = simulation_.merge_overrides(overrides.patch.dump());
+    const bool restarted = simulation_.merge_overrides(overrides.patch.dump(), body_check(overrides.bodies));
     if (restarted) forget_senses();
     if (restarted) restart_policy();
     scene_changed(restarted);

@@ -201,6 +201,12 @@ TEST(StreamCommandTest, BadCommandsAreAnsweredAndChangeNothing) {
         {R"({"do":"overrides","overrides":{"solver":{"substeps":0}}})", "solver.substeps"},
         {R"({"do":"overrides","overrides":{"creature":{"name":"creature-2"}}})", "gait.amplitude"},
         {R"({"do":"overrides","overrides":3})", "overrides = 3"},
+        {R"({"do":"overrides","overrides":{},"bodies":[]})", "the scene would have 1 swimmers: must have 0"},
+        {R"({"do":"overrides","overrides":{},"bodies":[{"actuators":9,"slices":0}]})",
+         "swimmer 0 would have 2 actuators: must have 9"},
+        {R"({"do":"overrides","overrides":{},"bodies":[{"actuators":2,"slices":99}]})", "must have at least 99"},
+        {R"({"do":"overrides","overrides":{},"bodies":[{"actuators":2}]})", "bodies[0].slices"},
+        {R"({"do":"overrides","overrides":{},"bodies":{}})", "bodies = {}"},
         {R"({"do":"scene","scene":"thesis/none"})", "thesis/none"},
         {R"({"do":"scene","scene":7})", "scene"},
         {"{\"do\":\"run\",\"do\":\"run\"}", "twice"}};

@@ -148,11 +148,76 @@ class ResetTest(unittest.TestCase):
         *_, terminated, truncated, infos = vector.step(np.full((3, 2), 0.3))
         self.assertEqual(infos["unstable"].tolist(), [False, True, False])
         self.assertTrue(terminated[1])
-        with self.assertRaisesRegex(natator.InputError, "environment 1: unstable at 0 s"):  # so is its start
+        for _ in range(3):  # so are its starts, each of which ends at once; the others go on
+            *_, terminated, truncated, infos = vector.step(np.full((3, 2), 0.3))
+            self.assertEqual((infos["unstable"].tolist(), terminated.tolist()), ([False, True, False],) * 2)
+            self.assertEqual(infos["unstable"].dtype, bool)
+            self.assertTrue(np.all(infos["time"][[0, 2]] > 0))
+        with self.assertRaisesRegex(natator.InputError, "environment 1: unstable at 0 s"):
             vector.reset(seed=1)
         vector.reset(seed=1, options={"overrides": {"solver": {"relaxationMode": "local"}}})
         self.assertFalse(np.any(vector.step(np.full((3, 2), 0.3))[4]["unstable"]))
         vector.close()
+
+    def test_what_is_refused_changes_nothing_and_the_others_begin(self):
+        fewer = {"creature": {"joints": [1, 3, 5, 7]}}
+        with natator.Stream(TANK, overrides=fewer) as stream:
+            of_another = stream.save()
+        vector, other = (natator.gym.SwimmerVectorEnv(2, **ENV) for _ in range(2))
+        for options, reason in (({"overrides": [None, fewer]}, "swimmer 0 would have 3 actuators: must have 2"), ({"state": [None, of_another]}, "swimmer 0 would have 3 actuators"),
+                                ({"start": [1, 2**31]}, "start = 2147483648")):
+            vector.reset(seed=1)
+            vector.step(np.full((2, 2), 0.5))
+            with self.assertRaisesRegex(natator.InputError, f"environment 1: .*{reason}"):
+                vector.reset(seed=7, options=options)
+            observations = vector.step(np.full((2, 2), 0.5))[0]
+            other.reset(seed=7, options={"start": 1} if "start" in options else None)
+            np.testing.assert_array_equal(observations[0], other.step(np.full((2, 2), 0.5))[0][0])
+            self.assertTrue(np.all(np.isfinite(vector.reset(seed=1)[0])))
+        single = natator.gym.SwimmerEnv(**ENV)
+        first = single.reset(seed=1)[0]
+        with self.assertRaisesRegex(natator.InputError, "start = 2147483648"):
+            single.reset(options={"start": 2**31})
+        np.testing.assert_array_equal(single.reset(seed=1)[0], first)
+        for one in (vector, other, single):
+            one.close()
+
+    def test_bodies_of_other_lengths_swim_side_by_side(self):
+        longer = {"creature": {"slices": [{"height": 3, "width": 3, "count": 11}]}}
+        vector, alone = natator.gym.SwimmerVectorEnv(2, **ENV), natator.gym.SwimmerEnv(**ENV)
+        vector.reset(seed=[5, 5], options={"overrides": [None, longer]})
+        alone.reset(seed=5, options={"overrides": longer})
+        np.testing.assert_array_equal(vector.step(np.full((2, 2), 0.5))[0][1], alone.step(np.full(2, 0.5))[0])
+        self.assertEqual([env.length for env in vector.envs], [0.6, 0.75])
+        vector.reset(options={"overrides": [{"creature": {"slices": [{"height": 3, "width": 3, "count": 8}]}}, None]})  # places go along
+        self.assertTrue(np.all(np.isfinite(vector.step(np.full((2, 2), 0.5))[0])))
+        state = alone.save()  # which brings its body
+        fresh = natator.gym.SwimmerEnv(**ENV)
+        fresh.reset(seed=1)
+        np.testing.assert_array_equal(fresh.reset(options={"state": state})[0], alone.reset(options={"state": state})[0])
+        self.assertEqual(fresh.length, 0.75)
+        pinned = natator.gym.SwimmerEnv(**ENV, flow=[(8, "left")])
+        with self.assertRaisesRegex(natator.InputError, "swimmer 0 would have 8 slices: must have at least 9"):
+            pinned.reset(options={"overrides": {"creature": {"slices": [{"height": 3, "width": 3, "count": 8}]}}})
+        pinned.reset(seed=1)
+        for one in (vector, alone, fresh, pinned):
+            one.close()
+
+    def test_an_ended_program_says_so_each_time(self):
+        vector = natator.gym.SwimmerVectorEnv(2, **ENV)
+        vector.reset(seed=1)
+        vector._batch._program._process.kill()
+        for call in (lambda: vector.step(np.zeros((2, 2))), lambda: vector.step(np.zeros((2, 2))), lambda: vector.reset(seed=1)):
+            with self.assertRaisesRegex(natator.ProgramError, "natator-sim has ended, exit code -9"):
+                call()
+        vector.close()
+
+    def test_swims_of_unlike_bodies_go_on_by_themselves(self):
+        with Batch(TANK, 2, overrides=QUICK) as batch:
+            batch.swims[1].ask({"do": "scene", "scene": TANK, "overrides": {**QUICK, "creature": {"joints": [1, 3, 5, 7]}}})
+            with self.assertRaisesRegex(natator.InputError, "swim 1: senses are .* numbers: must be"):
+                batch.step(np.zeros((2, 1, 2)), np.array([True, False]))
+            self.assertEqual([swim.step().frame for swim in batch.swims], [2, 1])
 
     def test_threads_and_place_change_no_bit(self):
         seen = []

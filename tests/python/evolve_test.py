@@ -130,6 +130,8 @@ class EvolveTest(unittest.TestCase):
                 ({"optimizer": Given([[0.5] * 3])}, r"^optimizer.ask\(\) gave \[0.5, 0.5, 0.5\]: must be 5 numbers in \[0, 1\]$"),
                 ({"optimizer": Given([[0.5] * 4 + [1.1]])}, r"must be 5 numbers in \[0, 1\]$"),
                 ({"optimizer": Given([])}, r"^optimizer: ask\(\) gave no candidate: must be a list of at least one$"),
+                ({"optimizer": Given(5)}, r"^optimizer.ask\(\) gave 5: must be a list of lists of numbers$"),
+                ({"optimizer": Given("abc")}, r"^optimizer.ask\(\) gave abc: must be a list of lists of numbers$"),
                 ({"optimizer": 5}, "^optimizer = 5: must be cma-es, map-elites, cma-me, or an object with ask and tell$")]:
             with self.subTest(options), self.assertRaisesRegex(natator.InputError, message) as raised:
                 natator.evolve(**{"creature_or_scene": TANK, "generations": 1, **options})

@@ -228,6 +228,8 @@ class VectorTest(unittest.TestCase):
             vector.step(np.zeros((1, 2)))
         with self.assertRaisesRegex(natator.InputError, "actions = 0.5: must be 2, one for each"):
             vector.step(0.5)
+        with self.assertRaisesRegex(natator.InputError, r"environment 1: action \[0.0\]: must be 2 numbers"):
+            vector.step([[0, 0], [0]])
         observations = vector.step(np.full((2, 2), 0.5))[0]
         vector.close()
         other = natator.gym.SwimmerVectorEnv(2, **TANK)
@@ -299,6 +301,23 @@ class VectorTest(unittest.TestCase):
         action[1] = action[0]
         same = vector.step(action)[0]
         np.testing.assert_array_equal(same[0], same[1])
+        for seed in ("a", -1, [1, -1]):
+            with self.assertRaisesRegex(natator.InputError, "seed = .*must be a whole number from 0 on"):
+                vector.reset(seed=seed)
+        vector.close()
+
+    def test_bad_arguments_are_refused(self):
+        with self.assertRaisesRegex(natator.InputError, "durration: is no argument"):
+            gymnasium.make_vec("natator/Swimmer-v0", num_envs=2, **TANK, durration=0.1)
+        with self.assertRaisesRegex(natator.InputError, "num_envs = 5000: must be at most 4096"):
+            natator.gym.SwimmerVectorEnv(5000, **TANK)
+
+    def test_another_body_is_drawn(self):
+        vector = natator.gym.SwimmerVectorEnv(2, **TANK, render_mode="rgb_array")
+        vector.reset(seed=1)
+        vector.reset(options={"overrides": [None, {"fluid": {"count": [12, 7, 9]}}]})
+        first, second = vector.render()
+        self.assertEqual(first.shape, second.shape)
         vector.close()
 
 

@@ -102,6 +102,11 @@ class RunExportTest(unittest.TestCase):
         self.assertEqual((study.best_trial.user_attrs["generation"], study.user_attrs["scene"]), (2, "bench/small-tank"))
         self.assertEqual(study.best_trial.distributions["frequency"], optuna.distributions.FloatDistribution(0.5, 2))
 
+    def test_genes_have_their_encodings_names_and_ranges(self):
+        for encoding, last in (("wave", {"waves": (0.25, 1.25)}), ("sparse", {"phase difference": (0.0, 1.0)}), ("sparse-steered", {"offset": (-0.5, 0.5)})):
+            folder = write_run(self.folder / encoding, encoding=encoding)
+            self.assertLessEqual(last.items(), runs.Run(folder).genes().items())
+
     def archive(self):
         folder = self.folder / "archive"
         export_run(self.run_folder, "archive", folder, force=True)

@@ -169,6 +169,11 @@ class EnvironmentTest(unittest.TestCase):
         self.assertEqual(env._stream.scene["definition"]["solver"]["viscosity"], 2)
         with self.assertRaisesRegex(natator.InputError, "options: 'strt' is unknown"):
             env.reset(options={"strt": 1})
+        with self.assertRaisesRegex(natator.InputError, "the scene would have 1 swimmers: must have 2"):
+            env.reset(options={"overrides": {"companions": []}})
+        env.reset(seed=5)
+        with self.assertRaisesRegex(natator.InputError, "actions = None: must be a dict, by agent"):
+            env.step(None)
         self.assertEqual(first["swimmer-0"].shape, env.observation_space("swimmer-0").shape)
         env.close()
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,10 +71,12 @@ public:
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
     /// steering_of_drive. They have no start ramp. Throws InputError as `steer`.
     void drive(const std::vector<double>& values, int swimmer = 0);
+    /// Throws InputError for a Model that must not run here.
+    using ModelCheck = std::function<void(const Model&)>;
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
     /// instability, starts anew. True if it did. Throws InputError, also where the scene was made by the program.
-    bool merge_overrides(const std::string& patch);
+    bool merge_overrides(const std::string& patch, const ModelCheck& check = {});
     /// Goes back to the settled start.
     void reset();
     /// Goes to another of the scene's starts, see choose_start. Throws InputError.
@@ -87,7 +90,7 @@ public:
     /// Goes to a saved moment of the same scene, whose overrides, start, gait and steering come with it; what `reset`
     /// goes back to is that start. True if overrides, start or gait are others than before. Throws InputError when the
     /// bytes are damaged, or of another scene, scheme, precision or version.
-    bool restore(std::string_view saved);
+    bool restore(std::string_view saved, const ModelCheck& check = {});
 
     /// What runs now; its gait is always there.
     const SimulationSetup& setup() const { return setup_; }

@@ -63,18 +63,26 @@ class Batch:
         for index in range(len(self.swims)):
             kind, frames, values = asked.get(index, (STAND_STILL, 0, NO_VALUES))
             parts += [struct.pack("<4I", kind, frames, *values.shape), values.astype("<f8").tobytes()]
-        body = self._ask(parts)
+        told, refusals = self._outcomes(self._ask(parts))
+        for index in asked:
+            self.swims[index].outcome = *told[index], refusals.get(index, "")
+
+    def _outcomes(self, body):
+        """Status and senses of each in an OBSV, and why those that are refused are, by number."""
         try:
             at, told = 0, []
             for _ in self.swims:
                 status, size = struct.unpack_from("<II", body, at)
                 told.append((status, np.frombuffer(body, "<f8", size, at + 8)))
                 at += 8 + 8 * size
-            refusals = json.loads(body[at:])
-            for index in asked:
-                status, values = told[index]
-                self.swims[index].outcome = status, values, refusals[str(index)] if status == REFUSED else ""
-        except (KeyError, TypeError, ValueError, struct.error):
+        except (ValueError, struct.error):
+            raise self._program.no_simulator() from None
+        return told, self._refusals(body[at:])
+
+    def _refusals(self, text):
+        try:
+            return {int(index): str(why) for index, why in json.loads(text).items()}
+        except (AttributeError, ValueError):
             raise self._program.no_simulator() from None
 
     def _ask(self, parts):
@@ -99,7 +107,7 @@ class Batch:
         others, and its senses, a row of numbers for each (Senses.from_numbers). All must have as many. Raises InputError, and those that
         are not named in it have stepped."""
         if self._torn or self._asked or any(swim._unanswered for swim in self.swims):
-            raise ProgramError("a step was begun, or a call interrupted, before its answer was read")
+            raise self._program.unread("a step was begun, or a call interrupted, before its answer was read")
         for swim in itertools.compress(self.swims, which):
             if swim._framed:
                 swim.send({"do": "credit"})
@@ -112,17 +120,23 @@ class Batch:
         try:
             row = np.dtype([("status", "<u4"), ("size", "<u4"), ("senses", "<f8", struct.unpack_from("<I", body, 4))])
             found = np.frombuffer(body, row, count)
-            if np.any(found["size"] != found["size"][0]):
-                raise ValueError
-            refusals = {int(index): str(why) for index, why in json.loads(body[count * row.itemsize:]).items()}
-        except (AttributeError, ValueError, struct.error):
-            raise self._program.no_simulator() from None
-        for swim, status in itertools.compress(zip(self.swims, found["status"]), which):
+            alike = np.all(found["size"] == found["size"][0])
+        except (ValueError, struct.error):
+            alike = False
+        if alike:
+            told, refusals = (found["status"], found["senses"]), self._refusals(body[count * row.itemsize:])
+        else:
+            all_told, refusals = self._outcomes(body)
+            told = tuple(zip(*all_told))
+        for swim, status in itertools.compress(zip(self.swims, told[0]), which):
             if swim._framed or status != STEPPED:
                 swim.take_heard()
         for index, why in refusals.items():
             raise InputError(f"swim {index}: {why}")
-        return found["status"], found["senses"]
+        for index, senses in enumerate(() if alike else told[1]):
+            if len(senses) != len(told[1][0]):
+                raise InputError(f"swim {index}: senses are {len(senses)} numbers: must be {len(told[1][0])}, as those of swim 0")
+        return told
 
     def hear(self):
         """Reads a message, which goes to its swim; returns that of all of them, if it is one."""
@@ -168,7 +182,7 @@ class BatchStream(Stream):
         """Raises ProgramError if an answer is still to come."""
         super().require_idle()
         if self.batch._torn or self.index in self.batch._asked:
-            raise ProgramError("a step was begun, or a call interrupted, before its answer was read")
+            raise self._program.unread("a step was begun, or a call interrupted, before its answer was read")
 
     def begin_step(self, frames=None, drive=None, scale=None, offset=None, swimmer=None):
         """Keeps a step for the moment when it, or one of another swim, is ended. Without `swimmer`: values are of the first or of all."""

@@ -68,7 +68,7 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
                                                                                 for gait, k in zip(gaits, of, strict=True)]
 
         for _ in _shown(range(generations), lambda: best and _fitness(best[0][1])):
-            asked = [list(map(float, genes)) for genes in optimizer.ask()]
+            asked = candidates(optimizer)
             if not asked:
                 raise InputError("optimizer: ask() gave no candidate: must be a list of at least one")
             gaits = [_gait(genes, actuators) for genes in asked]
@@ -85,6 +85,15 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
         first -= len(fresh)  # the same starts
         at_half, = runs([gait], len(fresh), overrides=half)[0]
     return Evolved(scene, gait, _fitness(way), fresh, at_half, duration, about["bodyLength"], scheme, request, history, getattr(optimizer, "archive", None))
+
+
+def candidates(optimizer):
+    """Lists of numbers that it asks for. Raises InputError."""
+    asked = optimizer.ask()
+    try:
+        return [list(map(float, genes)) for genes in asked]
+    except (TypeError, ValueError):
+        raise InputError(f"optimizer.ask() gave {str(asked)[:200]}: must be a list of lists of numbers") from None
 
 
 def tell(optimizer, genes, fitness, kinds):

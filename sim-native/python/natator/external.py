@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from natator.errors import InputError, ProgramError
-from natator.evolution import tell
+from natator.evolution import candidates, tell
 from natator.gait import Gait
 from natator.plain import is_number
 from natator.program import simulator_path
@@ -90,7 +90,7 @@ def _converse(process, make, generations, shown):
             optimizer = make(len(message["genes"]))
         elif what == "ask":
             next(bar, None)
-            asked = [list(map(float, genes)) for genes in optimizer.ask()]
+            asked = candidates(optimizer)
             _send(process, {"generation": message["generation"], "candidates": [scale.out(genes) for genes in asked]})
         elif what == "tell":
             told = message["candidates"]

@@ -6,7 +6,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
-from natator.batch import DRIVE, STEER, UNSTABLE, Batch
+from natator.batch import DRIVE, MAX_SWIMS, STEER, UNSTABLE, Batch
 from natator.errors import InputError, Unstable
 from natator.gait import as_json, number, rows, wave_in, whole
 from natator.plain import plain
@@ -32,6 +32,8 @@ class SwimmerEnv(gymnasium.Env):
 
     def __init__(self, scene="pool/tadpole", actions="drive", gait=None, frames=3, duration=4.0, starts=16, flow=3,
                  target=None, reached=0.25, work_cost=0.0, render_mode=None, swim=None, **options):
+        if swim is not None and options:
+            raise InputError(f"{next(iter(options))}: is no argument of an environment")
         if actions not in ("drive", "gait"):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
         if gait is not None and actions == "drive":
@@ -67,7 +69,10 @@ class SwimmerEnv(gymnasium.Env):
             self.gait = as_json(gait if gait is not None else wave_in(stream.scene))
             stream.set_gait(self.gait)
             _check_room(self.gait)
+        self._flow = flow
         self._places = places_of(flow, len(stream.scene["slices"]))
+        #: slices that the places need of any body
+        self.least_slices = int(flow if np.ndim(flow) == 0 else 1 + max((place for place, _ in self._places), default=-1))
         stream.sense(flow=self._places)
         self._senses, self._work, self._action, self._began = None, 0.0, self._rest(), 0.0
         size = 9 + 2 * self.actuators + 3 * len(self._places) + 2 * self.by_gait + 4 * (self.target is not None)
@@ -75,6 +80,11 @@ class SwimmerEnv(gymnasium.Env):
         self.action_space = spaces.Box(-1, 1, (self.actuators * (2 if self.by_gait else 1),), np.float32)
         self.metadata = {**self.metadata, "render_fps": 1 / (self.frames * stream.scene["timeStep"])}
         self._views = Views(stream.scene, stream.frame.position) if self.render_mode else None
+
+    @property
+    def _bodies(self):
+        """What bodies must keep."""
+        return [{"actuators": count, "slices": 0 if k else self.least_slices} for k, count in enumerate(self.all_actuators)]
 
     @property
     def all_actuators(self):
@@ -100,16 +110,18 @@ class SwimmerEnv(gymnasium.Env):
             raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start', 'overrides' or 'state'")
         self._stream.require_idle()
         if (options or {}).get("overrides") is not None:
-            self._stream.send({"do": "overrides", "overrides": plain("overrides", options["overrides"])})
+            self._stream.send({"do": "overrides", "overrides": plain("overrides", options["overrides"]), "bodies": self._bodies})
 
     def end_overrides(self, options=None):
         """Waits for it. Raises InputError."""
         if (options or {}).get("overrides") is not None:
-            before = self.actuators
             self._stream.receive()
-            if self._stream.actuators != before:
-                raise InputError(f"overrides: the body has {self._stream.actuators} actuators: must have {before}, as before")
-            self.length = self._stream.scene["bodyLength"]
+            self.take_body()
+
+    def take_body(self):
+        """What overrides or a state may have changed."""
+        self.length = self._stream.scene["bodyLength"]
+        self._places = places_of(self._flow, len(self._stream.scene["slices"]))
 
     def begin_reset(self, seed=None, options=None):
         """Begins the rest of a `reset`."""
@@ -128,14 +140,23 @@ class SwimmerEnv(gymnasium.Env):
     def end_reset(self):
         """Waits for a reset that was begun; returns observation and info."""
         if self._state is None:
-            self._stream.receive()
-            self._senses = self._stream.end_sense()
+            refusal = None
+            try:
+                self._stream.receive()
+            except InputError as error:
+                refusal = error
+            self._senses = self._stream.end_sense()  # its answer comes in any case
+            if refusal:
+                raise refusal
             self._stream.take_first_frame()
         else:
-            self._stream.restore(self._state)
+            self._stream.restore(self._state, self._bodies)
+            self.take_body()
             if self.by_gait:
                 self._stream.set_gait(self.gait)
             self._senses = self._stream.sense(flow=self._places, target=self._point)
+        if self._views and (self._state is None or self._views.particles != self._stream.scene["particles"]):
+            self._views = Views(self._stream.scene, self._stream.frame.position)
         self._action = self._rest()
         self._began, self._work = self._senses.time, np.nan_to_num(self._senses.work)
         return self._observation(), self._info()
@@ -243,7 +264,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
     def __init__(self, num_envs=1, autoreset_mode=AutoresetMode.NEXT_STEP, threads=None, scene="pool/tadpole", render_mode=None,
                  **arguments):
-        whole("num_envs", num_envs, 1)
+        _at_most(MAX_SWIMS, "num_envs", whole("num_envs", num_envs, 1))
         try:
             self.autoreset_mode = AutoresetMode(autoreset_mode)
         except ValueError:
@@ -269,8 +290,8 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
     def reset(self, *, seed=None, options=None):
         """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, each for all or a list with
         one for each; and "reset_mask", booleans: which of them begin anew."""
-        seeds = list(seed) if isinstance(seed, (list, tuple)) else [
-            None if seed is None else seed + i for i in range(self.num_envs)]
+        seeds = [None if one is None else whole("seed", one, 0) for one in seed] if isinstance(seed, (list, tuple)) else [
+            None if seed is None else whole("seed", seed, 0) + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise InputError(f"{len(seeds)} seeds: must be {self.num_envs}, one for each environment")
         options = dict(options or {})
@@ -282,31 +303,39 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             if isinstance(value, list) and len(value) != self.num_envs:
                 raise InputError(f"options: {key} has {len(value)} values: must be {self.num_envs}, one for each environment")
         own = [{key: value[i] if isinstance(value, list) else value for key, value in options.items()} for i in range(self.num_envs)]
-        self._each(chosen, lambda i: self.envs[i].begin_overrides(own[i]), lambda i: self.envs[i].end_overrides(own[i]))
-        if self._observations is None:
-            self._observations = np.zeros(self.observation_space.shape, np.float32)
-        infos = self._reset(chosen, lambda i: self.envs[i].begin_reset(seeds[i], own[i]), {})
-        self._over[mask] = False
+        taken, errors = self._each(chosen, lambda i: self.envs[i].begin_overrides(own[i]), lambda i: self.envs[i].end_overrides(own[i]))
+        first = self._observations is None
+        infos, refused = self._reset(taken, lambda i: self.envs[i].begin_reset(seeds[i], own[i]), {})
+        errors |= refused
+        if errors and first:
+            self._observations = None  # all are to be reset
+        self._refuse(errors)
         return self._observations.copy(), infos
 
     def _each(self, chosen, begin, end):
-        """Begins something for all of these, then ends it, and raises the first InputError after that."""
-        begun, errors = [], {}
+        """Begins something for all of these, then ends it. Returns what `end` gave, and errors, by environment."""
+        begun, ended, errors = [], {}, {}
         for work, over in ((begin, chosen), (end, begun)):
             for i in over:
                 try:
-                    work(i)
+                    ended[i] = work(i)
                     if work is begin:
                         begun.append(i)
                 except (InputError, Unstable) as error:
                     errors[i] = error
+        return {i: told for i, told in ended.items() if i not in errors}, errors
+
+    @staticmethod
+    def _refuse(errors):
         for i, error in sorted(errors.items()):
             raise InputError(f"environment {i}: {error}") from None
 
     def _reset(self, chosen, begin, infos):
-        """Resets these, which `begin` begins. Returns infos with theirs."""
-        told = {}
-        self._each(chosen, begin, lambda i: told.update({i: self.envs[i].end_reset()}))
+        """Resets these, which `begin` begins. Returns infos with theirs, and errors of those that must begin anew."""
+        told, errors = self._each(chosen, begin, lambda i: self.envs[i].end_reset())
+        self._over[list(told)], self._over[list(errors)] = False, True
+        if self._observations is None:
+            self._observations = np.zeros(self.observation_space.shape, np.float32)
         for i, (observation, info) in told.items():
             env, self._observations[i] = self.envs[i], observation
             now = env._senses.numbers()
@@ -315,20 +344,22 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
                 self._began, self._work, self._length = np.zeros((3, self.num_envs))
             self._now[i], self._action[i], self._began[i], self._work[i], self._length[i] = now, env._action, env._began, env._work, env.length
             infos = self._add_info(infos, info, i)
-        return infos
+        return infos, errors
 
     def step(self, actions):
-        """As of gymnasium.vector.VectorEnv: a row of actions for each environment. Raises InputError."""
-        actions = np.asarray(actions)
-        if actions.ndim == 0:
+        """As of gymnasium.vector.VectorEnv: a row of actions for each environment. One whose new start is unstable has ended again, and tries
+        another with the next step. Raises InputError."""
+        if np.isscalar(actions) or not hasattr(actions, "__len__"):
             raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
         if len(actions) != self.num_envs:
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
         if self.autoreset_mode == AutoresetMode.DISABLED and np.any(self._over):
             raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
         actions = self._checked(actions)  # all, before anything is begun
-        infos = self._reset(np.flatnonzero(self._over), lambda i: self.envs[i].begin_reset(), {})
         going, first = ~self._over, self.envs[0]
+        infos, errors = self._reset(np.flatnonzero(self._over), lambda i: self.envs[i].begin_reset(), {})
+        self._refuse({i: error for i, error in errors.items() if not isinstance(error, Unstable)})
+        failed = np.isin(np.arange(self.num_envs), list(errors))
         values = first.rows_to(self._action, actions)
         self._action[going] = actions[going]
         before, unstable = self._now, self._simulate(values, going)
@@ -339,23 +370,28 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         self._observations[going] = first.observed(now, self._length)[going]
         for told in (rewards, terminated, truncated):
             told[~going] = 0
+        terminated, unstable = terminated | failed, unstable | failed
         told = {"time": now.time, "distance": now.distance, "work": self._work, "centre": now.centre, "unstable": unstable,
                 "reached": np.broadcast_to(there, unstable.shape)}
         self._over = terminated | truncated
-        again = self._over if self.autoreset_mode == AutoresetMode.SAME_STEP else np.zeros(self.num_envs, bool)
+        again = self._over & ~failed if self.autoreset_mode == AutoresetMode.SAME_STEP else np.zeros(self.num_envs, bool)
+        now_told = (going | failed) & ~again
         for key, value in told.items():
-            infos[key] = np.where((going & ~again).reshape(-1, *[1] * (value.ndim - 1)), value, infos.get(key, 0))
-            infos[f"_{key}"] = going & ~again | infos.get(f"_{key}", False)
+            infos[key] = np.where(now_told.reshape(-1, *[1] * (value.ndim - 1)), value, infos.get(key, np.zeros_like(value)))
+            infos[f"_{key}"] = now_told | infos.get(f"_{key}", False)
         for i in np.flatnonzero(again):
             last = {key: value[i] for key, value in told.items()}
             infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": last}, i)
-        infos = self._reset(np.flatnonzero(again), lambda i: self.envs[i].begin_reset(), infos)
-        self._over &= ~again
+        infos, errors = self._reset(np.flatnonzero(again), lambda i: self.envs[i].begin_reset(), infos)
+        self._refuse({i: error for i, error in errors.items() if not isinstance(error, Unstable)})
         return self._observations.copy(), rewards, terminated, truncated, infos
 
     def _simulate(self, values, going):
         """Takes those that go on to their next senses; returns which of them became unstable, whose senses stay."""
-        status, now = self._batch.step(values, going, STEER if self.envs[0].by_gait else DRIVE)
+        try:
+            status, now = self._batch.step(values, going, STEER if self.envs[0].by_gait else DRIVE)
+        except InputError as error:
+            raise InputError(str(error).replace("swim ", "environment ", 1)) from None
         unstable = status == UNSTABLE
         self._now = np.where((going & ~unstable)[:, None], now, self._now)
         return unstable

@@ -158,6 +158,10 @@ class Program:
         if self._closed:
             raise ProgramError("natator-sim is closed")
 
+    def unread(self, why):
+        """The error that an answer was not read: that it has ended, or else this text."""
+        return ProgramError(why) if self._process.poll() is None else self.ended()
+
     def ended(self):
         """The error that it has ended with, though it was to go on. What has closed its pipes alone is ended by this."""
         if self._closed:

@@ -158,9 +158,12 @@ class Run:
         if "evolve" in self.config:
             return None
         unit, count, encoding = (0.0, 1.0), self.config["actuators"], self.config["encoding"]
-        names = ([f"amplitude {i}" for i in range(1, count + 1)] + [f"phase {i}" for i in range(2, count + 1)] if encoding.startswith("dense")
-                 else ["first amplitude", "last amplitude", "phase difference"])
-        return {"frequency": (0.5, 2.0), **dict.fromkeys(names, unit), **({"offset": (-0.5, 0.5)} if encoding.endswith("-steered") else {})}
+        if encoding.startswith("dense"):
+            own = dict.fromkeys([f"amplitude {i}" for i in range(1, count + 1)] + [f"phase {i}" for i in range(2, count + 1)], unit)
+        else:
+            last = {"waves": (0.25, 1.25)} if encoding.startswith("wave") else {"phase difference": unit}
+            own = {"first amplitude": unit, "last amplitude": unit, **last}
+        return {"frequency": (0.5, 2.0), **own, **({"offset": (-0.5, 0.5)} if encoding.endswith("-steered") else {})}
 
 
 def effort(gait, result, body_length):

@@ -237,9 +237,10 @@ class Stream:
         self.ask({"do": "save"})
         return self._state
 
-    def restore(self, state):
+    def restore(self, state, bodies=None):
         """Goes to a moment that `save` gave, of the same scene; its overrides, start and gait come with it, and what is sensed
-        stays. Returns the senses. Raises InputError for bytes that are damaged, or of another scene, scheme, precision or version."""
+        stays. bodies: what each swimmer must have there, {"actuators": A, "slices": at least S}. Returns the senses. Raises InputError
+        for others, and for bytes that are damaged, or of another scene, scheme, precision or version; then nothing has changed."""
         if not isinstance(state, (bytes, bytearray, memoryview)):
             raise InputError(f"state = {state!r}: must be bytes, as save gives them")
         self.require_idle()
@@ -249,7 +250,7 @@ class Stream:
         senses = len(self.scene["body"]) > 0
         if self._framed:
             self.send({"do": "credit"})
-        self.send({"do": "restore", "sense": senses})
+        self.send({"do": "restore", "sense": senses, **({} if bodies is None else {"bodies": bodies})})
         if self._framed:
             self.receive()
         answer = self.receive()
@@ -301,7 +302,7 @@ class Stream:
         """Raises ProgramError if an answer is still to come: a call was interrupted, and all later answers would be taken for
         others."""
         if self._torn or self._unanswered:
-            raise ProgramError("a call was interrupted before its answer was read: close the stream and open another")
+            raise self._program.unread("a call was interrupted before its answer was read: close the stream and open another")
 
     def _send_message(self, letters, body):
         """Sends bytes among the commands."""

@@ -133,7 +133,7 @@ class Views:
     ALONG = 3          #: body lengths that are seen from left to right, at least
 
     def __init__(self, scene, start, all=False):
-        self._scene, self._start = scene, np.asarray(start, float)
+        self.particles, self._scene, self._start = scene["particles"], scene, np.asarray(start, float)
         self._pillow, self._pen = (package(f"PIL.{name}", "pillow", "a picture") for name in ("Image", "ImageDraw"))
         along, form = self.ALONG * scene["bodyLength"], 2 * self.SIZE[0] / self.SIZE[1]
         for companion in (scene.get("companions") or []) if all else []:

@@ -113,24 +113,25 @@ class SwimmersEnv(ParallelEnv):
         unknown = set(options) - {"start", "overrides", "state", "options"}  # the last is what PettingZoo's test gives
         if unknown:
             raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start', 'overrides' or 'state'")
+        bodies = [{"actuators": count, "slices": env.least_slices} for count, env in zip(self._all, self._envs)]
         if options.get("overrides") is not None:
-            self._stream.ask({"do": "overrides", "overrides": plain("overrides", options["overrides"])})
-            if self._stream.all_actuators != self._all:
-                raise InputError(f"overrides: bodies have {self._stream.all_actuators} actuators: must have {self._all}, as before")
+            self._stream.ask({"do": "overrides", "overrides": plain("overrides", options["overrides"]), "bodies": bodies})
         if seed is not None or self.np_random is None:
             self.np_random, _ = gymnasium.utils.seeding.np_random(seed)
         start = int(self.np_random.integers(first.starts))
         if options.get("state") is not None:
-            self._stream.restore(options["state"])
+            self._stream.restore(options["state"], bodies)
         else:
             self._stream.reset(options.get("start", start))
         for k, env in enumerate(self._envs):
+            env.take_body()
             if env.by_gait:
                 self._stream.set_gait(env.gait, swimmer=k)
-            env.length = self._stream.swimmers[k]["bodyLength"]
             env._point = None if env.target is None or self._leader[k] is not None else self.np_random.uniform(*env.target)
             senses = self._stream.sense(flow=env._places, target=env._point, swimmer=k)
         self._take(senses)
+        if self._views and (options.get("state") is None or self._views.particles != self._stream.scene["particles"]):
+            self._views = Views(self._stream.scene, self._stream.frame.position, all=True)
         self._began, self.agents = senses.time, list(self.possible_agents)
         self._work, self._action = [np.nan_to_num(one.work) for one in self._senses], [env._rest() for env in self._envs]
         return {agent: self._observation(k) for k, agent in enumerate(self.agents)}, {agent: env._info() for agent, env in self._of(self.agents)}
@@ -143,6 +144,8 @@ class SwimmersEnv(ParallelEnv):
         """As of pettingzoo.ParallelEnv: an action for each of `agents`. Raises InputError, and nothing was simulated."""
         if self._senses is None:
             raise gymnasium.error.ResetNeeded("step before the first reset")
+        if not isinstance(actions, Mapping):
+            raise InputError(f"actions = {actions!r}: must be a dict, by agent")
         if set(actions) != set(self.agents):
             wrong = sorted(set(actions) ^ set(self.agents), key=str)[0]
             raise InputError(f"actions: {wrong} {'is missing' if wrong in self.agents else 'swims no more, or never did'}: must be of "

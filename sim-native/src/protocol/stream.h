@@ -43,9 +43,16 @@ struct Sense {
 struct Water {  ///< a WATR of the present state
     bool pressure = false;
 };
-struct Save {};          ///< a STAT of the present moment
+struct Save {};  ///< a STAT of the present moment
+/// What each swimmer's body must have, so that who reads and drives it need not change: else nothing does.
+struct Body {
+    int actuators = 0;
+    int slices = 0;  ///< at least
+};
+using Bodies = std::optional<std::vector<Body>>;
 struct Restore {         ///< to the last STAT, of either direction
     bool sense = false;  ///< the answer has the senses
+    Bodies bodies{};
 };
 struct Rate {
     double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
@@ -59,6 +66,7 @@ struct NewGait {
 };
 struct Overrides {
     nlohmann::json patch;
+    Bodies bodies{};
 };
 struct NewScene {
     SimulationSetup setup;

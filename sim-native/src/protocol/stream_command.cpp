@@ -135,6 +135,22 @@ std::optional<int> read_start(const json& value) {
     return start;
 }
 
+stream::Bodies read_bodies(const json& value) {
+    if (!value.contains("bodies")) return std::nullopt;
+    const json& given = value.at("bodies");
+    if (!given.is_array()) fields::refuse(place.key("bodies"), given, "a list");
+    std::vector<stream::Body> bodies;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        const Place at = place.key("bodies").item(k);
+        if (!given[k].is_object()) fields::refuse(at, given[k], "an object");
+        fields::check_keys(given[k], at, {"actuators", "slices"});
+        stream::Body& body = bodies.emplace_back();
+        for (const auto& [key, number] : {std::pair{"actuators", &body.actuators}, {"slices", &body.slices}})
+            fields::read(fields::required(given[k], at, key), at.key(key), {0, 1e9}, *number);
+    }
+    return bodies;
+}
+
 json read_overrides(const json& value) {
     const json& overrides = fields::required(value, place, "overrides");
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
@@ -178,13 +194,15 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "sense") return only({"flow", "within", "target", "each", "swimmer"}), read_sense(value);
     if (name == "water") return only({"pressure"}), stream::Water{read_flag(value, "pressure")};
     if (name == "save") return only({}), stream::Save{};
-    if (name == "restore") return only({"sense"}), stream::Restore{read_flag(value, "sense")};
+    if (name == "restore")
+        return only({"sense", "bodies"}), stream::Restore{read_flag(value, "sense"), read_bodies(value)};
     if (name == "rate") return only({"value"}), read_rate(value);
     if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
         return only({"gait", "swimmer"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait"),
                                                           read_swimmer(value).value_or(0)};
-    if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
+    if (name == "overrides")
+        return only({"overrides", "bodies"}), stream::Overrides{read_overrides(value), read_bodies(value)};
     if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
     fields::refuse(
         place.key("do"), name,

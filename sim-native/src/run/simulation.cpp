@@ -122,7 +122,7 @@ void Simulation<Real>::drive(const std::vector<double>& values, int swimmer) {
 }
 
 template <class Real>
-bool Simulation<Real>::merge_overrides(const std::string& patch) {
+bool Simulation<Real>::merge_overrides(const std::string& patch, const ModelCheck& check) {
     if (setup_.made) throw InputError("overrides: the scene was made by the program; must be a scene by name");
     SimulationSetup next = setup_;
     const std::string before = next.overrides.empty() ? "{}" : next.overrides;
@@ -130,6 +130,7 @@ bool Simulation<Real>::merge_overrides(const std::string& patch) {
     if (next.overrides.size() > limits::live_overrides_bytes)
         throw InputError("overrides: all that are in force together are larger than 1 MiB; load the scene anew");
     std::unique_ptr<Run> run = make_run(next);
+    if (check) check(run->model);
     check_gait(*next.gait, run->model.actuators);
     const bool goes_on = !instability_ && same_layout(model(), run->model);
     std::vector<Gait> company = company_;

@@ -194,7 +194,7 @@ auto Simulation<Real>::read(std::string_view saved) const -> Moment {
 }
 
 template <class Real>
-bool Simulation<Real>::restore(std::string_view saved) {
+bool Simulation<Real>::restore(std::string_view saved, const ModelCheck& check) {
     Moment moment = read(saved);
     SimulationSetup next = setup_;
     next.overrides = moment.setup.overrides;
@@ -214,6 +214,7 @@ bool Simulation<Real>::restore(std::string_view saved) {
     }
     Run& run = made ? *made : *run_;
     if (digest(run) != moment.digest) refuse_saved(of_another);
+    if (check) check(run.model);
     const int particles = run.model.particles();
     check_state(run.model, moment.state);
     if (moment.densities && moment.densities->size() != static_cast<std::size_t>(particles)) refuse_saved(of_another);
@@ -261,7 +262,7 @@ template std::uint64_t Simulation<double>::digest(Simulation<double>::Run&) cons
 template Simulation<double>::Moment Simulation<double>::read(std::string_view) const;
 template std::string Simulation<float>::save();
 template std::string Simulation<double>::save();
-template bool Simulation<float>::restore(std::string_view);
-template bool Simulation<double>::restore(std::string_view);
+template bool Simulation<float>::restore(std::string_view, const ModelCheck&);
+template bool Simulation<double>::restore(std::string_view, const ModelCheck&);
 
 }  // namespace natator
