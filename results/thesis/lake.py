@@ -7,8 +7,8 @@
     for one in 1 2 3 4; do python3 lake.py record creature-$one; done > lake/motions.jsonl
     ../redo.sh thesis                                       # tables/lake.csv, tables/lake-motions.csv and the page
 
-So were the rows made on an H200, by a build of commit 795659c5 that computes several lakes in one launch and rounds otherwise; those in vacuum, `until walls`,
-mirrored and recorded ones on a CPU."""
+So were the rows made on an H200, of seeds 1 to 3 by a build of commit 795659c5 that computes several lakes in one launch and rounds otherwise; their runs in vacuum,
+`until walls` and mirrored, the wider lake and recorded ones on a CPU."""
 import csv
 import gzip
 import json
@@ -24,18 +24,21 @@ import plan
 from measured import Sample
 
 HERE = pathlib.Path(__file__).resolve().parent
-CELL, SEEDS = 0.025, (1, 2, 3)
+CELL = 0.025
 LENGTH, HEIGHT = 2.85, 1.2  # of the tank, which goes along with its swimmer
-# Of each evolution: the tank's width, where the body's rear is in it, whether touching a wall ends a run, and how long evolution had, s.
-LAKES = {"creature-1": (1.2, 0.8, False, 360), "creature-2": (1.8, 0.72, True, 190), "creature-3": (1.2, 0.575, False, 360), "creature-4": (1.2, 0.645, False, 360),
-         "creature-2-between-walls": (1.2, 0.72, False, 360)}
+# Of each evolution: the tank's width, where the body's rear is in it, whether touching a wall ends a run, and by which first seed how many evolved at once, for how long, s.
+LAKES = {"creature-1": (1.2, 0.8, False, ((1, 3, 360), (4, 2, 200))), "creature-2": (1.8, 0.72, True, ((1, 3, 190), (4, 2, 200))),
+         "creature-3": (1.2, 0.575, False, ((1, 3, 360), (4, 2, 200))), "creature-4": (1.2, 0.645, False, ((1, 3, 360), (4, 2, 200))),
+         "creature-2-between-walls": (1.2, 0.72, False, ((1, 3, 360),))}
 # Of each condition: cells and steps so many times as fine, seconds, starts.
 SWIMS = {"water": (1, 1, 2, range(101, 105)), "half step": (1, 2, 2, (101, 102)), "half cells": (2, 1, 2, (101, 102)), "mirrored": (1, 1, 2, (101, 102)), "resting": (1, 1, 2, (101,)), "longer": (1, 1, 4, (101,)),
          "vacuum": (1, 2, 2, (101,)), "until walls": (1, 1, 2, range(105, 109))}
 UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, range(1001, 1009)), "half cells": (2, 1, 4, range(1001, 1005)), "mirrored": (1, 1, 4, (1001, 1002)),
                "resting": (1, 1, 4, (1001,)), "vacuum": (1, 2, 2, (101,))}
+# Who mostly touches the walls of its lake within 2 s, though walls end no run of its evolution, swims in a wider one, too.
+WIDER, WIDER_LAKE, WIDER_STARTS = {("creature-3", 5)}, 1.8, range(109, 113)
 # In words, conditions in which a speed has to last.
-CONTROLS = {"half step": "at half the step", "half cells": "at half the cells", "mirrored": "mirrored"}
+CONTROLS = {"half step": "at half the step", "half cells": "at half the cells", "mirrored": "mirrored", "wider": "in a wider lake"}
 
 
 def tank(evolution, finer=1, steps=1, seconds=2, until_walls=None, length=LENGTH, width=None):
@@ -54,14 +57,18 @@ def gait(evolution, seed):
 
 def swims():
     """(evolution, seed, condition, start) of each run, by its id."""
-    return [(one, seed, condition, start) for one, (_, _, touching, _) in LAKES.items() for seed in SEEDS
-            for condition, (*_, starts) in (UNTIL_WALLS if touching else SWIMS).items() for start in starts]
+    return [(one, seed, condition, start) for one, (_, _, _, groups) in LAKES.items() for first, count, _ in groups for seed in range(first, first + count)
+            for condition, (*_, starts) in asked_of(one, seed).items() for start in starts]
+
+
+def asked_of(evolution, seed):
+    return (UNTIL_WALLS if LAKES[evolution][2] else SWIMS) | ({"wider": (1, 1, 2, WIDER_STARTS)} if (evolution, seed) in WIDER else {})
 
 
 def requests():
     for number, (evolution, seed, condition, start) in enumerate(swims()):
-        asked, own = (UNTIL_WALLS if LAKES[evolution][2] else SWIMS)[condition], gait(evolution, seed)
-        changes = tank(evolution, *asked[:3], until_walls=True if condition == "until walls" else None)
+        own, ends = gait(evolution, seed), condition in ("until walls", "wider")
+        changes = tank(evolution, *asked_of(evolution, seed)[condition][:3], until_walls=ends or None, width=WIDER_LAKE if condition == "wider" else None)
         if condition == "vacuum":
             changes |= {"fluid": None, "planes": [], "movingTank": None}
         own = {"resting": plan.resting, "mirrored": plan.mirrored}.get(condition, dict)(own)
@@ -78,8 +85,9 @@ def row(evolution, seed, condition, start, result):
 def evolve(evolutions):
     """Commands, one a line."""
     for one in evolutions:
-        yield (f"natator evolve --preset thesis --scene {scene(one)} --seed 1 --seeds {len(SEEDS)} --runs-at-once {len(SEEDS)} --population 60 --generations 100 --starts 1 "
-               f"--simulator batch --backend cuda --stop-after {LAKES[one][3]} --output-dir lake/{one} --overrides '{json.dumps(tank(one))}'")
+        for seed, count, seconds in LAKES[one][3]:
+            yield (f"natator evolve --preset thesis --scene {scene(one)} --seed {seed} --seeds {count} --runs-at-once {count} --population 60 --generations 100 --starts 1 "
+                   f"--simulator batch --backend cuda --stop-after {seconds} --output-dir lake/{one} --overrides '{json.dumps(tank(one))}'")
 
 
 def record(evolution, seed):
@@ -89,7 +97,7 @@ def record(evolution, seed):
     import natator
     from natator import motion
     own, times, bodies, wakes = gait(evolution, seed), [], [], []
-    width = 2.4 if LAKES[evolution][2] else LAKES[evolution][0]
+    width = 2.4 if LAKES[evolution][2] else WIDER_LAKE if (evolution, seed) in WIDER else LAKES[evolution][0]
     overrides = tank(evolution, seconds=3, until_walls=False, length=LENGTH + 0.9, width=width)
     with natator.Stream(scene(evolution), gait=own, start=101, fields=("position",), overrides=overrides) as stream:
         for frame in range(181):
@@ -140,9 +148,9 @@ class Lake:
     def seeds(self, evolution):
         return sorted(seed for one, seed in self.runs if one == evolution)
 
-    def walls(self, swimmer):
+    def walls(self, swimmer, condition="until walls"):
         """Whether the runs that a wall may end mostly end at one."""
-        ends = [one["stopped"] == "touched-plane" for one in self.runs[swimmer].get("until walls", [])]
+        ends = [one["stopped"] == "touched-plane" for one in self.runs[swimmer].get(condition, [])]
         return 2 * sum(ends) > len(ends)
 
     def speeds(self, swimmer, condition="water"):
@@ -168,24 +176,25 @@ class Lake:
 
     def verdict(self, swimmer):
         """(✔ ✘ or –, why): it swims if it gets further than a resting body by a twentieth of its length, on its own and not in vacuum, and has more than half
-        of its speed and less than one and a half at half the step, at half the cells and mirrored."""
+        of its speed and less than one and a half at half the step, at half the cells and mirrored, and where it has one in a wider lake, whose walls it does not touch."""
         length, speed, rest = self.motions[swimmer[0].removesuffix("-between-walls")]["bodyLength"], self.speeds(swimmer), self.speeds(swimmer, "resting").mean
         least = 0.05 * length / self.lasts(swimmer)
         if speed.mean - rest < least or abs(self.speeds(swimmer, "vacuum").mean) > (speed.mean - rest) / 2:
             return "✘", "no further than at rest, or in vacuum"
+        wider = "wider" in self.runs[swimmer]
         doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in CONTROLS.items()
-                  if not abs(change := self.change(swimmer, condition)) < 0.5]
-        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * self.walls(swimmer)
+                  if (condition != "wider" or wider) and not abs(change := self.change(swimmer, condition)) < 0.5]
+        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * self.walls(swimmer, "wider" if wider else "until walls")
         broken = sum(one["status"] != "ok" for runs in self.runs[swimmer].values() for one in runs)
         return ("–", "; ".join(doubts + [f"{broken} unstable"] * (broken > 0))) if doubts or broken else ("✔", "swims by every control")
 
     def table(self):
         """Every seed, CSV."""
-        made = [["evolution", "seed", "units/s ± interval", "starts", "lasts (s)", "over 4 s", "half step", "half cells", "mirrored", "at rest", "in vacuum", "Re", "St", "verdict", "why"]]
+        made = [["evolution", "seed", "units/s ± interval", "starts", "lasts (s)", "over 4 s", "half step", "half cells", "mirrored", "in a wider lake", "at rest", "in vacuum", "Re", "St", "verdict", "why"]]
         for one in sorted(self.runs):
             speed, (re, st) = self.speeds(one), self.numbers(one)
             made.append([one[0], str(one[1]), measured.with_error(speed.mean, speed.interval, 3), str(speed.count), measured.fixed(self.lasts(one), 1),
-                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" for condition in CONTROLS),
+                         measured.fixed(self.speeds(one, "longer").mean), *(f"{100 * self.change(one, condition):+.0f} %" if condition in self.runs[one] else "–" for condition in CONTROLS),
                          *(measured.fixed(self.speeds(one, condition).mean, 3) for condition in ("resting", "vacuum")), measured.fixed(re, 0), measured.fixed(st), *self.verdict(one)])
         return made
 
@@ -220,7 +229,8 @@ class Lake:
         folders = [folder / f"lake/{one}/seed-{seed}" for one, seed in self.runs]
         rows = [list(csv.DictReader((one / "timings.csv").read_text(encoding="utf-8").splitlines())) for one in folders]
         made = [json.loads((one / "environment.json").read_text(encoding="utf-8")) for one in folders]
-        return (sum(int(one["evaluations"]) for found in rows for one in found), [len(found) - 1 for found in rows], sum(LAKES[one][3] for one in {one for one, _ in self.runs}),
+        return (sum(int(one["evaluations"]) for found in rows for one in found), [len(found) - 1 for found in rows],
+                sum(seconds for one, (*_, groups) in LAKES.items() for first, _, seconds in groups if (one, first) in self.runs),
                 ", ".join(sorted({one["commit"] for one in made})), ", ".join(sorted({one["gpu"].split(": ", 1)[1].split(",")[0] for one in made})))
 
 
