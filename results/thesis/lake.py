@@ -57,8 +57,11 @@ def gait(evolution, seed):
 
 def swims():
     """(evolution, seed, condition, start) of each run, by its id."""
-    return [(one, seed, condition, start) for one, (_, _, _, groups) in LAKES.items() for first, count, _ in groups for seed in range(first, first + count)
-            for condition, (*_, starts) in asked_of(one, seed).items() for start in starts]
+    return [(one, seed, condition, start) for one in LAKES for seed in seeds(one) for condition, (*_, starts) in asked_of(one, seed).items() for start in starts]
+
+
+def seeds(evolution):
+    return [seed for first, count, _ in LAKES[evolution][3] for seed in range(first, first + count)]
 
 
 def asked_of(evolution, seed):

@@ -158,8 +158,12 @@ class Verdicts(unittest.TestCase):
             found.runs = {eel: {name: swims(*ways, simulated=2.0) for name, ways in {**good, **changed}.items()}}
             verdict = found.verdict(eel)
             self.assertEqual((sign, True), (verdict[0], words in verdict[1]), (changed, verdict))
-        found.runs = {eel: {name: swims(*ways, simulated=2.0, **({"stopped": "touched-plane"} if name == "until walls" else {})) for name, ways in good.items()}}
-        self.assertEqual(("–", "it pushes off walls"), found.verdict(eel))
+        for wider, touching, verdict in (
+                (None, ("until walls",), ("–", "it pushes off walls")), ((0.8, 0.9), ("until walls",), ("✔", "swims by every control")),
+                ((0.8, 0.9), ("until walls", "wider"), ("–", "it pushes off walls")), ((0.3, 0.3), ("until walls",), ("–", "37 % of its speed in a wider lake"))):
+            ways = {**good, **({"wider": wider} if wider else {})}
+            found.runs = {eel: {name: swims(*own, simulated=2.0, **({"stopped": "touched-plane"} if name in touching else {})) for name, own in ways.items()}}
+            self.assertEqual(verdict, found.verdict(eel))
 
 
 class Motion(unittest.TestCase):
@@ -243,7 +247,7 @@ class Asked(unittest.TestCase):
 
     def test_gaits_evolved_in_the_lakes_that_are_asked_for(self):
         for name in lake.LAKES:
-            for seed in lake.SEEDS:
+            for seed in lake.seeds(name):
                 config = json.loads((PAGE / f"lake/{name}/seed-{seed}/config.json").read_text(encoding="utf-8"))
                 self.assertEqual((lake.scene(name), lake.tank(name)), (config["scene"], config["overrides"]))
 

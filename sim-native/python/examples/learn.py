@@ -7,14 +7,13 @@ import json
 import os
 import time
 
-import flax.linen as nn
 import numpy as np
 from skrl.agents.jax.ppo import PPO
 from skrl.envs.wrappers.jax import wrap_env
 from skrl.memories.jax import RandomMemory
-from skrl.models.jax import DeterministicMixin, GaussianMixin, Model
 from skrl.trainers.jax import SequentialTrainer
 from skrl.utils import set_seed
+from skrl.utils.model_instantiators.jax import deterministic_model, gaussian_model
 
 from natator.gym import SwimmerVectorEnv
 from natator.policy import Policy, save
@@ -33,30 +32,6 @@ for name, kind, default, text in (
     parser.add_argument(f"--{name}", type=kind, default=default, help=text)
 options = parser.parse_args()
 environment = {"scene": "plane/loach", "actions": "gait", "gait": GAIT, "frames": 6, "flow": [], "target": None, **TASKS[options.task], **options.env}
-
-
-class Actor(GaussianMixin, Model):
-    def __init__(self, **spaces):
-        Model.__init__(self, **spaces)
-        GaussianMixin.__init__(self)
-
-    @nn.compact
-    def __call__(self, inputs, role):
-        return network(inputs, self.num_actions), {"log_std": self.param("log_std", lambda _: np.full(self.num_actions, options.log_std, np.float32))}
-
-
-class Critic(DeterministicMixin, Model):
-    def __init__(self, **spaces):
-        Model.__init__(self, **spaces)
-        DeterministicMixin.__init__(self)
-
-    @nn.compact
-    def __call__(self, inputs, role):
-        return network(inputs, 1), {}
-
-
-def network(inputs, outputs):
-    return nn.Dense(outputs)(nn.tanh(nn.Dense(64)(nn.tanh(nn.Dense(64)(inputs["observations"])))))
 
 
 class Episodes(SwimmerVectorEnv):
@@ -78,7 +53,9 @@ def learn():
     set_seed(options.seed)
     wrapped = wrap_env(env, wrapper="gymnasium")
     spaces = {"observation_space": wrapped.observation_space, "action_space": wrapped.action_space, "device": wrapped.device}
-    models = {"policy": Actor(**spaces), "value": Critic(**spaces)}
+    network = [{"name": "net", "input": "OBSERVATIONS", "layers": [64, 64], "activations": "tanh"}]
+    models = {"policy": gaussian_model(**spaces, initial_log_std=options.log_std, network=network, output="ACTIONS"),
+              "value": deterministic_model(**spaces, network=network, output="ONE")}
     for role, model in models.items():
         model.init_state_dict(role=role)
     agent = PPO(models=models, memory=RandomMemory(memory_size=options.rollouts, num_envs=env.num_envs, device=wrapped.device), **spaces,
@@ -90,7 +67,7 @@ def learn():
     os.makedirs(options.folder, exist_ok=True)
     np.savetxt(f"{options.folder}/curve.csv", env.rows, "%.6g", ",", header="seconds,episodes,mean_return", comments="")
     print(f"{env.taken * env.num_envs} steps in {time.time() - env.begin:.0f} s")
-    layers = [models["policy"].state_dict.params["params"][f"Dense_{k}"] for k in (2, 1, 0)]  # inmost first
+    layers = [models["policy"].state_dict.params["params"]["net_container"][f"layers_{k}"] for k in (0, 2, 4)]  # tanh is between
     save(f"{options.folder}/policy.json", environment, [(layer["kernel"], layer["bias"]) for layer in layers])
 
 
