@@ -34,7 +34,7 @@ class DocumentsTest(unittest.TestCase):
         shutil.rmtree(PACKAGE.parents[1] / "build/learned", ignore_errors=True)  # else a training that is whole says so, and no more
         for command in commands:
             if "ask_tell.py" in command:
-                continue  # needs the program natator: outside_again.py
+                continue  # needs the program natator, which outside_again.py has
             done = subprocess.run([sys.executable, *shlex.split(command)], cwd=PACKAGE.parents[1], capture_output=True, text=True,
                                   env=dict(os.environ))
             self.assertEqual(done.returncode, 0, command + done.stderr)
