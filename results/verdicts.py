@@ -59,7 +59,7 @@ def learning():
     speed = swum[(swum.task == "ahead") & (swum.swimmer == "evolved")].groupby("level").speed.mean()
     yield f"ahead at {ends('ahead', 'speed')} body lengths/s (the evolved gait: {round(speed.min(), 2):g} to {round(speed.max(), 2):g})"
     yield f"reach {ends('turn', 'reached')} of 16 targets"
-    yield f"average {ends('station', 'away')} body lengths from a station in a current"
+    yield f"stay {ends('station', 'away')} body lengths from a station in a current"
 
 
 def optimizers():

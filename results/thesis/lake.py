@@ -38,7 +38,7 @@ UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, ran
 # Who mostly touches the walls of its lake within 2 s, though walls end no run of its evolution, swims in a wider one, too.
 WIDER, WIDER_LAKE, WIDER_STARTS = {("creature-3", 5)}, 1.8, range(109, 113)
 # In words, conditions in which a speed has to last.
-CONTROLS = {"half step": "at half the step", "half cells": "at half the cells", "mirrored": "mirrored", "wider": "in a wider lake"}
+CONTROLS = {"half step": "at half the step", "half cells": "at half the cells and steps", "mirrored": "mirrored", "wider": "in a wider lake"}
 
 
 def tank(evolution, finer=1, steps=1, seconds=2, until_walls=None, length=LENGTH, width=None):
@@ -100,7 +100,7 @@ def record(evolution, seed):
     import natator
     from natator import motion
     own, times, bodies, wakes = gait(evolution, seed), [], [], []
-    width = 2.4 if LAKES[evolution][2] else WIDER_LAKE if (evolution, seed) in WIDER else LAKES[evolution][0]
+    width = 2.4 if LAKES[evolution][2] or (evolution, seed) in WIDER else LAKES[evolution][0]
     overrides = tank(evolution, seconds=3, until_walls=False, length=LENGTH + 0.9, width=width)
     with natator.Stream(scene(evolution), gait=own, start=101, fields=("position",), overrides=overrides) as stream:
         for frame in range(181):
@@ -224,8 +224,8 @@ class Lake:
             return ""
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
         speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % {CONTROLS[condition]}".replace("-", "−") for condition in ("half step", "half cells"))
-        return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, the fastest {one[0].replace('-', ' ')} at " \
-               f"{measured.with_error(speed.mean, speed.interval)} units/s (± over starts; {finer})."
+        return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, {one[0].replace('-', ' ')} at " \
+               f"{measured.with_error(speed.mean, speed.interval)} units/s in {self.lasts(one):.1f} s (± over starts; {finer})."
 
     def cost(self, folder):
         """Evaluations of all evolutions, generations of each, seconds of a GPU, and by what they were."""

@@ -153,7 +153,7 @@ class Verdicts(unittest.TestCase):
         good = {"water": (0.8, 0.82), "resting": (0.0,), "vacuum": (0.0,), "half step": (0.7,), "half cells": (0.9,), "mirrored": (0.78,), "until walls": (0.8, 0.81)}
         for changed, sign, words in (
                 ({}, "✔", "swims"), ({"water": (0.02, 0.03), "until walls": ()}, "✘", "no further"), ({"vacuum": (-0.5,)}, "✘", "in vacuum"),
-                ({"half step": (0.3,)}, "–", "37 % of its speed at half the step"), ({"half cells": (1.3,)}, "–", "161 % of its speed at half the cells"),
+                ({"half step": (0.3,)}, "–", "37 % of its speed at half the step"), ({"half cells": (1.3,)}, "–", "161 % of its speed at half the cells and steps"),
                 ({"mirrored": (0.3,)}, "–", "37 % of its speed mirrored"), ({"water": (0.1, 1.6), "until walls": ()}, "–", "differ too much")):
             found.runs = {eel: {name: swims(*ways, simulated=2.0) for name, ways in {**good, **changed}.items()}}
             verdict = found.verdict(eel)

@@ -108,6 +108,8 @@ class SwimmerEnv(gymnasium.Env):
         unknown = set(options or {}) - {"start", "overrides", "state"}
         if unknown:
             raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start', 'overrides' or 'state'")
+        if (options or {}).get("start") is not None:
+            _at_most(MAX_STARTS - 1, "start", whole("start", options["start"], 0))
         self._stream.require_idle()
         if (options or {}).get("overrides") is not None:
             self._stream.send({"do": "overrides", "overrides": plain("overrides", options["overrides"]), "bodies": self._bodies})

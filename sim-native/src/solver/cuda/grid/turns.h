@@ -29,7 +29,7 @@ public:
 private:
     void begin() {
         std::unique_lock lock(mutex_);
-        const unsigned own = asked_++;
+        const auto own = asked_++;
         changed_.wait(lock, [&] { return own < open_; });
     }
     void end() {
@@ -42,7 +42,7 @@ private:
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    unsigned asked_ = 0, open_;
+    unsigned long long asked_ = 0, open_;
 };
 
 /// What GridRunners of one GPU wait for: with more at a time they are in each other's way.
