@@ -74,7 +74,10 @@ void check_outputs(const RunOptions& options, const Scene& scene) {
     if (!options.trajectory.empty()) require_writable(options.trajectory);
     if (!options.snapshot.empty()) require_writable(options.snapshot);
     if (options.trajectory.empty() || options.snapshot.empty()) return;
-    if (std::filesystem::weakly_canonical(options.trajectory) == std::filesystem::weakly_canonical(options.snapshot))
+    const auto whole = [](const std::string& file) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+    };
+    if (whole(options.trajectory) == whole(options.snapshot))
         throw InputError("--snapshot = " + quoted(options.snapshot) +
                          ": must be another file than that of --trajectory");
 }
@@ -197,18 +200,29 @@ int run_scene(RunOptions& options) {
     check_outputs(options, scene);
     EvaluationOptions evaluation{.precision = precision, .perturbation = perturbation};
     std::optional<TrajectoryCsv> trajectory;
+    std::exception_ptr trajectory_failure, snapshot_failure;  // the run goes on, and its summary is not lost
+    const auto or_fail_later = [](std::exception_ptr& failure, const auto& work) {
+        if (failure) return;
+        try {
+            work();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
     if (!options.trajectory.empty()) {
         evaluation.on_frame = [&](double time, const auto& positions) {
-            using Rows = TrajectoryCsv::Rows;
-            if (!trajectory)
-                trajectory.emplace(options.trajectory, scene.creature ? scene.creature->slices : std::vector<Slice>{},
-                                   options.particles ? Rows::particles : Rows::slices);
-            trajectory->add_frame(time, positions);
+            or_fail_later(trajectory_failure, [&] {
+                using Rows = TrajectoryCsv::Rows;
+                if (!trajectory)
+                    trajectory.emplace(options.trajectory,
+                                       scene.creature ? scene.creature->slices : std::vector<Slice>{},
+                                       options.particles ? Rows::particles : Rows::slices);
+                trajectory->add_frame(time, positions);
+            });
         };
     }
 
     bool snapshot_taken = false;
-    std::exception_ptr snapshot_failure;
     SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at;
@@ -219,11 +233,7 @@ int run_scene(RunOptions& options) {
                              ", the end of the last frame");
         snapshot.take = [&](const Model& model, const Snapshot& taken) {
             snapshot_taken = true;
-            try {
-                write_snapshot(options.snapshot, model, taken);
-            } catch (...) {
-                snapshot_failure = std::current_exception();  // the run goes on, and its summary is not lost
-            }
+            or_fail_later(snapshot_failure, [&] { write_snapshot(options.snapshot, model, taken); });
         };
     }
 
@@ -235,9 +245,10 @@ int run_scene(RunOptions& options) {
                                                                                options.backend, evaluation.execution)
                                                          : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    if (trajectory) trajectory->finish();
+    if (trajectory) or_fail_later(trajectory_failure, [&] { trajectory->finish(); });
     print(summary(options, scene, result, wall.count()) + (options.residuals ? residuals.text() : ""));
-    if (snapshot_failure) std::rethrow_exception(snapshot_failure);
+    for (const std::exception_ptr& failure : {trajectory_failure, snapshot_failure})
+        if (failure) std::rethrow_exception(failure);
     if (result.instability) return unstable;
     if (snapshot.at && snapshot.take && !snapshot_taken) {
         throw std::runtime_error("no snapshot: the run ended at " + number_text(result.simulated) + " s, before --at " +

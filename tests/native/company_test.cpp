@@ -160,6 +160,8 @@ TEST(ModelGroup, ObstaclesThatTouchAreOne) {
     EXPECT_EQ(obstacles({box(1, 0.3), box(1.15, 0.3), box(1.3, 0.3)}), whole);
     EXPECT_EQ(obstacles({box(1, 0.3), box(1.3 + 1e-7, 0.3)}).size(), whole.size());
     EXPECT_EQ(obstacles({box(1, 0.3), box(1.4, 0.3)}).size(), 2 * 5u * 5 * 5);
+    const json standing{{"shape", "box"}, {"centre", {3, 0.3, 0.8}}, {"size", {0.2, 0.6, 0.2}}, {"spacing", 0.1}};
+    EXPECT_EQ(obstacles(json::array({standing})).size(), 3u * 7 * 3);  // on the floor, by rounding beneath it
 }
 
 TEST(ModelGroup, AnObstacleThatIsTooLargeIsNamed) {

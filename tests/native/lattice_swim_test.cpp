@@ -253,6 +253,20 @@ TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
 }
 
 /// So it is as heavy as the water in its place at either.
+/// Some frames before it reaches the body.
+TEST(PlaneFlow, WaterThatExplodesEndsARunAsUnstable) {
+    const json thin{{"duration", 1.8}, {"solver", {{"kinematicViscosity", 1e-6}}}};
+    const Scene scene = load_scene("plane/loach", thin);
+    const Gait gait{2, {0.4, 0.35, 0.3, 0.25, 0.2}, {0, 0.902, 0.804, 0.706, 0.608}};
+    std::vector<Eigen::Vector3d> body;
+    EvaluationOptions options;
+    options.on_frame = [&body](double, const std::vector<Eigen::Vector3d>& places) { body = places; };
+    const Evaluation result = evaluate(scene, gait, options);
+    EXPECT_EQ(result.stopped, StopReason::unstable);
+    EXPECT_EQ(result.fitness(), 0);
+    EXPECT_TRUE(std::ranges::all_of(body, [](const Eigen::Vector3d& place) { return place.allFinite(); }));
+}
+
 TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
     const Scene scene = load_scene("plane/loach", json{{"fluid", {{"disorder", 0}}}});
     const Model coarse = build_model(scene);

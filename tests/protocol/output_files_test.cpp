@@ -72,6 +72,7 @@ TEST_F(OutputFilesTest, AFileThatGetsTooLargeIsAFailureAndLeavesTheOneBefore) {
             EXPECT_NE(outcome.err.find("\"" + file + "\": cannot be written: File too large"), std::string::npos)
                 << outcome.err;
             EXPECT_EQ(first_line(file), "computed before") << signal << option;
+            EXPECT_NE(outcome.out.find("distance"), std::string::npos) << outcome.out;  // what was computed is told
             EXPECT_EQ(files(), 1u) << signal << option;
         }
     }

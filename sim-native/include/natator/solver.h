@@ -237,6 +237,8 @@ public:
     /// The lattice's cells, of scheme `lattice`; at rest before the first update. In the other schemes it has no cells:
     /// water_field.
     WaterField lattice_water() const;
+    /// Calls visit(density, in rest densities; velocity, length/s) for all its cells, one after the other.
+    void visit_lattice_cells(const std::function<void(double, const Eigen::Vector3d&)>& visit) const;
     /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final
     /// positions, in conserving at those of the start of its last substep.
     std::vector<Real> densities();

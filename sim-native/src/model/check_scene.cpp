@@ -119,6 +119,18 @@ void check_obstacle(const Obstacle& obstacle, const Check& check) {
         for (const double edge : obstacle.size) check.above_zero("size", edge);
 }
 
+/// Particles of water do not get through: in scheme `conserving` a wall whose particles are as far apart as they holds
+/// them, and one of 1.1 times that does not; in `flex` one of twice that does, of three times not.
+void check_tight(const Scene& scene, const Obstacle& obstacle, const fields::Place& place) {
+    if (!scene.fluid || scene.scheme == Scheme::lattice) return;
+    const bool flex = scene.scheme == Scheme::flex;
+    const double most = (flex ? 2 : 1) * scene.fluid->spacing;
+    if (obstacle.spacing > most * (1 + 1e-9))
+        fields::refuse(
+            place, obstacle.spacing,
+            "at most " + number_text(most) + (flex ? ", twice" : ",") + " fluid.spacing, or water gets through");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -138,8 +150,10 @@ void check_scene(const Scene& scene) {
     for (std::size_t k = 0; k < scene.companions.size(); ++k)
         check_creature(scene.companions[k].creature, check.at("companions[" + std::to_string(k) + "].creature."));
     fields::check_bodies(scene, place);
-    for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         check_obstacle(scene.obstacles[k], check.at("obstacles[" + std::to_string(k) + "]."));
+        check_tight(scene, scene.obstacles[k], place.key("obstacles").item(k).key("spacing"));
+    }
 }
 
 }  // namespace natator

@@ -137,11 +137,12 @@ std::string place_of(const Model& model, int particle) {
 }
 
 void check_inside_tank(const Scene& scene, const Model& model) {
+    constexpr double rounding = 1e-12;  // what stands on a wall may be behind it by so much
     for (int i = 0; i < model.particles(); ++i) {
         for (std::size_t k = 0; k < model.planes.size(); ++k) {
-            const double distance = model.planes[k].distance(model.position[i]);
-            if (distance >= 0) continue;
             const Eigen::Vector3d& p = model.position[i];
+            const double distance = model.planes[k].distance(p);
+            if (distance >= -rounding * (1 + p.norm())) continue;
             std::ostringstream text;
             text << place_of(model, i) << ": particle at (" << p.x() << ", " << p.y() << ", " << p.z()
                  << ") is outside the tank, " << -distance << " beyond planes[" << k << "]; must be inside all planes";

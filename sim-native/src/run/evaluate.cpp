@@ -90,6 +90,10 @@ public:
     }
 
     const State<Real>& state(std::size_t number) const { return all_[number]->state; }
+    std::optional<Instability> look_at_water(std::size_t number) const {
+        const One& one = *all_[number];
+        return broken_by_water(one.model, one.solver, one.state.time);
+    }
     std::vector<Real> densities(std::size_t number) { return all_[number]->solver.densities(); }
 
 private:
@@ -176,6 +180,8 @@ std::vector<Evaluation> evaluate_as(const Scene& scene, const std::vector<BatchM
         if (!model.companions.empty()) begin[k] = stepper.state(k);
     }
     run_frames(scene, stepper, runs);
+    for (std::size_t k = 0; k < members.size(); ++k)
+        if (!runs[k].instability()) runs[k].instability() = stepper.look_at_water(k);
     std::vector<Evaluation> evaluations;
     for (std::size_t k = 0; k < members.size(); ++k)
         evaluations.push_back(runs[k].finish(begin[k], stepper.state(k), stepper.densities(k)));

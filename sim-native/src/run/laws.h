@@ -77,6 +77,11 @@ private:
 /// rest densities, is too large; else none.
 std::optional<Instability> broken_by_compression(double mean_excess, double time);
 
+/// The law that water in scheme `lattice` breaks, if it does: cells are finite, slower than sound and not compressed or
+/// thinned to a fraction of their volume. What has exploded takes some frames to reach a body. `time`: of the State, s.
+template <class Real>
+std::optional<Instability> broken_by_water(const Model& model, const Solver<Real>& solver, double time);
+
 /// Gravity without its part along periodic axes, length/s^2: what falls along those comes back to where it was.
 Eigen::Vector3d bounded_gravity(const Model& model);
 

@@ -148,6 +148,9 @@ public:
     }
     double cells_per_step() const { return coupling_ ? coupling_->fastest() : 0; }
     WaterField lattice_water() const { return coupling_ ? coupling_->field() : WaterField{}; }
+    void visit_lattice_cells(const std::function<void(double, const Eigen::Vector3d&)>& visit) const {
+        if (coupling_) coupling_->visit_cells(visit);
+    }
     const std::vector<double>& muscle_works() const { return muscle_work_; }
     void clear_muscle_work() { std::fill(muscle_work_.begin(), muscle_work_.end(), 0); }
 
@@ -329,6 +332,13 @@ void Solver<Real>::shift_water(const Eigen::Vector3d& by) {
 template <class Real>
 double Solver<Real>::cells_per_step() const {
     return gpu_ ? gpu_->cells_per_step() : implementation_->cells_per_step();
+}
+
+template <class Real>
+void Solver<Real>::visit_lattice_cells(const std::function<void(double, const Eigen::Vector3d&)>& visit) const {
+    if (!gpu_) return implementation_->visit_lattice_cells(visit);
+    const WaterField water = gpu_->lattice_water();
+    for (std::size_t k = 0; k < water.density.size(); ++k) visit(water.density[k], water.velocity[k].cast<double>());
 }
 
 template <class Real>

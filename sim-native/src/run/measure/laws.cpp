@@ -290,6 +290,27 @@ std::optional<Instability> broken_by_compression(double mean_excess, double time
     return Instability{0, "frame", time, name(Law::compression)};
 }
 
+template <class Real>
+std::optional<Instability> broken_by_water(const Model& model, const Solver<Real>& solver, double time) {
+    if (!model.water_box) return std::nullopt;
+    const double sound = std::numbers::inv_sqrt3 * model.water_box->cell * model.parameters.substeps / model.time_step;
+    Law broken = Law::none;
+    solver.visit_lattice_cells([&](double density, const Eigen::Vector3d& velocity) {
+        if (broken != Law::none) return;
+        if (!std::isfinite(density) || !velocity.allFinite())
+            broken = Law::finite;
+        else if (velocity.norm() > sound)
+            broken = Law::mach;
+        else if (!(std::abs(density - 1) <= physics::max_compression))
+            broken = Law::compression;
+    });
+    if (broken == Law::none) return std::nullopt;
+    return Instability{0, "frame", time, name(broken)};
+}
+
+template std::optional<Instability> broken_by_water(const Model&, const Solver<float>&, double);
+template std::optional<Instability> broken_by_water(const Model&, const Solver<double>&, double);
+
 void LawWatch::restart() {
     if (!parts_->body_alone) parts_->begun = false;
 }

@@ -231,6 +231,18 @@ WaterField Coupling<Real>::field() const {
     return field_of(*model_.water_box, water_.get(), exchange_.step);
 }
 
+template <class Real>
+void Coupling<Real>::visit_cells(const std::function<void(double, const Eigen::Vector3d&)>& visit) const {
+    if (!water_ || exchange_.step == 0) return;
+    const Box& box = *model_.water_box;
+    for (int z = 0; z < box.cells.z(); ++z)
+        for (int y = 0; y < box.cells.y(); ++y)
+            for (int x = 0; x < box.cells.x(); ++x) {
+                const Cell cell = water_->cell({x, y, z});
+                visit(1 + cell.excess, cell.velocity * (box.cell / exchange_.step));
+            }
+}
+
 template class Coupling<float>;
 template class Coupling<double>;
 template std::vector<Vector3<float>> mean_forces(const Model&, const CoupledBodies&,

@@ -83,6 +83,8 @@ public:
     void restore(ByteReader from);
     /// All cells of the water; at rest before the first step.
     WaterField field() const;
+    /// See Solver::visit_lattice_cells.
+    void visit_cells(const std::function<void(double, const Eigen::Vector3d&)>& visit) const;
     /// Begins to sum what the water does to the particles, see Solver::forces.
     void clear_forces();
     std::vector<Vector3<Real>> forces() const;

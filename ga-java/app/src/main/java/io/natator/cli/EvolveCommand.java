@@ -123,6 +123,10 @@ final class EvolveCommand implements Callable<Integer> {
     /** With all seeds, as far as they are not finished. */
     private int evolveAll(EvolutionSettings settings, ExecutionSettings execution) throws InterruptedException {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
+        if (settings.search().seed() > Long.MAX_VALUE - seeds) {
+            throw new InvalidInputException("--seed is " + settings.search().seed() + "; with --seeds " + seeds
+                    + " expected at most " + (Long.MAX_VALUE - seeds));
+        }
         if (outputDir == null || dryRun) {
             throw new InvalidInputException(dryRun ? "--seeds goes without --dry-run; leave one of them out"
                     : "--seeds goes with --output-dir; give both");

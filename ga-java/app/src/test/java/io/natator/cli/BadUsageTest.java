@@ -39,6 +39,7 @@ class BadUsageTest extends FakeSimulatorTest {
             "compare NEVER NEVER --starts 0 --json NEVER|--json goes without --starts 0; leave one of them out",
             "evolve --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
             "evolve --seeds 2|--seeds goes with --output-dir; give both",
+            "evolve --output-dir NEVER --seed 9223372036854775807 --seeds 2|--seed is 9223372036854775807; with --seeds 2 expected at most 9223372036854775805",
             "evolve --output-dir NEVER --seeds 2 --dry-run|--seeds goes without --dry-run; leave one of them out",
             "evolve --output-dir NEVER --seeds 2 --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
             "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000"})
