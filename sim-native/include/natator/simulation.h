@@ -71,7 +71,7 @@ public:
     /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
     /// steering_of_drive. They have no start ramp. Throws InputError as `steer`.
     void drive(const std::vector<double>& values, int swimmer = 0);
-    /// Throws InputError for a Model that must not run here.
+    /// Asked before anything changes: throws InputError for a Model that must not run here.
     using ModelCheck = std::function<void(const Model&)>;
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
