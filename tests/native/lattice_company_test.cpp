@@ -283,6 +283,9 @@ TEST(LatticeCompany, RefusesWhatItHasNot) {
     EXPECT_EQ(refusal("plane/street", obstacle({{"shape", "box"}, {"centre", {2, 0.01, 2}}, {"size", {1, 1, 0.019}}})),
               "scene \"plane/street\": scheme lattice: obstacles[0].size[2] = 0.019: must be at least 0.02, so that "
               "it is a cell (fluid.spacing) across");
+    EXPECT_NE(refusal("plane/street", obstacle({{"shape", "sphere"}, {"centre", {100, 0.01, 2}}, {"radius", 0.2}}))
+                  .find("obstacles[0] is outside the water; must reach into it"),
+              std::string::npos);
     EXPECT_EQ(refusal("plane/street", {{"planes", {{1, 0, 0, 0}}}}),
               "scene \"plane/street\": scheme lattice: fluid.current[0] = 0.5: must be 0 towards a plane, or the "
               "planes across it left out");

@@ -136,6 +136,21 @@ std::string place_of(const Model& model, int particle) {
     return "obstacles";
 }
 
+/// Each reaches into the water of scheme `lattice`, which has no other.
+void check_obstacles_in_water(const Scene& scene, const Model& model) {
+    const WaterBox& box = *model.water_box;
+    const Eigen::AlignedBox3d water(box.corner, box.corner + box.cell * box.cells.cast<double>());
+    auto end = model.position.rbegin();
+    for (std::size_t k = box.obstacles.size(); k-- > 0;) {
+        const auto begin = end;
+        end += box.obstacles[k].particles;
+        if (begin == end ||
+            std::any_of(begin, end, [&](const Eigen::Vector3d& place) { return water.contains(place); }))
+            continue;
+        refuse(scene, "obstacles[" + std::to_string(k) + "] is outside the water; must reach into it");
+    }
+}
+
 void check_inside_tank(const Scene& scene, const Model& model) {
     constexpr double rounding = 1e-12;  // what stands on a wall may be behind it by so much
     for (int i = 0; i < model.particles(); ++i) {
@@ -201,6 +216,7 @@ Model build_model(const Scene& scene) {
     if (model.water_box) {
         for (std::size_t k = 0; k < of_obstacles.size(); ++k)
             model.water_box->obstacles.push_back({scene.obstacles[k], of_obstacles[k]});
+        check_obstacles_in_water(scene, model);
     } else if (scene.fluid) {
         if (!scene.fluid->current.isZero(0))
             refuse(scene, "fluid.current: must be [0, 0, 0] in schemes flex and conserving; lattice has a current");
