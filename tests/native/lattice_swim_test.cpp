@@ -252,7 +252,6 @@ TEST(PlaneFlow, TheLoachSwimsAndStaysInItsPlane) {
     for (const auto& place : swim.state().position) EXPECT_EQ(place.y(), 0.01F);
 }
 
-/// So it is as heavy as the water in its place at either.
 /// Some frames before it reaches the body.
 TEST(PlaneFlow, WaterThatExplodesEndsARunAsUnstable) {
     const json thin{{"duration", 1.8}, {"solver", {{"kinematicViscosity", 1e-6}}}};
@@ -267,6 +266,7 @@ TEST(PlaneFlow, WaterThatExplodesEndsARunAsUnstable) {
     EXPECT_TRUE(std::ranges::all_of(body, [](const Eigen::Vector3d& place) { return place.allFinite(); }));
 }
 
+/// So it is as heavy as the water in its place at either.
 TEST(PlaneFlow, HalfTheCellsKeepItsDepthAndMass) {
     const Scene scene = load_scene("plane/loach", json{{"fluid", {{"disorder", 0}}}});
     const Model coarse = build_model(scene);

@@ -157,8 +157,8 @@ class SwimmerEnv(gymnasium.Env):
             if self.by_gait:
                 self._stream.set_gait(self.gait)
             self._senses = self._stream.sense(flow=self._places, target=self._point)
-        if self._views and (self._state is None or self._views.particles != self._stream.scene["particles"]):
-            self._views = Views(self._stream.scene, self._stream.frame.position)
+        if self._views:
+            self._views.restart(self._stream, self._state is None)
         self._action = self._rest()
         self._began, self._work = self._senses.time, np.nan_to_num(self._senses.work)
         return self._observation(), self._info()
@@ -348,6 +348,12 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             infos = self._add_info(infos, info, i)
         return infos, errors
 
+    def _begin_anew(self, over, infos):
+        """Resets those that are over. Returns infos with theirs, and which have an unstable start. Raises InputError for others."""
+        infos, errors = self._reset(np.flatnonzero(over), lambda i: self.envs[i].begin_reset(), infos)
+        self._refuse({i: error for i, error in errors.items() if not isinstance(error, Unstable)})
+        return infos, np.isin(np.arange(self.num_envs), list(errors))
+
     def step(self, actions):
         """As of gymnasium.vector.VectorEnv: a row of actions for each environment. One whose new start is unstable has ended again, and tries
         another with the next step. Raises InputError."""
@@ -359,9 +365,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
         actions = self._checked(actions)  # all, before anything is begun
         going, first = ~self._over, self.envs[0]
-        infos, errors = self._reset(np.flatnonzero(self._over), lambda i: self.envs[i].begin_reset(), {})
-        self._refuse({i: error for i, error in errors.items() if not isinstance(error, Unstable)})
-        failed = np.isin(np.arange(self.num_envs), list(errors))
+        infos, failed = self._begin_anew(self._over, {})
         values = first.rows_to(self._action, actions)
         self._action[going] = actions[going]
         before, unstable = self._now, self._simulate(values, going)
@@ -384,8 +388,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         for i in np.flatnonzero(again):
             last = {key: value[i] for key, value in told.items()}
             infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": last}, i)
-        infos, errors = self._reset(np.flatnonzero(again), lambda i: self.envs[i].begin_reset(), infos)
-        self._refuse({i: error for i, error in errors.items() if not isinstance(error, Unstable)})
+        infos, _ = self._begin_anew(again, infos)
         return self._observations.copy(), rewards, terminated, truncated, infos
 
     def _simulate(self, values, going):

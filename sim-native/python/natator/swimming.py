@@ -133,10 +133,19 @@ class Views:
     ALONG = 3          #: body lengths that are seen from left to right, at least
 
     def __init__(self, scene, start, all=False):
-        self.particles, self._scene, self._start = scene["particles"], scene, np.asarray(start, float)
         self._pillow, self._pen = (package(f"PIL.{name}", "pillow", "a picture") for name in ("Image", "ImageDraw"))
+        self._all = all
+        self._begin(scene, start)
+
+    def restart(self, stream, at_start):
+        """For another episode of a Stream: its frame is a start, or else stands in for that of another body."""
+        if at_start or len(self._start) != stream.scene["particles"]:
+            self._begin(stream.scene, stream.frame.position)
+
+    def _begin(self, scene, start):
+        self._scene, self._start = scene, np.asarray(start, float)
         along, form = self.ALONG * scene["bodyLength"], 2 * self.SIZE[0] / self.SIZE[1]
-        for companion in (scene.get("companions") or []) if all else []:
+        for companion in (scene.get("companions") or []) if self._all else []:
             ways = np.abs(self._start[companion["body"]] - self._start[scene["body"]].mean(0)).max(0)
             along = max(along, *(2.1 * ways * [1, form, form]))
         self._scale = self.SIZE[0] / along

@@ -130,8 +130,8 @@ class SwimmersEnv(ParallelEnv):
             env._point = None if env.target is None or self._leader[k] is not None else self.np_random.uniform(*env.target)
             senses = self._stream.sense(flow=env._places, target=env._point, swimmer=k)
         self._take(senses)
-        if self._views and (options.get("state") is None or self._views.particles != self._stream.scene["particles"]):
-            self._views = Views(self._stream.scene, self._stream.frame.position, all=True)
+        if self._views:
+            self._views.restart(self._stream, options.get("state") is None)
         self._began, self.agents = senses.time, list(self.possible_agents)
         self._work, self._action = [np.nan_to_num(one.work) for one in self._senses], [env._rest() for env in self._envs]
         return {agent: self._observation(k) for k, agent in enumerate(self.agents)}, {agent: env._info() for agent, env in self._of(self.agents)}

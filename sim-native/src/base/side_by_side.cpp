@@ -23,15 +23,22 @@ struct Calls {
     std::exception_ptr thrown{};
     std::condition_variable left{};
 
-    void make() {
-        for (std::size_t one = next++; one < count; one = next++) work(one);
+    /// Those that nobody has made, until one throws; returns what it threw.
+    std::exception_ptr make() {
+        try {
+            for (std::size_t one = next++; one < count; one = next++) work(one);
+        } catch (...) {
+            return std::current_exception();
+        }
+        return {};
     }
 };
 
 /// Threads that help whoever has calls to make, and sleep in between. There are as many as ever helped at a time.
 class Helpers {
 public:
-    void help(Calls& calls) {
+    /// Makes them, with the caller; returns what one of them threw.
+    std::exception_ptr help(Calls& calls) {
         std::unique_lock lock(mutex_);
         waiting_.push_back(&calls);
         wanted_ += calls.wanted;
@@ -41,19 +48,13 @@ public:
         }
         for (std::size_t k = 0; k < calls.wanted; ++k) more_.notify_one();
         lock.unlock();
-        std::exception_ptr own;
-        try {
-            calls.make();
-        } catch (...) {
-            own = std::current_exception();
-        }
+        const std::exception_ptr own = calls.make();
         lock.lock();
         wanted_ -= calls.wanted;
         std::erase(waiting_, &calls);
         calls.wanted = 0;
         calls.left.wait(lock, [&] { return calls.inside == 0; });
-        if (!own) own = calls.thrown;
-        if (own) std::rethrow_exception(own);
+        return own ? own : calls.thrown;
     }
 
 private:
@@ -65,12 +66,7 @@ private:
             if (--calls.wanted == 0) waiting_.pop_front();
             ++calls.inside;
             lock.unlock();
-            std::exception_ptr thrown;
-            try {
-                calls.make();
-            } catch (...) {
-                thrown = std::current_exception();
-            }
+            const std::exception_ptr thrown = calls.make();
             lock.lock();
             if (thrown) calls.thrown = thrown;
             if (--calls.inside == 0) calls.left.notify_one();
@@ -93,9 +89,8 @@ void side_by_side(std::size_t count, const std::function<void(std::size_t)>& wor
     const std::size_t threads = per_processor * std::max(1u, std::thread::hardware_concurrency());
     Calls calls{.count = count, .work = work};
     const std::size_t most = std::min({count, threads, max_threads});
-    if (most < 2) return calls.make();
-    calls.wanted = most - 1;
-    helpers.help(calls);
+    if (most > 1) calls.wanted = most - 1;
+    if (const std::exception_ptr thrown = most > 1 ? helpers.help(calls) : calls.make()) std::rethrow_exception(thrown);
 }
 
 }  // namespace natator
