@@ -13,7 +13,7 @@ usage: ./setup.sh [--check] [--python | [--cuda] [--browser] [--readers] [--tidy
   --readers also what results/ are made with (pandas, scipy, matplotlib), and what the tests read exports back and
             try the Python client with: pyvista, plyfile, USD, pygltflib,
             pysplashsurf, numpy, gymnasium, pettingzoo, skrl with JAX, pycma, pyribs, tensorboard, MLflow, Optuna, nbclient, and what makes and checks its wheel and the site, from PyPI into .readers (2 GB); the validator of glTF, where npm
-            is; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; doxygen; and
+            is; PyTorch, from Debian, beside Stable-Baselines3; libegl1 and libgl1, which draw; valgrind, which runs the program as on a processor without AVX-512; doxygen; and
             dpkg-dev and gpg, which packages are made with
   --tidy    also what else looks for mistakes: clang-tidy, for .ci/tidy, and clang, a second compiler (cmake --preset clang)
   --wasm    also what makes the simulator of natator page --live: emscripten, and node (cmake --preset wasm)
@@ -128,14 +128,14 @@ readonly python_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/build/pytho
 
 readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
 readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
+readonly torch_list=$(dirname "$readers_folder")/tests/readers/torch.txt  # beside the PyTorch of Debian, whose own needs are there with it
+readonly torch_packages=(python3-torch python3-pandas python3-matplotlib python3-pil)
 
 readonly validator_version=2.0.0-dev.3.10
 readonly uv_version=0.13.9  # installs in half of pip's time
 
-# Whether every package is there in the version that the list names.
-readers_work() {
-    { ! command -v npm >/dev/null || [[ -d $readers_folder/node_modules/gltf-validator ]]; } || return
-    "$readers_folder/bin/python" - "$readers_list" 2>/dev/null <<'PYTHON'
+has_all_of() {  # PYTHON LIST: whether every package is there in the version that the list names
+    "$1" - "$2" 2>/dev/null <<'PYTHON'
 import sys
 from importlib.metadata import version
 for line in open(sys.argv[1]):
@@ -145,12 +145,20 @@ for line in open(sys.argv[1]):
 PYTHON
 }
 
+readers_work() {
+    { ! command -v npm >/dev/null || [[ -d $readers_folder/node_modules/gltf-validator ]]; } &&
+        has_all_of "$readers_folder/bin/python" "$readers_list" && has_all_of "$readers_folder/torch/bin/python" "$torch_list"
+}
+
 install_readers() {
     local cache=$readers_folder/cache  # in the same file system: nothing is copied
     python3 -m venv "$readers_folder" &&
         "$readers_folder/bin/pip" --quiet --disable-pip-version-check install "uv==$uv_version" &&
         "$readers_folder/bin/uv" pip install --quiet --python "$readers_folder/bin/python" --cache-dir "$cache" --compile-bytecode \
-            --requirement "$readers_list" && rm -rf "$cache" || return
+            --requirement "$readers_list" &&
+        "$readers_folder/bin/uv" venv --quiet --clear --python /usr/bin/python3 --system-site-packages "$readers_folder/torch" &&
+        "$readers_folder/bin/uv" pip install --quiet --python "$readers_folder/torch/bin/python" --cache-dir "$cache" --no-deps \
+            --requirement "$torch_list" && rm -rf "$cache" || return
     ! command -v npm >/dev/null ||
         npm install --silent --no-fund --prefix "$readers_folder" "gltf-validator@$validator_version"
 }
@@ -182,7 +190,7 @@ find_missing() {
     $with_readers && ! command -v dpkg-shlibdeps >/dev/null && missing+=(dpkg-dev)
     $with_readers && ! command -v gpg >/dev/null && missing+=(gpg)
     $with_readers && ! command -v doxygen >/dev/null && missing+=(doxygen)
-    for library in libegl1 libgl1; do
+    for library in libegl1 libgl1 "${torch_packages[@]}"; do
         $with_readers && ! installed "$library" && missing+=("$library")
     done
     $with_tidy && ! command -v clang-tidy >/dev/null && missing+=(clang-tidy)

@@ -203,14 +203,26 @@ class ResetTest(unittest.TestCase):
         for one in (vector, alone, fresh, pinned):
             one.close()
 
-    def test_an_ended_program_says_so_each_time(self):
-        vector = natator.gym.SwimmerVectorEnv(2, **ENV)
-        vector.reset(seed=1)
+    def test_an_ended_program_says_whose_it_was_until_a_reset_starts_another(self):
+        vector, other = (natator.gym.SwimmerVectorEnv(2, **ENV) for _ in range(2))
+        began, _ = vector.reset(seed=1)
+        other.reset(seed=1)
         vector._batch._program._process.kill()
-        for call in (lambda: vector.step(np.zeros((2, 2))), lambda: vector.step(np.zeros((2, 2))), lambda: vector.reset(seed=1)):
-            with self.assertRaisesRegex(natator.ProgramError, "natator-sim has ended, exit code -9"):
-                call()
-        vector.close()
+        for _ in range(2):
+            with self.assertRaisesRegex(natator.ProgramError, "^environments 0 to 1: natator-sim has ended, exit code -9"):
+                vector.step(np.zeros((2, 2)))
+        with self.assertRaisesRegex(natator.InputError, "reset_mask"):
+            vector.reset(options={"reset_mask": np.array([True, False])})  # nothing is left of the other
+        np.testing.assert_array_equal(vector.reset(seed=1)[0], began)
+        for env in (vector, other):
+            env.step(np.zeros((2, 2)))
+        vector._batch._program._process.kill()
+        vector._batch._program._process.wait()
+        np.testing.assert_array_equal(vector.reset()[0], other.reset()[0], "the starts that it draws are those of one whose program lived")
+        for env in (vector, other):
+            env.close()
+        with self.assertRaisesRegex(natator.ProgramError, "natator-sim is closed"):
+            vector.reset()
 
     def test_swims_of_unlike_bodies_go_on_by_themselves(self):
         with Batch(TANK, 2, overrides=QUICK) as batch:

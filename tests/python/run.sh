@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the wheel of a built program, installs it as its users do into a folder of its own, and runs the client's tests:
-# run.sh PYTHON SIMULATOR FOLDER [TESTS [PATTERN]]
+# run.sh PYTHON SIMULATOR FOLDER [TESTS [PATTERN [PYTHON that runs them]]]
 set -euo pipefail
 readonly python=$1 simulator=$2 folder=$3 tests=${4:-python} pattern=${5:-*_test.py}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -16,4 +16,4 @@ build=$(dirname "$(dirname "$simulator")")
 NATATOR_WHEEL=$(echo "$folder"/wheel/natator-*.whl)
 "$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --target "$folder/installed" "$NATATOR_WHEEL"
 export NATATOR_WHEEL PYTHONPATH=$folder/installed PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator TQDM_DISABLE=1
-exec "$python" -W error -m unittest discover --start-directory "$root/tests/$tests" --pattern "$pattern"
+exec "${6:-$python}" -W error -m unittest discover --start-directory "$root/tests/$tests" --pattern "$pattern"

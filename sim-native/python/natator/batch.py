@@ -51,6 +51,10 @@ class Batch:
         busy = self._torn or bool(self._asked) or any(swim._unanswered for swim in self.swims)
         stop([self._program], 0 if busy else PATIENCE)
 
+    def has_ended(self):
+        """Whether its program has ended, though nobody closed it."""
+        return self._program.has_ended()
+
     def __enter__(self):
         return self
 

@@ -1,5 +1,7 @@
 """Gymnasium environments of a swimmer in the closed loop; importing this registers "natator/Swimmer-v0"."""
 
+import contextlib
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -7,7 +9,7 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
 from natator.batch import DRIVE, MAX_SWIMS, STEER, UNSTABLE, Batch
-from natator.errors import InputError, Unstable
+from natator.errors import InputError, ProgramError, Unstable
 from natator.gait import as_json, number, rows, wave_in, whole
 from natator.plain import plain
 from natator.stream import SIDES, Senses, Stream, pairs
@@ -273,12 +275,17 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise InputError(f"autoreset_mode = {autoreset_mode!r}: must be one of "
                              f"{', '.join(mode.value for mode in AutoresetMode)}") from None
         own = {key: arguments.pop(key) for key in list(arguments) if key in OF_STREAM}
-        self._batch = Batch(scene, num_envs, threads, fields=fields_of(render_mode), **own)
-        try:
-            self.envs = [SwimmerEnv(scene, render_mode=render_mode, swim=swim, **arguments) for swim in self._batch.swims]
-        except BaseException:
-            self._batch.close()
-            raise
+
+        def start():
+            batch = Batch(scene, num_envs, threads, fields=fields_of(render_mode), **own)
+            try:
+                return batch, [SwimmerEnv(scene, render_mode=render_mode, swim=swim, **arguments) for swim in batch.swims]
+            except BaseException:
+                batch.close()
+                raise
+
+        self._start = start
+        self._batch, self.envs = start()
         self.num_envs, first = num_envs, self.envs[0]
         self.render_mode = first.render_mode
         self.metadata = {**first.metadata, "autoreset_mode": self.autoreset_mode}
@@ -291,11 +298,14 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
     def reset(self, *, seed=None, options=None):
         """seed: one for each, or an int, which gives them seed, seed + 1 … options: those of SwimmerEnv, each for all or a list with
-        one for each; and "reset_mask", booleans: which of them begin anew."""
+        one for each; and "reset_mask", booleans: which of them begin anew. Starts another program where theirs has ended, without the
+        overrides of earlier resets. Raises InputError and ProgramError."""
         seeds = [None if one is None else whole("seed", one, 0) for one in seed] if isinstance(seed, (list, tuple)) else [
             None if seed is None else whole("seed", seed, 0) + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise InputError(f"{len(seeds)} seeds: must be {self.num_envs}, one for each environment")
+        if self._batch.has_ended():
+            self._start_again()
         options = dict(options or {})
         mask = np.asarray(options.pop("reset_mask", np.ones(self.num_envs, bool)))
         if mask.shape != (self.num_envs,) or mask.dtype != bool or self._observations is None and not mask.all():
@@ -305,14 +315,32 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             if isinstance(value, list) and len(value) != self.num_envs:
                 raise InputError(f"options: {key} has {len(value)} values: must be {self.num_envs}, one for each environment")
         own = [{key: value[i] if isinstance(value, list) else value for key, value in options.items()} for i in range(self.num_envs)]
-        taken, errors = self._each(chosen, lambda i: self.envs[i].begin_overrides(own[i]), lambda i: self.envs[i].end_overrides(own[i]))
-        first = self._observations is None
-        infos, refused = self._reset(taken, lambda i: self.envs[i].begin_reset(seeds[i], own[i]), {})
+        with self._named():
+            taken, errors = self._each(chosen, lambda i: self.envs[i].begin_overrides(own[i]), lambda i: self.envs[i].end_overrides(own[i]))
+            first = self._observations is None
+            infos, refused = self._reset(taken, lambda i: self.envs[i].begin_reset(seeds[i], own[i]), {})
         errors |= refused
         if errors and first:
             self._observations = None  # all are to be reset
         self._refuse(errors)
         return self._observations.copy(), infos
+
+    def _start_again(self):
+        """Another program for all environments, whose generators of random numbers stay."""
+        generators = [env.np_random for env in self.envs]
+        self._batch.close()
+        self._batch, self.envs = self._start()
+        for env, generator in zip(self.envs, generators):
+            env.np_random = generator
+        self._over[:], self._observations = False, None
+
+    @contextlib.contextmanager
+    def _named(self):
+        """Says whose program has ended."""
+        try:
+            yield
+        except ProgramError as error:
+            raise ProgramError(f"environments 0 to {self.num_envs - 1}: {error}") from error
 
     def _each(self, chosen, begin, end):
         """Begins something for all of these, then ends it. Returns what `end` gave, and errors, by environment."""
@@ -365,10 +393,11 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {np.flatnonzero(self._over)[0]} has ended: reset it by a reset_mask")
         actions = self._checked(actions)  # all, before anything is begun
         going, first = ~self._over, self.envs[0]
-        infos, failed = self._begin_anew(self._over, {})
-        values = first.rows_to(self._action, actions)
-        self._action[going] = actions[going]
-        before, unstable = self._now, self._simulate(values, going)
+        with self._named():
+            infos, failed = self._begin_anew(self._over, {})
+            values = first.rows_to(self._action, actions)
+            self._action[going] = actions[going]
+            before, unstable = self._now, self._simulate(values, going)
         old, now = (Senses.from_numbers(senses, first.all_actuators) for senses in (before, self._now))
         work, self._work = np.nan_to_num(now.work) - self._work, np.nan_to_num(now.work)
         rewards, there = first.outcome(old, now, work, self._length)
@@ -386,9 +415,10 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             infos[key] = np.where(now_told.reshape(-1, *[1] * (value.ndim - 1)), value, infos.get(key, np.zeros_like(value)))
             infos[f"_{key}"] = now_told | infos.get(f"_{key}", False)
         for i in np.flatnonzero(again):
-            last = {key: value[i] for key, value in told.items()}
+            last = {key: value[i].item() if value.ndim == 1 else value[i] for key, value in told.items()}
             infos = self._add_info(infos, {"final_obs": self._observations[i].copy(), "final_info": last}, i)
-        infos, _ = self._begin_anew(again, infos)
+        with self._named():
+            infos, _ = self._begin_anew(again, infos)
         return self._observations.copy(), rewards, terminated, truncated, infos
 
     def _simulate(self, values, going):

@@ -158,6 +158,10 @@ class Program:
         if self._closed:
             raise ProgramError("natator-sim is closed")
 
+    def has_ended(self):
+        """Whether it is not there any more, though nobody closed it."""
+        return not self._closed and self._process.poll() is not None
+
     def unread(self, why):
         """The error that an answer was not read: that it has ended, or else this text."""
         return ProgramError(why) if self._process.poll() is None else self.ended()

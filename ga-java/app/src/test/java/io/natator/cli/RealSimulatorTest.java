@@ -14,6 +14,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -47,6 +48,28 @@ class RealSimulatorTest extends CommandTest {
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    /** Muscles around control points, of meshes that are no fish; results/pictures has what long evolutions make of them. */
+    @ParameterizedTest
+    @CsvSource({"jellyfish, 2", "torus, 4", "turtle, 6"})
+    void aMeshLearnsToSwim(String body, int actuators) throws IOException {
+        Path run = folder.resolve(body);
+        Path still = folder.resolve("still.json");
+        String zeros = Collections.nCopies(actuators, 0).toString();
+        Files.writeString(still, "{\"frequency\": 1, \"amplitude\": " + zeros + ", \"phase\": " + zeros + "}");
+
+        ok(natator("evolve", "--scene", "pool/" + body, "--optimizer", "cma-es", "--population", "6", "--generations",
+                "2",
+                "--duration", "1", "--seed", "1", "--output-dir", run.toString()));
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
+        ok(natator("evaluate", "--scene", "pool/" + body, "--duration", "1", "--gait", still.toString()));
+        double drift = Json.parse(out.toString(), JsonNode.class).get("distance").asDouble();
+
+        assertThat(best.get("result").get("status").asText()).isEqualTo("ok");
+        assertThat(best.get("distance").asDouble()).as("ahead of a body whose muscles rest")
+                .isGreaterThan(drift + 0.005);
+        assertThat(best.get("vacuum").get("distance").asDouble()).as("without water").isBetween(-1e-3, 1e-3);
     }
 
     @Test
