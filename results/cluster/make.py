@@ -1,6 +1,6 @@
 """How well clusters of 10 to 10 000 executors would be used: the table of the page and its picture, of efficiency.csv.
 
---run simulates that with the times of evaluations in times.csv, two minutes, and measures these where there are none.
+--run simulates that with the times of evaluations in times.csv, some ten minutes, and measures these where there are none.
 
 A driver hands parts of generations to executors, event by event: of the size that they have in mode spark, the generations of a run one after
 another, the run with the fewest parts under way first, as Spark's FAIR scheduling does. Executors fail, some are slow.
@@ -20,7 +20,7 @@ import study
 HERE = pathlib.Path(__file__).parent
 EXECUTORS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000]
 NEAR = 1.03  # a limit is looked for until a simulated number of executors above it is so many times one below it
-REPEATS = 5  # with seeds 1, 2, ...
+REPEATS = 20  # with seeds 1, 2, ...
 ENOUGH = 0.8  # below it a cluster is taken to be badly used
 # s: the longest part, and that below which none is made shorter, as PartSize.java has them
 LONGEST, SHORTEST = 2, 0.05
@@ -107,9 +107,8 @@ class Simulation:
         self.now = self.driver_free = self.useful = 0.0
         self.lost = self.copies = 0
         self.idle = collections.deque()
-        slow = math.floor(cluster.slow_share * executors + 0.5)
-        for i in range(executors):
-            executor = Executor(cluster.slow_factor if i < slow else 1)
+        for _ in range(executors):
+            executor = Executor(cluster.slow_factor if self.random.double() < cluster.slow_share else 1)
             self.idle.append(executor)
             self.plan_failure(executor)
         self.runs = [Run(generations) for _ in range(runs)]

@@ -30,11 +30,12 @@ def mean_turn(turns):
     return value, error
 
 
-def uniform(turns):
-    """The probability of parts of a turn as near to each other, by Rayleigh's test (Zar: Biostatistical Analysis, 1999, eq. 27.4), if all were equally likely."""
-    count = len(turns)
-    length = count * abs(np.mean(np.exp(2j * np.pi * np.array(turns))))
-    return float(np.exp((1 + 4 * count + 4 * (count**2 - length**2)) ** 0.5 - (1 + 2 * count)))
+def by_chance(gaps, phases):
+    """The probability of gaps plus phases, parts of a turn, as near to each other, if the same phases were dealt to the same gaps at random."""
+    random, turn = np.random.default_rng(1), np.exp(2j * np.pi * np.array(gaps))
+    dealt = [phases, *(random.permutation(phases) for _ in range(20_000))]
+    lengths = np.abs(np.exp(2j * np.pi * np.array(dealt)) @ turn)
+    return float(np.mean(lengths >= lengths[0] * (1 - 1e-9)))
 
 
 def at(turns):
@@ -92,15 +93,17 @@ def pairs():
     """The table and by level (gaps over the wavelength plus phase of followers that stay in the wake, their phases, all swims)."""
     made, found = [], {}
     for level, own in grouped(rows("pair"), "n", "steps").items():
-        stay, turns = [], []
+        stay, gaps = [], []
         for row in own:
             gap, aside = end_of(row)
             if "unstable" not in row and aside < ASIDE and gap > TOUCHES:
                 stay.append(row)
-                turns.append((gap / WAVE + row["phase"]) % 1)
+                gaps.append(gap / WAVE)
         costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
-        found[level] = turns, [row["phase"] for row in stay], len(own)
-        made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if (chance := uniform(turns)) > 1e-4 else "below 0.0001", study.with_error(*study.interval([row["speed"] for row in stay]), 2),
+        phases = [row["phase"] for row in stay]
+        turns, chance = [(gap + phase) % 1 for gap, phase in zip(gaps, phases)], by_chance(gaps, phases)
+        found[level] = turns, phases, len(own), chance
+        made.append([LEVELS[level], f"{len(stay)} of {len(own)}", *([at(turns), f"{chance:.1g}" if chance > 1e-4 else "below 0.0001", study.with_error(*study.interval([row["speed"] for row in stay]), 2),
                                                                      percent(*study.interval(costs))] if len(stay) > 2 else [""] * 4)])
     return study.table(["cells and steps", "followers that stay", "gap/λ + phase", "p if none", "speed over ground", "cost of transport against the leader's"], made), found
 
@@ -184,7 +187,7 @@ def make(folder):
     street, held = streets()
     pair, turns = pairs()
     wake, left = wakes()
-    locked = {level: f"{at(own)} ({len(own)} of {count} swims, {phases.count(statistics.mode(phases))} with phase {statistics.mode(phases)})" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, phases, count) in turns.items()}
+    locked = {level: f"{at(own)} ({len(own)} of {count} swims, {phases.count(statistics.mode(phases))} with phase {statistics.mode(phases)}{'' if chance < 0.05 else f'; open: p = {chance:.1g}'})" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, phases, count, chance) in turns.items()}
     answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish; at half the step "
               f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (two swims).\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
