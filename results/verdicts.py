@@ -100,7 +100,7 @@ def quick_evolution():
              for level in json.loads((run / "converge.json").read_text(encoding="utf-8"))["levels"] if level["level"] == "spacing/2"]
     lost = [1 - after / before for before, after in zip(base, half)]
     yield f"of {min(base):.1f} to {max(base):.1f} body lengths/s by 3 seeds"
-    yield f"by {100 * min(lost):.0f} to {100 * max(lost):.0f} % at half the time step, by {100 * min(cells):.0f} to {100 * max(cells):.0f} % at half the cells"
+    yield f"by {100 * min(lost):.0f} to {100 * max(lost):.0f} % at half the time step, by {100 * min(cells):.0f} to {100 * max(cells):.0f} % at half the cells and steps"
 
 
 def record():

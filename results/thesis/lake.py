@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The thesis in resolved water: creatures 1 to 4 evolve in lakes of scheme `lattice`, and what is best swims again from starts that chose nothing.
+"""The thesis in finer water: creatures 1 to 4 evolve in lakes of scheme `lattice`, and what is best swims again from starts that chose nothing.
 
     cd results/thesis; export PYTHONPATH=..:../../sim-native/python NATATOR_MOST_WORK=1e16      # after ./setup.sh --readers, with its Python
     python3 lake.py evolve | sh                             # run folders lake/EVOLUTION/seed-S
@@ -224,7 +224,7 @@ class Lake:
             return ""
         one = max(swim, key=lambda swimmer: self.speeds(swimmer).mean)
         speed, finer = self.speeds(one), ", ".join(f"{100 * self.change(one, condition):+.0f} % {CONTROLS[condition]}".replace("-", "−") for condition in ("half step", "half cells"))
-        return f" In resolved water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, {one[0].replace('-', ' ')} at " \
+        return f" In finer water (`lattice`) the best gaits of {len(swim)} of {len(bests)} creatures do, by fewer controls, {one[0].replace('-', ' ')} at " \
                f"{measured.with_error(speed.mean, speed.interval)} units/s in {self.lasts(one):.1f} s (± over starts; {finer})."
 
     def cost(self, folder):

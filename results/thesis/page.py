@@ -328,7 +328,7 @@ class Page:
             f"{duration:g} s a run." for (water, population, duration), found in alike.items()) or "No evolution is finished."
 
     def lake(self):
-        """What evolved in resolved water, beside the others."""
+        """What evolved in finer water, beside the others."""
         rows = [["creature", "flex", "open water", "lattice", "half step, half cells", "body lengths/s", "Re, St (over a larva's)", "like, by our rule", "vorticity at tail, behind"]]
         for name, motion in self.resolved.motions.items():
             one, creature = self.resolved.best(name), int(name[-1])

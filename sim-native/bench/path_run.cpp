@@ -57,6 +57,33 @@ void widen(Momentum& largest, const Momentum& now) {
     largest.angular_size = std::max(largest.angular_size, now.angular_size);
 }
 
+/// Of movable particles, mass length^2/s^2.
+struct Energy {
+    double kinetic = 0, potential = 0;
+};
+
+template <class Real>
+Energy energy_of(const Model& model, const State<Real>& state) {
+    Energy sum;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (model.inverse_mass[i] == 0) continue;
+        const double mass = 1 / static_cast<double>(model.inverse_mass[i]);
+        sum.kinetic += mass / 2 * state.velocity[i].template cast<double>().squaredNorm();
+        sum.potential -= mass * model.parameters.gravity.dot(state.position[i].template cast<double>());
+    }
+    return sum;
+}
+
+template <class Real>
+void measure_residuals(const Subject& subject, const Model& model, State<Real> state, PathRun& run) {
+    Execution watched;
+    watched.residuals = [&](const Residuals& residuals) {
+        run.spring_residual = residuals.springs.max;
+        run.cluster_residual = residuals.clusters.max;
+    };
+    run.instability = Solver<Real>(model, watched).frame(state, subject.gait);
+}
+
 template <class Real>
 PathRun run_as(const Subject& subject, const Model& model, const State<double>& start) {
     using Clock = std::chrono::steady_clock;
@@ -64,6 +91,8 @@ PathRun run_as(const Subject& subject, const Model& model, const State<double>& 
     State<Real> state = cast_state<Real>(start);
     PathRun run;
     Momentum largest;
+    const Energy begun = energy_of(model, state);
+    double most_kinetic = begun.kinetic;
     int frame = 0;
     for (std::size_t mark = 0; mark < path_times.size(); ++mark) {
         const int last_frame = static_cast<int>(std::lround(path_times[mark] / model.time_step));
@@ -74,13 +103,18 @@ PathRun run_as(const Subject& subject, const Model& model, const State<double>& 
             if (run.instability) return run;
             state.time = (frame + 1) * model.time_step;
             widen(largest, measure_momentum(model, state));
+            most_kinetic = std::max(most_kinetic, energy_of(model, state).kinetic);
         }
         run.places[mark] = tracked_places(model, state);
     }
     measure_density(model, solver, run);
     if (largest.linear_size > 0) run.linear_momentum_error = largest.linear / largest.linear_size;
     if (largest.angular_size > 0) run.angular_momentum_error = largest.angular / largest.angular_size;
+    const Energy ended = energy_of(model, state);
+    if (most_kinetic > 0)
+        run.energy_change = (ended.kinetic + ended.potential - begun.kinetic - begun.potential) / most_kinetic;
     run.hash = state_hash(state);
+    measure_residuals(subject, model, state, run);
     return run;
 }
 

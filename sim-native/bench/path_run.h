@@ -47,6 +47,9 @@ struct PathRun {
     double density_error_max = 0;            ///< kernel and rest density
     double linear_momentum_error = 0;        ///< largest |sum of m v| over the largest sum of |m v|
     double angular_momentum_error = 0;       ///< the same of m (x - c) x v
+    double energy_change = 0;    ///< kinetic and potential, from start to end, over the largest kinetic energy
+    double spring_residual = 0;  ///< the largest, see Residuals, in the last substep of one more frame
+    double cluster_residual = 0;             ///< likewise
     std::uint64_t hash = 0;                  ///< of the final positions and velocities
     std::optional<Instability> instability;  ///< then the rest is void
 };

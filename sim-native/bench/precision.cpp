@@ -25,6 +25,9 @@ Row row_of(Row row, const Subject& subject, const PathRun& run, const PathRun& r
     row.push_back(measured_text(run.density_error_max));
     row.push_back(subject.isolated ? measured_text(run.linear_momentum_error) : "");
     row.push_back(subject.isolated ? measured_text(run.angular_momentum_error) : "");
+    row.push_back(measured_text(run.energy_change));
+    row.push_back(measured_text(run.spring_residual));
+    row.push_back(measured_text(run.cluster_residual));
     row.push_back(hash_text(run.hash));
     return row;
 }
@@ -44,14 +47,14 @@ std::vector<Setting> missing_settings(const PrecisionStudy& study, const std::st
 }  // namespace
 
 Setting reference_setting(Scheme scheme) {
-    return {scheme, Precision::double_precision, 256, 4};
+    return {scheme, Precision::double_precision, 1024, 4};
 }
 
 Row precision_columns() {
     return fields(
         "scene,scheme,precision,substeps,iterations,status,repeats,run_time,path_error_0.1,"
         "path_error_0.25,density_error_mean,density_error_max,linear_momentum_error,"
-        "angular_momentum_error,hash");
+        "angular_momentum_error,energy_change,spring_residual,cluster_residual,hash");
 }
 
 void run_precision_study(const PrecisionStudy& study, ResultTable& table,

@@ -4,6 +4,7 @@ import io.natator.base.InvalidInputException;
 import io.natator.base.Numbers;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.RunReader;
 import io.natator.checkpoint.SwimSample;
 import io.natator.cli.Section.Topic;
@@ -64,7 +65,7 @@ final class CheckCommand implements Callable<Integer> {
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
         Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 controls.duration(), execution));
-        print(all, spec.commandLine().getOut());
+        print(all, Convergence.of(run.directory(), swimmer), spec.commandLine().getOut());
         all.write(run.directory());
         return ExitCode.OK;
     }
@@ -84,7 +85,7 @@ final class CheckCommand implements Callable<Integer> {
     }
 
     /** Prints the table of controls and the verdict. */
-    private static void print(Controls controls, PrintWriter out) {
+    private void print(Controls controls, Convergence convergence, PrintWriter out) {
         out.printf("%-26s%-22s%s%n", "distance in " + Numbers.fixed(controls.duration(), 2) + " s", "mean ± sd",
                 "runs");
         line("in water", controls.water(), out);
@@ -103,7 +104,10 @@ final class CheckCommand implements Callable<Integer> {
         if (controls.underWater() != null) {
             out.printf("%-26s%s %% of the body%n", "under water", Numbers.fixed(100 * controls.underWater(), 0));
         }
-        out.println("verdict: " + ControlVerdict.of(controls).text());
+        if (convergence == null || convergence.halfSpacing() == null) {
+            out.printf("%-26s%s%n", "half the spacing", "not tried: natator converge " + folder);
+        }
+        out.println("verdict: " + ControlVerdict.of(controls, convergence).text());
         out.flush();
     }
 

@@ -14,7 +14,6 @@ import io.natator.config.WeightedObjective;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
 import io.natator.protocol.SimulationRequest;
-import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Measure;
 import io.natator.verdict.Refusals;
@@ -112,7 +111,7 @@ final class RunDocument {
                     + Numbers.significant(best.gait().frequency(), 3) + " beats a second.");
         }
         sentences.add(controls == null ? "Its controls were not run; natator check " + run.directory() + " runs them."
-                : "By its controls it " + ControlVerdict.of(controls).text() + ".");
+                : "By its controls it " + facts.get("controls") + ".");
         if (facts.containsKey("finer steps")) {
             sentences.add("At finer steps: " + facts.get("finer steps") + ".");
         }

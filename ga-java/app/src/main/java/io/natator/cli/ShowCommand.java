@@ -84,7 +84,7 @@ final class ShowCommand implements Callable<Integer> {
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
             if (controls != null) {
-                out.println("  checked     " + ControlVerdict.of(controls).text());
+                out.println("  checked     " + ControlVerdict.of(controls, convergence).text());
             }
             if (convergence != null) {
                 out.println("  finer steps " + ConvergenceText.of(convergence));

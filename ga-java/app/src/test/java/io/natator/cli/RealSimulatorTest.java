@@ -124,7 +124,8 @@ class RealSimulatorTest extends CommandTest {
 
         ok(natator("check", "--starts", "2", run.toString())).contains("in water ", "with resting muscles ",
                 "in vacuum ", "half the time step ",
-                "mirrored ", "other backend             not tried", "under water ", "2 completed", "\nverdict: ");
+                "mirrored ", "other backend             not tried", "under water ", "2 completed",
+                "half the spacing          not tried: natator converge " + run, "\nverdict: ");
         assertThat(out.toString().contains("no acceleration clamp")).isEqualTo(hasClamp);
         Controls controls = Json.read(run.resolve("check.json"), Controls.class, "check");
         assertThat(controls.underWater()).isBetween(0.5, 1.0);

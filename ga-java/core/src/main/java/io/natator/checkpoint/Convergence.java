@@ -9,6 +9,7 @@ import io.natator.body.Swimmer;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.file.AtomicFile;
+import io.natator.protocol.FinerLevel;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Objects;
@@ -48,6 +49,12 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
     /** A speed and how well it is known; null where it is not. */
     @JsonIgnoreProperties(ignoreUnknown = true)
     public record Estimate(double speed, Double error) {
+    }
+
+    /** The level at half the spacing of the particles, or null if it was not run. */
+    public Level halfSpacing() {
+        return levels.stream().filter(one -> one.level().equals(FinerLevel.HALF_SPACING.label())).findFirst()
+                .orElse(null);
     }
 
     /** Requires the gait and its levels. */

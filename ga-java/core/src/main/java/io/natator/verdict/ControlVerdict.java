@@ -2,6 +2,7 @@ package io.natator.verdict;
 
 import io.natator.base.Numbers;
 import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.SwimSample;
 import java.util.ArrayList;
 import java.util.List;
@@ -15,8 +16,12 @@ import java.util.List;
  */
 public record ControlVerdict(Verdict.Kind kind, String text) {
 
-    /** The verdict on a winner. */
-    public static ControlVerdict of(Controls controls) {
+    /**
+     * The verdict on a winner.
+     *
+     * @param convergence how its speed depends on the spacing, or null if that is not known
+     */
+    public static ControlVerdict of(Controls controls, Convergence convergence) {
         Verdict.Length length = Verdict.Length.of(controls.bodyLength());
         double unit = length.unit();
         String name = length.name();
@@ -42,10 +47,22 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2)
                 + " " + name + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
+        Convergence.Level finer = convergence == null ? null : convergence.halfSpacing();
         List<String> doubts = doubts(controls, net, length);
-        return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
+        if (finer != null && (finer.change() == null || !HalfStep.agrees(1, 1 + finer.change().mean()))) {
+            doubts.add(atHalfSpacing(finer));
+        }
+        return doubts.isEmpty()
+                ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls)
+                        + (finer == null ? "" : "; " + atHalfSpacing(finer)))
                 : new ControlVerdict(Verdict.Kind.UNPROVEN,
                         "may swim: " + speed + end + "; but " + String.join("; ", doubts));
+    }
+
+    /** In words, the share of its speed that is left at half the spacing. */
+    private static String atHalfSpacing(Convergence.Level level) {
+        return "at half the spacing " + (level.change() == null ? "no run is stable"
+                : "it has " + percent(1 + level.change().mean()) + " of its speed");
     }
 
     private static List<String> doubts(Controls controls, double net, Verdict.Length length) {

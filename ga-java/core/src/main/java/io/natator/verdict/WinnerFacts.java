@@ -35,10 +35,10 @@ public final class WinnerFacts {
         Map<String, String> facts = new LinkedHashMap<>();
         facts.put("verdict", Verdict.of(best).text() + (best.fresh() == null ? " (one run, not a mean)" : ""));
         Controls controls = Controls.of(run, best.swimmer());
-        if (controls != null) {
-            facts.put("controls", ControlVerdict.of(controls).text());
-        }
         Convergence convergence = Convergence.of(run, best.swimmer());
+        if (controls != null) {
+            facts.put("controls", ControlVerdict.of(controls, convergence).text());
+        }
         if (convergence != null) {
             facts.put("finer steps", ConvergenceText.of(convergence));
         }

@@ -3,8 +3,10 @@ package io.natator.verdict;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.SwimSample;
 import io.natator.protocol.Results;
+import java.util.List;
 import java.util.stream.Stream;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -45,8 +47,8 @@ class ControlVerdictTest {
                 .clampOff(sample(clampOff, 0)).halfStep(sample(half, 0)).mirrored(sample(mirrored, 0))
                 .underWater(underWater));
 
-        assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
-        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+        assertThat(ControlVerdict.of(controls, null).text()).isEqualTo(text);
+        assertThat(ControlVerdict.of(controls, null).kind()).isEqualTo(kind);
     }
 
     /** Of a net way of 0.75 half is 0.375: controls that are known no better than to this side or that of it decide nothing. */
@@ -63,8 +65,30 @@ class ControlVerdictTest {
         Controls controls = Winners.controls(sample(0.74, 0.01)).with(to -> to.vacuum(sample(vacuum, vacuumFrom))
                 .clampOff(sample(clampOff, clampOffFrom)).halfStep(sample(0.7, 0)).mirrored(sample(0.74, 0)));
 
-        assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
-        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+        assertThat(ControlVerdict.of(controls, null).text()).isEqualTo(text);
+        assertThat(ControlVerdict.of(controls, null).kind()).isEqualTo(kind);
+    }
+
+    /** Half the spacing is another water: what swims is to swim there as well, where that is known. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+            "-0.19|SWIMS|; at half the spacing it has 81 % of its speed",
+            "-0.7|UNPROVEN|; but at half the spacing it has 30 % of its speed",
+            "0.6|UNPROVEN|; but at half the spacing it has 160 % of its speed",
+            "|UNPROVEN|; but at half the spacing no run is stable"})
+    void halfTheSpacingHasItsSay(Double change, Verdict.Kind kind, String text) {
+        Convergence.Value none = new Convergence.Value(0.15, 0.01);
+        Convergence convergence = new Convergence(Winners.GAIT, null, 1.25,
+                List.of(new Convergence.Level("base", 4, 0, none, none, null),
+                        new Convergence.Level("spacing/2", change == null ? 0 : 4,
+                                change == null ? 4 : 0, none, none,
+                                change == null ? null : new Convergence.Value(change, 0.01))),
+                null);
+
+        ControlVerdict verdict = ControlVerdict.of(Winners.controls(sample(0.74, 0.01)), convergence);
+
+        assertThat(verdict.text()).endsWith(text);
+        assertThat(verdict.kind()).isEqualTo(kind);
     }
 
     /** As the verdict on a run by itself does; 0.5 body lengths are 0.625. */
@@ -77,8 +101,8 @@ class ControlVerdictTest {
     void aWallIsTold(double way, String stopped, Verdict.Kind kind, String text) {
         Controls controls = Winners.controls(sample(way, 0.01, stopped));
 
-        assertThat(ControlVerdict.of(controls).text()).startsWith(text);
-        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+        assertThat(ControlVerdict.of(controls, null).text()).startsWith(text);
+        assertThat(ControlVerdict.of(controls, null).kind()).isEqualTo(kind);
     }
 
     /** The length of its body is known, though it is the unit. */
@@ -88,7 +112,7 @@ class ControlVerdictTest {
     void aBodyOfLengthOneIsMeasuredByItself(double way, String text) {
         Controls controls = Winners.controls(sample(way, 0.01, "touched-plane")).withBodyLength(1.0);
 
-        assertThat(ControlVerdict.of(controls).text()).contains(text).doesNotContain("units");
+        assertThat(ControlVerdict.of(controls, null).text()).contains(text).doesNotContain("units");
     }
 
     /** Where there is a GPU it must swim on that too; a program without clamp or water is not asked for them. */
@@ -98,8 +122,8 @@ class ControlVerdictTest {
         Controls controls = Winners.controls(sample(0.74, 0.01)).with(to -> to.bodyLength(null)
                 .halfStep(sample(0.7, 0)).mirrored(sample(0.7, 0)).otherBackend(sample(distance, 0)).backend("cuda"));
 
-        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
-        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.188 ± 0.004 units/s")
+        assertThat(ControlVerdict.of(controls, null).kind()).isEqualTo(kind);
+        assertThat(ControlVerdict.of(controls, null).text()).contains(text).contains("0.188 ± 0.004 units/s")
                 .doesNotContain("clamp");
     }
 }

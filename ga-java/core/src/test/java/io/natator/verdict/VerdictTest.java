@@ -112,7 +112,7 @@ class VerdictTest {
                 default -> {
                 }
             }
-        }));
+        }), null);
 
         if (where == null) {
             assertThat(verdict.kind()).as(verdict.text()).isEqualTo(Verdict.Kind.SWIMS);
