@@ -9,7 +9,7 @@ import study
 HERE = pathlib.Path(__file__).parent
 TIME, ERROR = "run_time", "path_error_0.25"
 MARKERS = {"float": "o", "double": "D"}
-REFERENCE = 256  # substeps
+REFERENCE = 1024  # substeps
 FALLS = 5  # from 1 to 32 substeps, which order 1/2 gives
 USES = (("as in the thesis", "flex", 4, 4), ("many swims", "conserving", 2, 4), ("the scenes' own", "conserving", 4, 4),
         ("checking a winner", "conserving", 8, 8), ("accurate", "conserving", 32, 16))
@@ -75,6 +75,16 @@ def momentum(table):
                    for (scheme, precision), rows in own.groupby(["scheme", "precision"], sort=False))
 
 
+def laws(table):
+    """What the scenes' own steps leave of each law, in float."""
+    own = table[(table.precision == "float") & (table.substeps == 4) & (table.iterations == 4)]
+    return study.table(["scene", "scheme", "energy", "density, mean / largest", "springs", "clusters"], [
+        [row.scene, f"`{row.scheme}`", f"{100 * row.energy_change:+.2g} %".replace("-", "−"),
+         f"{short(100 * row.density_error_mean)} / {short(100 * row.density_error_max)} %" if row.density_error_max else "",
+         f"{short(row.spring_residual)}" if row.spring_residual else "", f"{short(row.cluster_residual)}" if row.cluster_residual else ""]
+        for row in own.itertuples()], "<<>>>>")
+
+
 def float_beside_double(table):
     """How far errors in float are from those in double, and what double costs where runs are long enough to be timed."""
     one, other = (table[table.precision == name].set_index(["scene", "scheme", "substeps", "iterations"]) for name in ("float", "double"))
@@ -107,7 +117,7 @@ def swims():
 def make(folder):
     table = pandas.read_csv(HERE / "precision.csv")
     (answer, falls), (of_swims, whole) = scenes(table), swims()
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer.rstrip() + f" {of_swims}\n", scenes=falls, settings=settings(table), momentum=momentum(table), float=float_beside_double(table), swims=whole),
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer.rstrip() + f" {of_swims}\n", scenes=falls, settings=settings(table), momentum=momentum(table), laws=laws(table), float=float_beside_double(table), swims=whole),
                                       encoding="utf-8")
     # a setting that equals the reference has no error, and no place on a logarithmic axis
     table = table[(table.status == "ok") & (table[TIME] > 0) & (table[ERROR] > 0)]

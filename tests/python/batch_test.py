@@ -1,6 +1,8 @@
 """Many swims in one program, saved moments, and environments over both."""
 
+import os
 import unittest
+import unittest.mock
 import warnings
 
 import gymnasium
@@ -223,6 +225,18 @@ class ResetTest(unittest.TestCase):
             env.close()
         with self.assertRaisesRegex(natator.ProgramError, "natator-sim is closed"):
             vector.reset()
+
+    def test_an_interrupted_call_or_a_failed_start_is_begun_again(self):
+        vector = natator.gym.SwimmerVectorEnv(2, **ENV)
+        began, _ = vector.reset(seed=1)
+        with unittest.mock.patch.object(Batch, "hear", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            vector.step(np.zeros((2, 2)))
+        with self.assertRaisesRegex(natator.ProgramError, "interrupted"):
+            vector.step(np.zeros((2, 2)))
+        with unittest.mock.patch.dict(os.environ, NATATOR_SIM="/no/natator-sim"), self.assertRaisesRegex(natator.ProgramError, "/no/natator-sim"):
+            vector.reset(seed=1)
+        np.testing.assert_array_equal(vector.reset(seed=1)[0], began)
+        vector.close()
 
     def test_swims_of_unlike_bodies_go_on_by_themselves(self):
         with Batch(TANK, 2, overrides=QUICK) as batch:

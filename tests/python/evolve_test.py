@@ -132,6 +132,7 @@ class EvolveTest(unittest.TestCase):
                 ({"optimizer": Given([])}, r"^optimizer: ask\(\) gave no candidate: must be a list of at least one$"),
                 ({"optimizer": Given(5)}, r"^optimizer.ask\(\) gave 5: must be a list of lists of numbers$"),
                 ({"optimizer": Given("abc")}, r"^optimizer.ask\(\) gave abc: must be a list of lists of numbers$"),
+                ({"optimizer": "cma-me", "scheme": "flex"}, "^optimizer = cma-me: must be another in scheme flex"),
                 ({"optimizer": 5}, "^optimizer = 5: must be cma-es, map-elites, cma-me, or an object with ask and tell$")]:
             with self.subTest(options), self.assertRaisesRegex(natator.InputError, message) as raised:
                 natator.evolve(**{"creature_or_scene": TANK, "generations": 1, **options})

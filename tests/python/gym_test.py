@@ -34,6 +34,20 @@ class EnvironmentTest(unittest.TestCase):
                 check_env(env.unwrapped)
                 env.close()
 
+    def test_a_reset_that_is_refused_half_way_leaves_nothing_to_go_on_from(self):
+        env = natator.gym.SwimmerEnv(**TANK)
+        env.reset(seed=1)
+        with self.assertRaisesRegex(natator.InputError, "state"):
+            env.reset(options={"state": b"abc"})
+        env.step(np.zeros(2))  # nothing had changed
+        with self.assertRaisesRegex(natator.InputError, "state"):
+            env.reset(options={"overrides": {"creature": {"springStiffness": 0.5}}, "state": b"abc"})
+        with self.assertRaises(gymnasium.error.ResetNeeded):
+            env.step(np.zeros(2))
+        env.reset(seed=1)
+        env.step(np.zeros(2))
+        env.close()
+
     def test_the_same_seed_gives_the_same_bits(self):
         for more in ({}, {"actions": "gait", "target": (1.4, 0.4, 0.6)}, CONSERVING | {"work_cost": 1e-6}):
             with self.subTest(more):

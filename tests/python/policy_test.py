@@ -121,7 +121,8 @@ class PolicyTest(unittest.TestCase):
                                       stdin=subprocess.DEVNULL)
                 self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
                 self.assertIn(why, done.stderr)
-        for text in ("no json", '{"layers": []}', '{"environment": {}, "layers": [{"weights": [[1]]}]}'):
+        for text in ("no json", '{"layers": []}', '{"environment": {}, "layers": []}', '{"environment": {}, "layers": [{"weights": [[1]]}]}',
+                     '{"environment": {}, "layers": [{"weights": [[1, 2]], "bias": [1]}]}', '{"environment": {}, "layers": [{"weights": [[NaN]], "bias": [1]}]}'):
             self.file.write_text(text)
             with self.assertRaisesRegex(natator.InputError, "must be a policy"):
                 Policy(self.file)

@@ -62,6 +62,11 @@ class TensorsTest(unittest.TestCase):
                 TensorVectorEnv(env, device)
         tensors = TensorVectorEnv(env, "cpu")
         tensors.reset(seed=1)
+        tensors.step(torch.zeros((2, 2), dtype=torch.bfloat16))
+        with self.assertRaisesRegex(natator.InputError, "^actions = 0.0: must be 2"):
+            tensors.step(torch.tensor(0.0))
+        with self.assertRaisesRegex(natator.InputError, "^environment 0: "):
+            tensors.step([["0.5", "1"], ["0.5", "1"]])
         with self.assertRaisesRegex(natator.InputError, r"^environment 1: action\[1\] = nan: must be a finite number"):
             tensors.step(torch.tensor([[0, 0], [0, torch.nan]]))
         tensors.close()

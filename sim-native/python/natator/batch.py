@@ -51,9 +51,9 @@ class Batch:
         busy = self._torn or bool(self._asked) or any(swim._unanswered for swim in self.swims)
         stop([self._program], 0 if busy else PATIENCE)
 
-    def has_ended(self):
-        """Whether its program has ended, though nobody closed it."""
-        return self._program.has_ended()
+    def is_lost(self):
+        """Whether its program has ended, though nobody closed it, or a call was interrupted before its answer was read."""
+        return self._program.has_ended() or self._torn and not self._program.is_closed()
 
     def __enter__(self):
         return self

@@ -51,6 +51,8 @@ def evolve(creature_or_scene, generations=10, seed=1, population=12, starts=2, d
         about, actuators = stream.scene, stream.actuators
     if not actuators:
         raise InputError(f'scene "{scene}": must have a creature with actuators')
+    if about["scheme"] == "flex" and optimizer in ("map-elites", "cma-me"):
+        raise InputError(f"optimizer = {optimizer}: must be another in scheme flex, which knows no work of muscles")
     optimizer = make(1 + 2 * actuators)
     half = merged(request.get("overrides"), {"solver": {"substeps": 2 * about["definition"]["solver"]["substeps"]}})
     first, judged, best, history = seed * 1_000_003, [], [], []

@@ -120,6 +120,7 @@ class SwimmerEnv(gymnasium.Env):
         """Waits for it. Raises InputError."""
         if (options or {}).get("overrides") is not None:
             self._stream.receive()
+            self._senses = None  # of another scene, until it begins anew
             self.take_body()
 
     def take_body(self):
@@ -135,11 +136,11 @@ class SwimmerEnv(gymnasium.Env):
         if self._state is None:
             start = options.get("start")
             self._stream.begin_reset(int(self.np_random.integers(self.starts)) if start is None else start)
-        self._point = None
+        self._next_point = None
         if self.target is not None:
-            self._point = self.np_random.uniform(*self.target)
+            self._next_point = self.np_random.uniform(*self.target)
         if self._state is None:
-            self._stream.begin_sense(flow=self._places, target=self._point)  # overrides may have made it forget
+            self._stream.begin_sense(flow=self._places, target=self._next_point)  # overrides may have made it forget
 
     def end_reset(self):
         """Waits for a reset that was begun; returns observation and info."""
@@ -149,7 +150,7 @@ class SwimmerEnv(gymnasium.Env):
                 self._stream.receive()
             except InputError as error:
                 refusal = error
-            self._senses = self._stream.end_sense()  # its answer comes in any case
+            senses = self._stream.end_sense()  # its answer comes in any case
             if refusal:
                 raise refusal
             self._stream.take_first_frame()
@@ -158,7 +159,8 @@ class SwimmerEnv(gymnasium.Env):
             self.take_body()
             if self.by_gait:
                 self._stream.set_gait(self.gait)
-            self._senses = self._stream.sense(flow=self._places, target=self._point)
+            senses = self._stream.sense(flow=self._places, target=self._next_point)
+        self._senses, self._point = senses, self._next_point
         if self._views:
             self._views.restart(self._stream, self._state is None)
         self._action = self._rest()
@@ -304,12 +306,12 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
             None if seed is None else whole("seed", seed, 0) + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise InputError(f"{len(seeds)} seeds: must be {self.num_envs}, one for each environment")
-        if self._batch.has_ended():
+        if self._batch.is_lost():
             self._start_again()
         options = dict(options or {})
         mask = np.asarray(options.pop("reset_mask", np.ones(self.num_envs, bool)))
         if mask.shape != (self.num_envs,) or mask.dtype != bool or self._observations is None and not mask.all():
-            raise InputError(f"options: reset_mask = {mask.tolist()}: must be {self.num_envs} booleans, all true the first time")
+            raise InputError(f"options: reset_mask = {mask.tolist()}: must be {self.num_envs} booleans, all true the first time, and when the program has ended")
         chosen = np.flatnonzero(mask)
         for key, value in options.items():
             if isinstance(value, list) and len(value) != self.num_envs:
@@ -327,9 +329,9 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
     def _start_again(self):
         """Another program for all environments, whose generators of random numbers stay."""
-        generators = [env.np_random for env in self.envs]
-        self._batch.close()
+        generators, lost = [env.np_random for env in self.envs], self._batch
         self._batch, self.envs = self._start()
+        lost.close()
         for env, generator in zip(self.envs, generators):
             env.np_random = generator
         self._over[:], self._observations = False, None
@@ -385,7 +387,7 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
     def step(self, actions):
         """As of gymnasium.vector.VectorEnv: a row of actions for each environment. One whose new start is unstable has ended again, and tries
         another with the next step. Raises InputError."""
-        if np.isscalar(actions) or not hasattr(actions, "__len__"):
+        if not hasattr(actions, "__len__") or getattr(actions, "ndim", 1) == 0:
             raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
         if len(actions) != self.num_envs:
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
@@ -436,15 +438,19 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         if self._observations is None:
             raise gymnasium.error.ResetNeeded("step before the first reset")
         try:
-            actions = np.where(self._over[:, None], 0, np.asarray(actions, float))
-            wrong = np.flatnonzero(~np.all(np.isfinite(actions), axis=1)) if actions.shape == self.action_space.shape else [0]
-        except (TypeError, ValueError):
-            wrong, actions = range(self.num_envs), list(actions)
+            given = np.asarray(actions)
+            if given.dtype.kind not in "iuf":
+                raise TypeError
+            given = np.where(self._over[:, None], 0, given)
+            wrong = np.flatnonzero(~np.all(np.isfinite(given), axis=1)) if given.shape == self.action_space.shape else [0]
+        except (RuntimeError, TypeError, ValueError):  # RuntimeError: of tensors
+            wrong, given = range(self.num_envs), list(actions)
         for i in wrong:
             try:
-                self.envs[i].checked(actions[i])
+                given[i] = self.envs[i].checked(given[i])
             except InputError as error:
                 raise InputError(f"environment {i}: {error}") from None
+        actions = np.asarray(given, float)
         within = np.clip(actions, -1, 1)
         if not self._clipped and np.any(within != actions):
             self._clipped = True

@@ -21,10 +21,15 @@ class Policy:
                 told = json.load(file)
             self.environment = dict(told["environment"])
             self.layers = [(np.array(layer["weights"], float), np.array(layer["bias"], float)) for layer in told["layers"]]
+            sizes = [len(self.layers[0][0]), *(len(bias) for _, bias in self.layers)]
+            if not all(weights.shape == size and np.all(np.isfinite(weights)) and np.all(np.isfinite(bias))
+                       for (weights, bias), size in zip(self.layers, zip(sizes, sizes[1:]))):
+                raise ValueError
         except OSError as error:
             raise InputError(f"{os.fspath(path)}: {error.strerror}") from None
-        except (KeyError, TypeError, ValueError):
-            raise InputError(f'{os.fspath(path)}: must be a policy, {{"environment": …, "layers": [{{"weights": …, "bias": …}}]}}') from None
+        except (IndexError, KeyError, TypeError, ValueError):
+            raise InputError(f'{os.fspath(path)}: must be a policy, {{"environment": …, "layers": [{{"weights": …, "bias": …}}]}}, with layers of finite numbers '
+                             "that fit together") from None
 
     def __call__(self, observations):
         for weights, bias in self.layers[:-1]:

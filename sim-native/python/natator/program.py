@@ -158,6 +158,10 @@ class Program:
         if self._closed:
             raise ProgramError("natator-sim is closed")
 
+    def is_closed(self):
+        """Whether nobody may speak to it any more."""
+        return self._closed
+
     def has_ended(self):
         """Whether it is not there any more, though nobody closed it."""
         return not self._closed and self._process.poll() is not None

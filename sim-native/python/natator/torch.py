@@ -13,7 +13,7 @@ class TensorVectorEnv(gymnasium.vector.VectorWrapper):
     env: of gymnasium.make_vec("natator/Swimmer-v0", …). device: as of torch.device, where tensors are given: observations, num_envs × size, and
     rewards, num_envs, of 32-bit numbers; terminated and truncated, num_envs booleans; and what infos has as arrays, of the same
     types, "final_obs" as one tensor, with rows of 0 for environments that go on. Actions, num_envs × size, and "reset_mask" may lie on
-    any device. The simulator has senses and muscles in the host's memory, so that is where tensors are copied from and to, once a step each.
+    any device, of any type of numbers. Wrappers for arrays go within this one. The simulator has senses and muscles in the host's memory, so that is where tensors are copied from and to, once a step each.
     Raises InputError.
     """
 
@@ -54,4 +54,6 @@ class TensorVectorEnv(gymnasium.vector.VectorWrapper):
 
 def _array(value):
     """A tensor as an array; all else as it is."""
-    return value.detach().cpu().numpy() if isinstance(value, torch.Tensor) else value
+    if not isinstance(value, torch.Tensor):
+        return value
+    return value.detach().to("cpu", torch.bool if value.dtype == torch.bool else torch.float64).numpy()

@@ -116,13 +116,16 @@ class SwimmersEnv(ParallelEnv):
         bodies = [{"actuators": count, "slices": env.least_slices} for count, env in zip(self._all, self._envs)]
         if options.get("overrides") is not None:
             self._stream.ask({"do": "overrides", "overrides": plain("overrides", options["overrides"]), "bodies": bodies})
+            self._senses = None  # of another scene, until it begins anew
         if seed is not None or self.np_random is None:
             self.np_random, _ = gymnasium.utils.seeding.np_random(seed)
         start = int(self.np_random.integers(first.starts))
+        if options.get("start") is not None:
+            start = options["start"]
         if options.get("state") is not None:
             self._stream.restore(options["state"], bodies)
         else:
-            self._stream.reset(options.get("start", start))
+            self._stream.reset(start)
         for k, env in enumerate(self._envs):
             env.take_body()
             if env.by_gait:
