@@ -79,7 +79,7 @@ def laws(table):
     """What the scenes' own steps leave of each law, in float."""
     own = table[(table.precision == "float") & (table.substeps == 4) & (table.iterations == 4)]
     return study.table(["scene", "scheme", "energy", "density, mean / largest", "springs", "clusters"], [
-        [row.scene, f"`{row.scheme}`", f"{100 * row.energy_change:+.2g} %".replace("-", "−"),
+        [row.scene, f"`{row.scheme}`", f"{100 * row.energy_change:+.0f} %".replace("-", "−"),
          f"{short(100 * row.density_error_mean)} / {short(100 * row.density_error_max)} %" if row.density_error_max else "",
          f"{short(row.spring_residual)}" if row.spring_residual else "", f"{short(row.cluster_residual)}" if row.cluster_residual else ""]
         for row in own.itertuples()], "<<>>>>")
