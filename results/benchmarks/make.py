@@ -33,7 +33,7 @@ def peers():
     errors = pandas.read_csv(HERE / "peers.csv").groupby("program").density_error.mean()
     def known(values, digits):
         return study.with_error(values.mean(), values.sem(), digits)
-    flex, conserving, finer, taichi, dfsph = names
+    flex, conserving, finer, taichi, dfsph, _ = names
     answer = (f"**For the thesis' tank a plain position based fluid in Taichi takes {known(rounds[taichi] / rounds[flex], 1)} times the time of `flex`, SPlisHSPlasH's DFSPH "
               f"{known(rounds[dfsph] / rounds[conserving], 1)} times that of `conserving` 2 × 4 at {errors[dfsph] / errors[conserving]:.1f} of its density error, "
               f"{known(rounds[dfsph] / rounds[finer], 1)} times that of 4 × 4 at {errors[dfsph] / errors[finer]:.1f}.**\n")

@@ -245,7 +245,9 @@ class Page:
     def not_converged(self, water):
         changes = [half / base - 1 for base, half in map(self.study.spacings, self.study.evolved(water))]
         known = [abs(one) for one in changes if not math.isnan(one)]
-        return f"{sum(one > 0.1 for one in known)} of {len(known)}" if known else None
+        if not known:
+            return f"{len(changes)} of {len(changes)} break a law" if changes else None
+        return f"{sum(one > 0.1 for one in known)} of {len(known)} change by more than a tenth"
 
     def fastest(self, water):
         swimmers = [one for one in self.study.bests(water) if self.study.swims_by_every_control(one)]
@@ -272,7 +274,7 @@ class Page:
                          + self.resolved.answer() + "**"]
                         + ([f"The fastest that swims is {fastest}."] if fastest else [])
                         + ([f"Without water, where nothing can swim, the evolved gaits move at up to {without}."] if without else [])
-                        + ([f"At half the spacing {finer} change by more than a tenth."] if finer else [])
+                        + ([f"At half the spacing {finer}."] if finer else [])
                         + ["Creatures 3 and 4 are our own drawings; open water is not the thesis', nor are its bodies' masses and stiffness."] + ([f"Of the conclusions that can be tested, {kept}."] if kept else []))
 
     def made(self):

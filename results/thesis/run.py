@@ -174,12 +174,12 @@ class Work:
                 if one.seed or self.study.may_swim(one)]
 
     def finer(self):
-        """What evolved, and what else may swim, at half the spacing of all particles, from three starts."""
+        """What evolved, and what else may swim, at half the spacing of all particles, from eight starts."""
         asked = self.study.convergence.missing(self.to_refine())
         if asked:
             self.say(len(asked), "gaits at half the spacing")
         for request in asked:
-            answer = call([self.simulator, "converge", json.dumps(request), "--starts", 3, "--levels", "spacing/2", "--backend", self.backend,
+            answer = call([self.simulator, "converge", json.dumps(request), "--starts", 8, "--levels", "spacing/2", "--backend", self.backend,
                            *(["--threads", self.workers] if self.backend == "cpu" else [])], (0, UNSTABLE))
             self.study.convergence.add({"program": self.program, "backend": self.backend, "request": request, "answer": json.loads(answer)})
 
