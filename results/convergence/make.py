@@ -1,8 +1,9 @@
-"""The page's answer and tables, of gaits.csv, creature-2.json and bending.csv."""
+"""The page's answer and tables, of gaits.jsonl, creature-2.json and bending.csv."""
 import csv
 import json
 import pathlib
 
+from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
@@ -17,13 +18,14 @@ def rows(name):
 
 def sample():
     """What half the spacing does to gaits that nobody chose."""
-    told = []
-    for gravity in ("3", "10"):
-        changes = [float(row[f"distance_0.05_gravity_{gravity}"]) / float(row[f"distance_0.1_gravity_{gravity}"]) - 1 for row in rows("gaits.csv")]
-        told.append((sum(abs(one) < 0.1 for one in changes), len(changes), *(f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes), max(changes)))))
-    (few, count, least, most), (fewer, _, low, high) = told
-    return f"**Of {count} gaits, one start each, {few} change by less than 10 % at half the spacing under the scene's gravity of 3 ({least} to {most} %), {fewer} under gravity 10 " \
-           f"({low} to {high} %).**\n"
+    told, found = [], [json.loads(line) for line in (HERE / "gaits.jsonl").read_text(encoding="utf-8").splitlines()]
+    for gravity in (3, 10):
+        changes = [(level["change"]["mean"], stats.t.ppf(0.975, level["runs"] - 1) * level["change"]["error"]) for one in found if one["of"][0] == gravity
+                   for level in one["levels"] if level["level"] == "spacing/2"]
+        least, most = (f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes)[0], max(changes)[0]))
+        told.append(f"{sum(abs(mean) + error < 0.1 for mean, error in changes)} change by less than 10 % and {sum(abs(mean) - error > 0.1 for mean, error in changes)} by more "
+                    f"under gravity {gravity} ({least} to {most} %)")
+    return f"**Of {len(changes)} gaits' speeds at half the spacing, four starts each, {', '.join(told)}, for sure (95 %).**\n"
 
 
 def levels(found):
