@@ -233,6 +233,8 @@ class ResetTest(unittest.TestCase):
             vector.step(np.zeros((2, 2)))
         with self.assertRaisesRegex(natator.ProgramError, "interrupted"):
             vector.step(np.zeros((2, 2)))
+        with unittest.mock.patch.object(Batch, "hear", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            vector.reset(seed=1)
         with unittest.mock.patch.dict(os.environ, NATATOR_SIM="/no/natator-sim"), self.assertRaisesRegex(natator.ProgramError, "/no/natator-sim"):
             vector.reset(seed=1)
         np.testing.assert_array_equal(vector.reset(seed=1)[0], began)

@@ -48,12 +48,15 @@ class Batch:
 
     def close(self):
         """Ends what is under way, too."""
-        busy = self._torn or bool(self._asked) or any(swim._unanswered for swim in self.swims)
-        stop([self._program], 0 if busy else PATIENCE)
+        stop([self._program], 0 if self._is_busy() else PATIENCE)
+
+    def _is_busy(self):
+        """Whether an answer is still to come."""
+        return self._torn or bool(self._asked) or any(swim._unanswered for swim in self.swims)
 
     def is_lost(self):
         """Whether its program has ended, though nobody closed it, or a call was interrupted before its answer was read."""
-        return self._program.has_ended() or self._torn and not self._program.is_closed()
+        return self._program.has_ended() or self._is_busy() and not self._program.is_closed()
 
     def __enter__(self):
         return self
@@ -110,7 +113,7 @@ class Batch:
         columns, drives or, with kind STEER, scales and offsets. Returns what came of each, STEPPED or UNSTABLE, 0 for the
         others, and its senses, a row of numbers for each (Senses.from_numbers). All must have as many. Raises InputError, and those that
         are not named in it have stepped."""
-        if self._torn or self._asked or any(swim._unanswered for swim in self.swims):
+        if self._is_busy():
             raise self._program.unread("a step was begun, or a call interrupted, before its answer was read")
         for swim in itertools.compress(self.swims, which):
             if swim._framed:

@@ -10,11 +10,11 @@ from natator.errors import InputError
 class TensorVectorEnv(gymnasium.vector.VectorWrapper):
     """A vector environment of natator.gym whose actions and observations are tensors.
 
-    env: of gymnasium.make_vec("natator/Swimmer-v0", …). device: as of torch.device, where tensors are given: observations, num_envs × size, and
-    rewards, num_envs, of 32-bit numbers; terminated and truncated, num_envs booleans; and what infos has as arrays, of the same
-    types, "final_obs" as one tensor, with rows of 0 for environments that go on. Actions, num_envs × size, and "reset_mask" may lie on
-    any device, of any type of numbers. Wrappers for arrays go within this one. The simulator has senses and muscles in the host's memory, so that is where tensors are copied from and to, once a step each.
-    Raises InputError.
+    env: of gymnasium.make_vec("natator/Swimmer-v0", …), also in wrappers for arrays. device: as of torch.device, where tensors
+    are given: observations, num_envs × size, and rewards, num_envs, of 32-bit numbers; terminated and truncated, num_envs booleans;
+    and what infos has as arrays, of the same types, "final_obs" as one tensor, with rows of 0 for environments that go on.
+    Actions, num_envs × size, and "reset_mask" may lie on any device, actions of any type of numbers. Senses are made and muscles
+    driven in the host's memory: tensors are copied from and to it with each step. Raises InputError.
     """
 
     def __init__(self, env, device="cuda"):
