@@ -43,14 +43,14 @@ struct PathRun {
     using Places = std::vector<Eigen::Vector3d>;
     std::array<Places, path_times.size()> places;  ///< of the tracked particles at path_times, length
     double seconds = 0;                            ///< wall time of the frames alone
-    double density_error_mean = 0;           ///< of max(rho - 1, 0) over the fluid at the end, in the scheme's own
-    double density_error_max = 0;            ///< kernel and rest density
-    double linear_momentum_error = 0;        ///< largest |sum of m v| over the largest sum of |m v|
-    double angular_momentum_error = 0;       ///< the same of m (x - c) x v
-    double energy_change = 0;    ///< kinetic and potential, from start to end, over the largest kinetic energy
-    double spring_residual = 0;  ///< the largest, see Residuals, in the last substep of one more frame
-    double cluster_residual = 0;             ///< likewise
-    std::uint64_t hash = 0;                  ///< of the final positions and velocities
+    double density_error_mean = 0;      ///< of max(rho - 1, 0) over the fluid at the end, in the scheme's own
+    double density_error_max = 0;       ///< kernel and rest density
+    double linear_momentum_error = 0;   ///< largest |sum of m v| over the largest sum of |m v|
+    double angular_momentum_error = 0;  ///< the same of m (x - c) x v
+    double energy_change = 0;           ///< kinetic and potential, from start to end, over the largest kinetic energy
+    double spring_residual = 0;         ///< the largest, see Residuals, in the last substep of one more frame
+    double cluster_residual = 0;        ///< likewise
+    std::uint64_t hash = 0;             ///< of the final positions and velocities
     std::optional<Instability> instability;  ///< then the rest is void
 };
 

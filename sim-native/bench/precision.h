@@ -19,13 +19,14 @@ struct PrecisionStudy {
     int repeats = 3;  ///< of the time measurement
 };
 
-/// Setting of the reference: 1024 substeps x 4 iterations in double. Scheme `conserving` converges to the same path with
-/// any number of iterations; `flex` has no limit, since its stiffness grows with substeps and iterations.
+/// Setting of the reference: 1024 substeps x 4 iterations in double. Scheme `conserving` converges to the same path
+/// with any number of iterations; `flex` has no limit, since its stiffness grows with substeps and iterations.
 Setting reference_setting(Scheme scheme);
 
 /// Columns scene, scheme, precision, substeps, iterations (these are the key); status (ok, unstable); repeats;
 /// run_time (s, median); path_error_0.1, path_error_0.25 (length, see path_error); density_error_mean,
-/// density_error_max; linear_momentum_error, angular_momentum_error (only of isolated bodies); energy_change, spring_residual, cluster_residual; hash. See PathRun.
+/// density_error_max; linear_momentum_error, angular_momentum_error (only of isolated bodies); energy_change,
+/// spring_residual, cluster_residual; hash. See PathRun.
 Row precision_columns();
 inline constexpr std::size_t precision_key_columns = 5;
 
