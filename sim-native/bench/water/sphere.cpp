@@ -119,7 +119,8 @@ double expected_speed(double excess, double sphere_diameter) {
             0.75 / sphere_diameter * passing * passing * drag_of_sphere(passing * sphere_diameter / release_viscosity);
         for (std::size_t k = 0; k < changes.size(); ++k)
             held_back += of_history * changes[k] *
-                         history_of_drag(time - (k + 0.5) * step, speed, sphere_diameter, release_viscosity);
+                         history_of_drag(time - (static_cast<double>(k) + 0.5) * step, speed, sphere_diameter,
+                                         release_viscosity);
         // The change of this step acts on itself: by the integral of Basset's part over it.
         const double own =
             of_history * 2 * std::sqrt(step) * sphere_diameter / std::sqrt(4 * std::numbers::pi * release_viscosity);
