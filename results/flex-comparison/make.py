@@ -124,7 +124,7 @@ def summary(table):
         for scene, own in table[table.medium == medium].groupby("scene"):
             off, stated, size = own.difference, own.ours_as_stated - own.flex_mean, np.linalg.norm(own.flex_mean)
             within = ", ".join(f"≤ {n} in {(own.difference_in_spreads.abs() <= n).sum()}" for n in (1, 2, 3))
-            middle = off.abs().sort_values().iloc[len(off) // 2]
+            middle = off.abs().median()
             text += (f"- {scene} in {medium}: {len(own)} comparisons; |Δ| {within}; absolute difference of the speeds: median {middle:.4f}, "
                      f"largest {off.abs().max():.4f}; {100 * np.linalg.norm(off) / size:.1f} % of the speeds, as stated "
                      f"{100 * np.linalg.norm(stated) / size:.1f} %; the run as stated is nearer than the mean in "

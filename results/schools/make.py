@@ -71,7 +71,7 @@ def streets():
         made.append([f"{diameter} wide, {behind} behind" if diameter else "none", LEVELS[tuple(level)], f"{len(own)} of {of}", f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}",
                      percent(ratio - 1, spread) if diameter else "", study.fixed(statistics.fmean(row["scale"] for row in own), 2),
                      study.fixed(statistics.fmean(abs(row["z"] - WIDTH / 2) for row in own), 2)])
-    return study.table(["cylinder", "cells and steps", "swims that stay", "work/s", "against none", "amplitudes", "aside"], made, "<<>>>>>"), found
+    return study.table(["cylinder", "cells and steps", "swims that break no law", "work/s", "against none", "amplitudes", "aside"], made, "<<>>>>>"), found
 
 
 def of_streets(found):

@@ -52,7 +52,8 @@ def make(folder):
            for (first, second), own in pairs.groupby(["axis", "second_axis"], sort=False)]
     broken = table[table.status != "ok"].scheme.value_counts()
     finite = "No value was infinite. " if not (table.law == "finite").any() else ""
-    answer = f"**Of {len(table)} runs {broken.get('flex', 0)} in `flex` and {broken.get('conserving', 0)} in `conserving` break a law.** {finite}" \
+    count = table.scheme.value_counts()
+    answer = f"**{broken.get('flex', 0)} of {count['flex']} runs in `flex` and {broken.get('conserving', 0)} of {count['conserving']} in `conserving` break a law.** {finite}" \
              + f"Double and float differ in that at {otherwise} of {len(both)} points. {of_lattice}\n"
     (folder / "README.md").write_text(study.filled(
         HERE / "README.md", answer=answer, axes=study.table(["axis", "range", *SCHEMES], [row for row in rows if row[2:] != ["–", "–"]], "<<<<")
