@@ -7,6 +7,7 @@ from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
+CHOSEN = [2, 0.42, 0.35]  # as request.json has it, because it converges
 SETTINGS = ((4, 8), (4, 64), (8, 8), (16, 8), (32, 8), (8, 32), (32, 32))
 BODIES = (("1", "0.6", "0.4", "1"), ("2", "0.6", "0.4", "1"), ("2", "0.6", "0.4", "2"), ("2", "0.9", "1", "1"), ("2", "0.2", "1", "1"))
 
@@ -19,13 +20,14 @@ def rows(name):
 def sample():
     """What half the spacing does to gaits that nobody chose."""
     told, found = [], [json.loads(line) for line in (HERE / "gaits.jsonl").read_text(encoding="utf-8").splitlines()]
+    found = [one for one in found if one["of"][1:] != CHOSEN]
     for gravity in (3, 10):
         changes = [(level["change"]["mean"], stats.t.ppf(0.975, level["runs"] - 1) * level["change"]["error"]) for one in found if one["of"][0] == gravity
                    for level in one["levels"] if level["level"] == "spacing/2"]
         least, most = (f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes)[0], max(changes)[0]))
         told.append(f"{sum(abs(mean) + error < 0.1 for mean, error in changes)} change by less than 10 % and {sum(abs(mean) - error > 0.1 for mean, error in changes)} by more "
                     f"under gravity {gravity} ({least} to {most} %)")
-    return f"**Of {len(changes)} gaits' speeds at half the spacing, four starts each, {', '.join(told)}, for sure (95 %).**\n"
+    return f"**Of the speeds of {len(changes)} gaits that nobody chose, at half the spacing, four starts each, {', '.join(told)}, for sure (95 %).**\n"
 
 
 def levels(found):

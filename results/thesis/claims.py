@@ -241,7 +241,7 @@ def activation(study, water):
 
     yield by_creatures("potentiation (p = 4) with 1 − Δφ swims backwards", ((POWERS[-1], 0.25, False), (POWERS[-1], 0.75, False)), turns)
     yield by_creatures("potentiation (p = 4) also accelerates in vacuum", ((1.0, 0.25, True), (POWERS[-1], 0.25, True)),
-                       lambda sine, powered: abs(powered.mean) > STILL)
+                       lambda sine, powered: abs(powered.mean) > STILL if max(abs(sine.mean), abs(powered.mean)) > STILL else None)
     yield by_creatures("(found here) there the sine (p = 1) moves further", ((1.0, 0.25, True), (POWERS[-1], 0.25, True)),
                        lambda sine, powered: abs(sine.mean) > abs(powered.mean) if abs(sine.mean) > STILL else None, True)
     yield by_creatures("and in vacuum backwards with 1 − Δφ", ((POWERS[-1], 0.25, True), (POWERS[-1], 0.75, True)),

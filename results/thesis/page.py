@@ -16,6 +16,7 @@ import study
 from measured import FISH, Sample, error_text, fixed, percent, with_error
 from plan import GAITS, WATERS
 
+OUR_DRAWINGS = (3, 4)  # creatures of which the thesis has no measures
 WORDS = {"flex": "flex", "open-water": "open water"}
 MARK = "<!-- answer -->"
 BOUND = 0.02  # from here on a gene counts as being on its bound, as a share of its range
@@ -233,7 +234,9 @@ class Page:
 
     def swimming(self, subjects):
         judged = [one for one in subjects if self.study.verdict(one)]
-        return f"{sum(map(self.study.swims_by_every_control, judged))} of {len(judged)}" if judged else None
+        swim = [one for one in judged if self.study.swims_by_every_control(one)]
+        ours = swim and len(swim) < len(judged) and all(one.creature in OUR_DRAWINGS for one in swim)
+        return f"{len(swim)} of {len(judged)}{' (of bodies drawn by us)' if ours else ''}" if judged else None
 
     def published(self, water):
         """The thesis' own gaits, without what is made of them here."""
