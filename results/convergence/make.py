@@ -25,9 +25,9 @@ def sample():
         changes = [(level["change"]["mean"], stats.t.ppf(0.975, level["runs"] - 1) * level["change"]["error"]) for one in found if one["of"][0] == gravity
                    for level in one["levels"] if level["level"] == "spacing/2"]
         least, most = (f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes)[0], max(changes)[0]))
-        told.append(f"{sum(abs(mean) + error < 0.1 for mean, error in changes)} change by less than 10 % and {sum(abs(mean) - error > 0.1 for mean, error in changes)} by more "
-                    f"under gravity {gravity} ({least} to {most} %)")
-    return f"**Of the speeds of {len(changes)} gaits that nobody chose, at half the spacing, four starts each, {', '.join(told)}, for sure (95 %).**\n"
+        told.append(f"{sum(abs(mean) + error < 0.1 for mean, error in changes)} surely (95 %) change by less than 10 % and {sum(abs(mean) - error > 0.1 for mean, error in changes)} by more "
+                    f"under gravity {gravity} (means {least} to {most} %)")
+    return f"**Of the speeds of {len(changes)} gaits that nobody chose, at half the spacing, four starts each, {', '.join(told)}.**\n"
 
 
 def levels(found):

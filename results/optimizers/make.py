@@ -146,7 +146,7 @@ def at_half_step(scene):
     fresh = [run["best"]["fresh"]["halfStep"] for runs in scene.own.values() for run in runs]
     whole, swims = sum(one["stopped"].get("completed", 0) for one in fresh), sum(one["runs"] for one in fresh)
     if whole < 0.9 * swims:
-        return f"; at half the time step {swims - whole} of {swims} swims end at a plane, which are not compared"
+        return f"; at half the time step, where {swims - whole} of {swims} swims end at a plane, it is not compared"
     found = study.pairs({name: [run["best"]["fresh"]["halfStep"]["distance"]["mean"] for run in runs] for name, runs in scene.own.items()})
     alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if row["verdict"].startswith("no difference")]
     if len(alike) == len(found):

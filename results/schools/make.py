@@ -53,8 +53,13 @@ def grouped(all_rows, *keys):
     return dict(sorted(groups.items()))
 
 
+def aside(own):
+    """The mean distance of swims from the axis, units."""
+    return statistics.fmean(abs(row["z"] - WIDTH / 2) for row in own)
+
+
 def streets():
-    """The table, and by place, of those that were held at all levels, by level (work over that without a cylinder less 1, its 95 %, swims that held it, all)."""
+    """The table, and by place, of those that were held at all levels, by level (work over that without a cylinder less 1, its 95 %, swims that held it, how far they are aside)."""
     groups = grouped(rows("street"), "diameter", "behind", "n", "steps")
     held = {key: [row for row in own if "power" in row and "unstable" not in row] for key, own in groups.items()}
     made, found = [], {}
@@ -67,10 +72,10 @@ def streets():
         spread = ratio * ((error / power) ** 2 + (base_error / base) ** 2) ** 0.5
         of = len(groups[diameter, behind, *level])
         if diameter:
-            found.setdefault((diameter, behind), {})[tuple(level)] = ratio - 1, spread, len(own), of
+            found.setdefault((diameter, behind), {})[tuple(level)] = ratio - 1, spread, len(own), aside(own)
         made.append([f"{diameter} wide, {behind} behind" if diameter else "none", LEVELS[tuple(level)], f"{len(own)} of {of}", f"{study.fixed(power, 0)} ± {study.fixed(error, 0)}",
                      percent(ratio - 1, spread) if diameter else "", study.fixed(statistics.fmean(row["scale"] for row in own), 2),
-                     study.fixed(statistics.fmean(abs(row["z"] - WIDTH / 2) for row in own), 2)])
+                     study.fixed(aside(own), 2)])
     return study.table(["cylinder", "cells and steps", "swims that break no law", "work/s", "against none", "amplitudes", "aside"], made, "<<>>>>>"), found
 
 
@@ -80,13 +85,20 @@ def of_streets(found):
     numbers = ", ".join(f"{words}{percent(-levels[level][0], levels[level][1])} ({levels[level][2]} swims)"
                         for level, words in (((1, 1), ""), ((1, 2), "at half the step "), ((2, 1), "in half the cells ")) if level in levels)
     sure = all(change + error < 0 for change, error, _, _ in levels.values())
-    return f"A loach that holds station {behind} units behind a cylinder {diameter} wide works less than in free water by {numbers}{'' if sure else ': open'} (the surest of {len(found)} places)."
+    asides = [one[3] for one in levels.values()]
+    return f"A loach that holds station {behind} units behind a cylinder {diameter} wide, {min(asides):.1f} to {max(asides):.1f} aside of its axis, works less than in free water by {numbers}{'' if sure else ': open'} (the surest of {len(found)} places)."
 
 
 def end_of(row):
     """The gap, units, and how far the follower is aside, body lengths: means of the last 2 s."""
     before, aside = np.mean(row["apart"][-5:], axis=0)[1:]
     return before - LENGTH, abs(aside) / LENGTH
+
+
+def is_steady(row):
+    """Whether the gap has come to rest: in the last 2 s it changes by less than half a wavelength."""
+    gaps = [before for _, before, _ in row["apart"][-5:]]
+    return max(gaps) - min(gaps) < WAVE / 2
 
 
 def pairs():
@@ -96,7 +108,7 @@ def pairs():
         stay, gaps = [], []
         for row in own:
             gap, aside = end_of(row)
-            if "unstable" not in row and aside < ASIDE and gap > TOUCHES:
+            if "unstable" not in row and aside < ASIDE and gap > TOUCHES and is_steady(row):
                 stay.append(row)
                 gaps.append(gap / WAVE)
         costs = [row["power"] / (SPEED + row["speed"]) / (row["leader"]["power"] / (SPEED + row["leader"]["speed"])) - 1 for row in stay]
