@@ -16,7 +16,7 @@ os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 import genesis as gs  # noqa: E402: it counts the cores
 import numpy as np  # noqa: E402
 
-COUNT, SPACING, WALL, FRAMES = (50, 17, 7), 0.09, 0.05, 60  # its third axis is up
+COUNT, SPACING, FRAMES = (50, 17, 7), 0.09, 60  # its third axis is up
 
 
 def density_error(places):

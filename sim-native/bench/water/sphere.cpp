@@ -104,7 +104,7 @@ constexpr double release_width = 1.4 * water_length, release_height = 1.8 * wate
 constexpr double counted = 2;  ///< s, at the end
 
 /// The same by Schiller and Naumann's drag, and the history of its drag (Mei and Adrian), on a sphere that carries its
-/// added mass along: speed over the last `counted`. Half the step changes it by 0.4 %.
+/// added mass along: speed over the last `counted`. Half the step changes it by 0.2 %.
 double expected_speed(double excess, double sphere_diameter) {
     constexpr double step = 4e-3;
     const double of_history = 18 * release_viscosity / (sphere_diameter * sphere_diameter);
