@@ -86,14 +86,13 @@ def laws(table):
 
 
 def float_beside_double(table):
-    """How far errors in float are from those in double, and what double costs where runs are long enough to be timed."""
+    """How far errors in float are from those in double."""
     one, other = (table[table.precision == name].set_index(["scene", "scheme", "substeps", "iterations"]) for name in ("float", "double"))
     off = (one[ERROR] / other[ERROR] - 1).abs()[one[ERROR] > 1e-3]
     far = off.groupby(["scene", "scheme"]).max()
-    times = (other[TIME] / one[TIME])[one[TIME] > 0.01].groupby("scheme").median()
     return (f"- *Float* errors above 0.001 differ from double's by {off.median():.1g} of them in the median; by more than a tenth in some of "
             + ", ".join(f"{scene} ({scheme}, up to {short(most)})" for (scene, scheme), most in far[far > 0.1].items())
-            + f". Double takes {times['flex']:.1f} times the time in `flex`, {times['conserving']:.1f} times in `conserving` (median).\n")
+            + ".\n")
 
 
 def swims():
