@@ -121,9 +121,14 @@ class Random:
         return ((states >> np.uint64(16)) & np.uint64(bound - 1) if bound & (bound - 1) == 0 else (states >> np.uint64(17)) % np.uint64(bound)).astype(int)
 
 
+def half_interval(error, count):
+    """Half the 95 % interval by Student's t of a mean of so many values, of its standard error."""
+    return stats.t.ppf(0.975, count - 1) * error
+
+
 def interval(values):
     """A mean and half its 95 % interval by Student's t; NaN of a single value."""
-    half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else math.nan
+    half = half_interval(statistics.stdev(values) / len(values) ** 0.5, len(values)) if len(values) > 1 else math.nan
     return statistics.fmean(values), half
 
 

@@ -3,7 +3,6 @@ import csv
 import json
 import pathlib
 
-from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
@@ -22,7 +21,7 @@ def sample():
     told, found = [], [json.loads(line) for line in (HERE / "gaits.jsonl").read_text(encoding="utf-8").splitlines()]
     found = [one for one in found if one["of"][1:] != CHOSEN]
     for gravity in (3, 10):
-        changes = [(level["change"]["mean"], stats.t.ppf(0.975, level["runs"] - 1) * level["change"]["error"]) for one in found if one["of"][0] == gravity
+        changes = [(level["change"]["mean"], study.half_interval(level["change"]["error"], level["runs"])) for one in found if one["of"][0] == gravity
                    for level in one["levels"] if level["level"] == "spacing/2"]
         least, most = (f"{100 * one:+.0f}".replace("-", "−") for one in (min(changes)[0], max(changes)[0]))
         told.append(f"{sum(abs(mean) + error < 0.1 for mean, error in changes)} surely (95 %) change by less than 10 % and {sum(abs(mean) - error > 0.1 for mean, error in changes)} by more "

@@ -2,7 +2,6 @@
 import json
 import pathlib
 
-from scipy import stats
 import study
 
 HERE = pathlib.Path(__file__).parent
@@ -14,7 +13,7 @@ def row(folder, name):
 
     def way(condition):
         own = check[condition]
-        error = stats.t.ppf(0.975, own["runs"] - 1) * own["distance"]["sd"] / own["runs"] ** 0.5
+        error = study.half_interval(own["distance"]["sd"] / own["runs"] ** 0.5, own["runs"])
         return study.with_error(own["distance"]["mean"], error, 3).replace("-", "−")
 
     base, *finer = converge["levels"]

@@ -95,16 +95,20 @@ def float_beside_double(table):
             + ".\n")
 
 
+def difference(one, other):
+    """Of the distances of two rows of swims, and half its 95 % interval (Student's t)."""
+    error = np.hypot(*(row.standard_deviation * row.starts**-0.5 for row in (one, other)))
+    return one.distance - other.distance, error * stats.t.ppf(0.975, one.starts + other.starts - 2)
+
+
 def swims():
     """What the answer says, and a row for each time step of a whole swim: distance, how far that is from the finest step's, both with half the 95 % interval (Student's t), and the time."""
     rows, answers = [], []
     for (scheme, scene), own in pandas.read_csv(HERE / "swims.csv").query("precision == 'float'").groupby(["scheme", "scene"], sort=False):
-        error = own.standard_deviation * own.starts**-0.5
-        interval = error * stats.t.ppf(0.975, own.starts - 1)
+        interval = study.half_interval(own.standard_deviation * own.starts**-0.5, own.starts)
         finest, differ, widest = own.index[-1], 0, 0
         for k in own.index:
-            both = np.hypot(error[k], error[finest]) * stats.t.ppf(0.975, own.starts[k] + own.starts[finest] - 2)
-            off = own.distance[k] - own.distance[finest]
+            off, both = difference(own.loc[k], own.loc[finest])
             differ += abs(off) > both
             widest = max(widest, both / abs(own.distance[finest]) if k != finest else 0)
             off = "" if k == finest else study.with_error(off, both, 3)
@@ -119,8 +123,7 @@ def in_double():
     for scheme, own in rows.groupby("scheme", sort=False):
         double = own[own.precision == "double"].iloc[0]
         single = own[(own.precision == "float") & (own.substeps == double.substeps)].iloc[0]
-        both = np.hypot(double.standard_deviation * double.starts**-0.5, single.standard_deviation * single.starts**-0.5)
-        told.append(f"{study.with_error(double.distance - single.distance, both * stats.t.ppf(0.975, double.starts + single.starts - 2), 3)} units in `{scheme}`".replace("-", "−"))
+        told.append(f"{study.with_error(*difference(double, single), 3)} units in `{scheme}`".replace("-", "−"))
     return f"- *In double* they go further by {', '.join(told)} (at 4, 4 and 24 substeps).\n"
 
 

@@ -43,11 +43,12 @@ def main():
     gs.init(backend=gs.cpu, precision="32", logging_level="error")
     size = [SPACING * count for count in COUNT]
     bounds = {"particle_size": SPACING, "lower_bound": (0, 0, 0), "upper_bound": (size[0], size[1], 2.0)}
-    own = {"pbd_options": gs.options.PBDOptions(**bounds, max_density_solver_iterations=options.iterations)} if options.solver == "pbd" else {
-        "sph_options": gs.options.SPHOptions(**bounds, pressure_solver="DFSPH")}
-    material = gs.materials.PBD.Liquid(sampler="regular") if options.solver == "pbd" else gs.materials.SPH.Liquid(sampler="regular")
+    if options.solver == "pbd":
+        own, kind = {"pbd_options": gs.options.PBDOptions(**bounds, max_density_solver_iterations=options.iterations)}, gs.materials.PBD
+    else:
+        own, kind = {"sph_options": gs.options.SPHOptions(**bounds, pressure_solver="DFSPH")}, gs.materials.SPH
     scene = gs.Scene(sim_options=gs.options.SimOptions(dt=1 / FRAMES, substeps=options.substeps, gravity=(0, 0, -9.8)), show_viewer=False, **own)
-    water = scene.add_entity(material=material, morph=gs.morphs.Box(lower=(0, 0, 0), upper=tuple(size)))
+    water = scene.add_entity(material=kind.Liquid(sampler="regular"), morph=gs.morphs.Box(lower=(0, 0, 0), upper=tuple(size)))
     scene.build()
     scene.step()  # compiles
     scene.reset()

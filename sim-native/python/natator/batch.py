@@ -56,7 +56,7 @@ class Batch:
 
     def is_lost(self):
         """Whether its program has ended, though nobody closed it, or a call was interrupted before its answer was read."""
-        return self._program.has_ended() or self._is_busy() and not self._program.is_closed()
+        return not self._program.is_closed() and (self._program.has_ended() or self._is_busy())
 
     def __enter__(self):
         return self

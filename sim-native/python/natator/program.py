@@ -163,8 +163,8 @@ class Program:
         return self._closed
 
     def has_ended(self):
-        """Whether it is not there any more, though nobody closed it."""
-        return not self._closed and self._process.poll() is not None
+        """Whether it is not there any more."""
+        return self._process.poll() is not None
 
     def unread(self, why):
         """The error that an answer was not read: that it has ended, or else this text."""

@@ -56,7 +56,7 @@ final class RunDocument {
         document.put("title", settings.problem().scene() + ", seed " + settings.search().seed());
         document.put("unfinished", unfinished());
         document.put("answer", answer());
-        document.put("measures", Measure.of(best, controls()).stream()
+        document.put("measures", Measure.of(best, Controls.of(run.directory(), best.swimmer())).stream()
                 .map(one -> List.of(one.name(), one.value(), one.expected(), OUTCOMES.get(one.outcome()))).toList());
         document.put("numbers", numbers());
         document.put("request", SimulationRequest.of(0, settings, best.swimmer()).withoutStops());
@@ -83,10 +83,6 @@ final class RunDocument {
         return Json.line(document);
     }
 
-    private Controls controls() {
-        return Controls.of(run.directory(), best.swimmer());
-    }
-
     /** Null of a run that has come to its end. */
     private String unfinished() {
         return run.state().isLastOf(run.settings()) ? null
@@ -100,7 +96,6 @@ final class RunDocument {
     /** What came of it, in a few sentences. */
     private List<String> answer() {
         Verdict verdict = Verdict.of(best);
-        Controls controls = controls();
         Map<String, String> facts = WinnerFacts.of(run.directory(), best);
         List<String> sentences = new ArrayList<>();
         sentences.add("The best gait " + (verdict.text().startsWith("not ") ? "is " : "") + verdict.text()
@@ -110,8 +105,8 @@ final class RunDocument {
                     + " body lengths further in a beat, at "
                     + Numbers.significant(best.gait().frequency(), 3) + " beats a second.");
         }
-        sentences.add(controls == null ? "Its controls were not run; natator check " + run.directory() + " runs them."
-                : "By its controls it " + facts.get("controls") + ".");
+        sentences.add(facts.containsKey("controls") ? "By its controls it " + facts.get("controls") + "."
+                : "Its controls were not run; natator check " + run.directory() + " runs them.");
         if (facts.containsKey("finer steps")) {
             sentences.add("At finer steps: " + facts.get("finer steps") + ".");
         }

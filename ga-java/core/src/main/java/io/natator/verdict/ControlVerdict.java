@@ -48,10 +48,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
                 + " " + name + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         Convergence.Level finer = convergence == null ? null : convergence.halfSpacing();
-        List<String> doubts = doubts(controls, net, length);
-        if (finer != null && (finer.change() == null || !HalfStep.agrees(1, 1 + finer.change().mean()))) {
-            doubts.add(atHalfSpacing(finer));
-        }
+        List<String> doubts = doubts(controls, finer, net, length);
         return doubts.isEmpty()
                 ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls)
                         + (finer == null ? "" : "; " + atHalfSpacing(finer)))
@@ -65,7 +62,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
                 : "it has " + percent(1 + level.change().mean()) + " of its speed");
     }
 
-    private static List<String> doubts(Controls controls, double net, Verdict.Length length) {
+    private static List<String> doubts(Controls controls, Convergence.Level finer, double net, Verdict.Length length) {
         List<String> doubts = new ArrayList<>();
         if (!Verdict.getsFar(net, controls.error(), length.unit())) {
             doubts.add("its runs differ too much to tell");
@@ -97,6 +94,9 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         unstable(doubts, " on " + controls.backend(), controls.otherBackend());
         doubt(doubts, "mirrored", controls.mirrored(), controls);
         doubt(doubts, "on " + controls.backend(), controls.otherBackend(), controls);
+        if (finer != null && (finer.change() == null || !HalfStep.agrees(1, 1 + finer.change().mean()))) {
+            doubts.add(atHalfSpacing(finer));
+        }
         return doubts;
     }
 
