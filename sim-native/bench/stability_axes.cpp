@@ -152,6 +152,9 @@ const std::vector<StabilityScene>& stability_scenes() {
         {"far", "100 units from the origin along x, y and z",
          R"({"planes": [[0, 1, 0, -100], [0, 0, 1, -100], [1, 0, 0, -100], [-1, 0, 0, 101.54], [0, 0, -1, 100.82]],
              "fluid": {"origin": [100.05, 100.05, 100.05]}, "creature": {"rearCentre": [100.42, 100.42, 100.41]}})"},
+        {"large-tank", "300 000 particles, 30 deep",
+         R"({"planes": [[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [-1, 0, 0, 9.01], [0, 0, -1, 9.01]],
+             "fluid": {"count": [100, 30, 100]}, "creature": {"rearCentre": [4.2, 1.4, 4.5]}})"},
     };
     return scenes;
 }

@@ -47,10 +47,12 @@ WaterRun run_towed_cylinder(const WaterSetting& setting) {
     return run;
 }
 
-/// The same until the wake has become a street of vortices. References: drag 1.33 to 1.38, Strouhal number 0.164 to
-/// 0.166.
-WaterRun run_shedding_cylinder(const WaterSetting& setting) {
-    constexpr double height = 10, reynolds = 100, drag = 1.355, strouhal = 0.165;
+namespace {
+
+/// Until the wake has become a street of vortices, `height` diameters between floor and surface. References: drag 1.33
+/// to 1.38, Strouhal number 0.164 to 0.166.
+WaterRun shed(const WaterSetting& setting, double height) {
+    constexpr double reynolds = 100, drag = 1.355, strouhal = 0.165;
     Towing towing = across_slab(setting, 20, height, {{reynolds, 60}});
     towing.sway = 0.2;
     TowResult result = tow(towing, setting);
@@ -63,5 +65,11 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     run.curve = calm_lift(result);
     return run;
 }
+
+}  // namespace
+
+WaterRun run_shedding_cylinder(const WaterSetting& setting) { return shed(setting, 10); }
+
+WaterRun run_tall_cylinder(const WaterSetting& setting) { return shed(setting, 20); }
 
 }  // namespace natator::bench

@@ -82,6 +82,7 @@ WaterRun run_slow_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);
 WaterRun run_shedding_cylinder(const WaterSetting& setting);
+WaterRun run_tall_cylinder(const WaterSetting& setting);
 WaterRun run_travelling_wave(const WaterSetting& setting);
 
 }  // namespace natator::bench
