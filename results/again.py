@@ -126,8 +126,8 @@ def quick_evolution(chance):  # starts of its winners have standard deviations o
 
 
 def optimizers(chance):  # gaits that swim: four standard deviations of their starts
-    tank = json.loads((HERE / "optimizers/tank.json").read_text(encoding="utf-8"))
-    rows = [({"scene": "open-water/creature-1", "duration": 2, "start": 77, "overrides": tank, "gait": {"frequency": f, "amplitude": [rear, front], "phase": [0, phase]}}, {"hash": ""},
+    base, *tank = json.loads((HERE / "optimizers/creature-1.json").read_text(encoding="utf-8")).items()
+    rows = [({"scene": base[1], "duration": 2, "start": 77, "overrides": dict(tank), "gait": {"frequency": f, "amplitude": [rear, front], "phase": [0, phase]}}, {"hash": ""},
              row["runs"]) for row in lines("optimizers/creature-1-again.jsonl") for f, rear, front, phase in [row["genes"]]]
     yield from swims(chance, [row for row in rows if min(row[2]) > 0.3], 2, 0.3)
 

@@ -64,20 +64,20 @@ def learning():
 
 def optimizers():
     again = {}
-    for creature in ("creature-1", "creature-2"):
-        for one in lines(f"optimizers/{creature}-again.jsonl"):
-            again[creature, one["optimizer"], one["seed"], tuple(one["genes"])] = np.mean(one["runs"])
+    for scene in ("creature-1", "loach"):
+        for one in lines(f"optimizers/{scene}-again.jsonl"):
+            again[scene, one["optimizer"], one["seed"], tuple(one["genes"])] = np.mean(one["runs"])
         found = {}
-        for run in lines(f"optimizers/{creature}.jsonl"):
+        for run in lines(f"optimizers/{scene}.jsonl"):
             best = run["best"]
-            worth = best["fresh"]["again"] if "fresh" in best else again[creature, run["optimizer"], run["settings"]["seed"], tuple(best["genes"])]
+            worth = best["fresh"]["again"] if "fresh" in best else again[scene, run["optimizer"], run["settings"]["seed"], tuple(best["genes"])]
             found.setdefault(run["optimizer"], []).append(worth)
         pairs = [("jgap-corrected", "cma-es"), ("jgap-corrected", "random"), ("cma-es", "random")]
         raw = {pair: stats.mannwhitneyu(found[pair[0]], found[pair[1]], method="exact").pvalue for pair in pairs}
         held = 0
         for rank, pair in enumerate(sorted(pairs, key=raw.get)):
             held = max(held, min(1, (3 - rank) * raw[pair]))  # Holm
-            said = "< 0.001" if held < 0.001 else f"= {held:.{3 if held < 0.01 else 2}f}"
+            said = "< 0.001" if held < 0.001 else f"= {held:.{3 if held < 0.1 else 2}f}"
             first, second = sorted(pair, key=lambda name: -np.median(found[name]))
             yield f"between {pair[0]} and {pair[1]} no difference is seen (p {said})" if held > 0.05 else f"{first} gets further than {second} (p {said})"
 

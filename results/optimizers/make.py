@@ -141,17 +141,17 @@ def tests_table(found):
 
 
 def at_half_step(scene):
-    """In words what pairs of optimizers whose winners' distances, by fresh starts at half the time step, do not differ; none if all do. Where many of
-    these swims end early, what they went is no measure."""
+    """In words by which pairs of optimizers the winners' distances, by fresh starts at half the time step, surely differ. Where many of these swims
+    end early, what they went is no measure."""
     fresh = [run["best"]["fresh"]["halfStep"] for runs in scene.own.values() for run in runs]
     whole, swims = sum(one["stopped"].get("completed", 0) for one in fresh), sum(one["runs"] for one in fresh)
     if whole < 0.9 * swims:
         return f"; at half the time step, where {swims - whole} of {swims} swims end at a plane, it is not compared"
     found = study.pairs({name: [run["best"]["fresh"]["halfStep"]["distance"]["mean"] for run in runs] for name, runs in scene.own.items()})
-    alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if row["verdict"].startswith("no difference")]
+    alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if "further" not in row["verdict"]]
     if len(alike) == len(found):
-        return f"; at half the time step no difference is seen (p {study.chance(min(row['p_holm'] for row in found))})"
-    return f"; at half the time step no difference is seen between {', '.join(alike)}" if alike else ""
+        return f"; at half the time step no difference is sure (p {study.chance(min(row['p_holm'] for row in found))})"
+    return f"; at half the time step that between {', '.join(alike)} is not sure" if alike else "; so at half the time step"
 
 
 def answer(tables):
@@ -251,12 +251,12 @@ def natator(folder, *arguments):
 
 
 def place_of(scene, optimizer):
-    return f"runs/{scene.split('/')[-1]}/{optimizer}"
+    return f"runs/{pathlib.Path(scene).stem}/{optimizer}"
 
 
 def keep(folder, plan, scene):
     """Runs the best gaits of a scene's runs again, and writes down what they did."""
-    name = scene.split("/")[-1]
+    name = pathlib.Path(scene).stem
     own = list(itertools.product(plan["optimizers"], range(1, plan["seeds"] + 1)))
     places = [f"{place_of(scene, optimizer)}/seed-{seed}" for optimizer, seed in own]
     settings = json.loads((folder / places[0] / "config.json").read_text(encoding="utf-8"))
@@ -269,6 +269,8 @@ def keep(folder, plan, scene):
     kept, again, ranks = [], [], []
     for (optimizer, seed), row in zip(own, found, strict=True):
         del row["run"]
+        for part in ("settings", "best"):
+            row[part]["scene"] = scene  # not where the file lay
         again += [{"optimizer": optimizer, "seed": seed} | one for one in row.pop("again")]
         if last := row.pop("last", None):
             worths = [float(JUDGES[settings.get("judge", "mean")](one["runs"])) for one in last]

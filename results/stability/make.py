@@ -5,7 +5,7 @@ import pandas
 import study
 
 HERE = pathlib.Path(__file__).parent
-SCHEMES = ("flex", "conserving")
+SCHEMES, STABLE = ("flex", "conserving"), "ok"
 
 
 def breaches(runs, scheme):
@@ -36,29 +36,49 @@ def in_lattice():
     return f"In `lattice` {len(laws)} of {len(table)} do, by the law mach, and {(table.status == 'error').sum()} are refused.", study.table(["axis", "range", *table.scene.unique()], rows, "<<<<")
 
 
+def broken(runs, schemes=SCHEMES):
+    """Points that break a law, of each scheme."""
+    return ["; ".join(f"{axis} {found.split(':')[0]}" for axis, own in runs.groupby("axis", sort=False) if (found := breaches(own, scheme)) != "–") or "–"
+            if scheme in set(runs.scheme) else "" for scheme in schemes]
+
+
+def beyond(tank):
+    """What the answer says of 60 s and of a large tank, and the table: points that break a law there, and of how many on a GPU the end is another."""
+    longer, gpu = (pandas.read_csv(HERE / f"{name}.csv") for name in ("long", "gpu"))
+    small, large = (gpu[gpu.scene == scene] for scene in ("small-tank", "large-tank"))
+    point = ["scheme", "axis", "value"]
+    both = small.merge(tank, on=point)
+    other = both[both.status_x != both.status_y]
+    told = "; ".join(f"{kind} {', '.join(f'{(own[own.scheme == scheme].status != STABLE).sum()} of {(own.scheme == scheme).sum()} in `{scheme}`' for scheme in SCHEMES)}"
+                     for kind, own in (("over 60 s", longer), ("with 300 000 particles", large)))
+    differ = "; ".join(f"{row.scheme}, {row.axis} {row.value:g}" for row in other.itertuples())
+    return f"Of one thing made worse break one {told}.", (
+        study.table(["", *SCHEMES], [["60 s, a processor", *broken(longer)], ["300 000 particles, 30 deep, a GPU", *broken(large)]], "<<<")
+        + f"\nThe small tank on a GPU ends as on a processor at {len(both) - len(other)} of {len(both)} points" + (f" (not: {differ})" if differ else "") + ".\n")
+
+
 def make(folder):
     table, (of_lattice, lattice) = pandas.read_csv(HERE / "stability.csv"), in_lattice()
     single, pairs = table[table.second_axis.isna()], table[table.second_axis.notna()]
     tank = single[(single.scene == "small-tank") & (single.precision == "float")]
+    of_beyond, further = beyond(tank)
     rows = [[axis, f"{own.value.min():g} to {own.value.max():g}", *(breaches(own, scheme) for scheme in SCHEMES)] for axis, own in tank.groupby("axis", sort=False)]
     calm = [f"{axis} ({extent})" for axis, extent, *found in rows if found == ["–", "–"]]
     point = ["scheme", "scene", "axis", "value"]
     both = single[single.precision == "double"].merge(single[single.precision == "float"], on=point)
     otherwise = (both.status_x != both.status_y).sum()
-    scenes = [[scene] + ["; ".join(f"{axis} {found.split(':')[0]}" for axis, runs in own.groupby("axis", sort=False) if (found := breaches(runs, scheme)) != "–") or "–"
-                         if scheme in set(own.scheme) else "" for scheme in SCHEMES]
-              for scene, own in single[single.scene != "small-tank"].groupby("scene", sort=False)]
+    scenes = [[scene, *broken(own)] for scene, own in single[single.scene != "small-tank"].groupby("scene", sort=False)]
     two = [[f"{first}, {second}", *(f"{(own[own.scheme == scheme].status != 'ok').sum()} of {(own.scheme == scheme).sum()}" for scheme in SCHEMES)]
            for (first, second), own in pairs.groupby(["axis", "second_axis"], sort=False)]
-    broken = table[table.status != "ok"].scheme.value_counts()
+    unstable = table[table.status != "ok"].scheme.value_counts()
     finite = "No value was infinite. " if not (table.law == "finite").any() else ""
     count = table.scheme.value_counts()
-    answer = f"**{broken.get('flex', 0)} of {count['flex']} runs in `flex` and {broken.get('conserving', 0)} of {count['conserving']} in `conserving` break a law.** {finite}" \
-             + f"Double and float differ in that at {otherwise} of {len(both)} points. {of_lattice}\n"
+    answer = f"**{unstable.get('flex', 0)} of {count['flex']} runs in `flex` and {unstable.get('conserving', 0)} of {count['conserving']} in `conserving` break a law.** {finite}" \
+             + f"Double and float differ in that at {otherwise} of {len(both)} points. {of_beyond} {of_lattice}\n"
     (folder / "README.md").write_text(study.filled(
         HERE / "README.md", answer=answer, axes=study.table(["axis", "range", *SCHEMES], [row for row in rows if row[2:] != ["–", "–"]], "<<<<")
         + f"\nNowhere: {', '.join(calm)}.\n", scenes=study.table(["scene", *SCHEMES], scenes, "<<<"),
-        pairs=study.table(["two things", *SCHEMES], two), lattice=lattice), encoding="utf-8")
+        pairs=study.table(["two things", *SCHEMES], two), lattice=lattice, beyond=further), encoding="utf-8")
 
 
 study.main(make)

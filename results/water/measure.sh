@@ -39,3 +39,4 @@ natator-sim bench water --backend cuda --scheme conserving --setting 4x4 --resol
 natator-sim bench water --backend cuda --scheme conserving --setting 2x4 4x4 --resolution 32 --start 1 2 3 --case shedding-cylinder --output "$output"
 natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 28 --start 1 2 3 --case travelling-wave --output "$output"
 natator-sim bench water --scheme conserving --resolution 20 --start 1 2 3 --case vortex --case standing-wave --support 2 --support 2.5 --support 3 --setting 1x2 --setting 1x4 --setting 2x2 --setting 2x4 --setting 2x8 --setting 4x4 --setting 4x8 --setting 8x4 --output "$output"
+natator-sim bench water --backend cuda --scheme conserving --setting 2x4 --resolution 20 --start 1 2 3 4 --case tall-cylinder --output "$output"
