@@ -11,6 +11,7 @@ TIME, ERROR = "run_time", "path_error_0.25"
 MARKERS = {"float": "o", "double": "D"}
 REFERENCE = 1024  # substeps
 FALLS = 5  # from 1 to 32 substeps, which order 1/2 gives
+NEAR = 0.1  # what a whole swim may be off the finest
 USES = (("as in the thesis", "flex", 4, 4), ("many swims", "conserving", 2, 4), ("the scenes' own", "conserving", 4, 4),
         ("checking a winner", "conserving", 8, 8), ("accurate", "conserving", 32, 16))
 
@@ -96,33 +97,55 @@ def float_beside_double(table):
 
 
 def difference(one, other):
-    """Of the distances of two rows of swims, and half its 95 % interval (Student's t)."""
-    error = np.hypot(*(row.standard_deviation * row.starts**-0.5 for row in (one, other)))
-    return one.distance - other.distance, error * stats.t.ppf(0.975, one.starts + other.starts - 2)
+    """Of the distances of two rows of swims, and half its 95 % interval (Welch's t)."""
+    parts = [row.standard_deviation**2 / row.starts for row in (one, other)]
+    freedom = sum(parts)**2 / sum(part**2 / (row.starts - 1) for part, row in zip(parts, (one, other), strict=True))
+    return one.distance - other.distance, np.sqrt(sum(parts)) * stats.t.ppf(0.975, freedom)
+
+
+def whole_swims():
+    """Of each scheme its name, and rows of a setting, its distances by seconds, and how far the last is from that of the costliest setting, as parts of it, with half the 95 % interval."""
+    table = pandas.read_csv(HERE / "swims.csv").query("precision == 'float'")
+    for (scheme, scene), own in table.groupby(["scheme", "scene"], sort=False):
+        last = own[own.seconds == own.seconds.max()].dropna()
+        finest = last.loc[last.processor_seconds.idxmax()]
+        yield scheme, scene, [(setting, rows, None if (one := next(rows[rows.index.isin(last.index)].itertuples(), None)) is None else
+                               (one, *(part / abs(finest.distance) for part in difference(one, finest)))) for setting, rows in own.groupby(["finer", "substeps"], sort=False)], finest
 
 
 def swims():
-    """What the answer says, and a row for each time step of a whole swim: distance, how far that is from the finest step's, both with half the 95 % interval (Student's t), and the time."""
+    """What the answer says, and a row for each setting of a whole swim."""
     rows, answers = [], []
-    for (scheme, scene), own in pandas.read_csv(HERE / "swims.csv").query("precision == 'float'").groupby(["scheme", "scene"], sort=False):
-        interval = study.half_interval(own.standard_deviation * own.starts**-0.5, own.starts)
-        finest, differ, widest = own.index[-1], 0, 0
-        for k in own.index:
-            off, both = difference(own.loc[k], own.loc[finest])
-            differ += abs(off) > both
-            widest = max(widest, both / abs(own.distance[finest]) if k != finest else 0)
-            off = "" if k == finest else study.with_error(off, both, 3)
-            rows.append([f"`{scheme}`, {scene}" if k == own.index[0] else "", str(own.substeps[k]), study.with_error(own.distance[k], interval[k], 3), off, f"{own.seconds[k]:.2g}"])
-        answers.append(f"in `{scheme}` {differ} of {len(own) - 1} (± {100 * widest:.0f} % at most)")
-    return f"Time steps by which a whole swim goes another distance than by the smallest: {', '.join(answers)}.", study.table(["swim", "substeps", "distance in 4 s", "off the finest", "processor s"], rows)
+    for scheme, scene, settings, finest in whole_swims():
+        least = [one.processor_seconds for _, _, known in settings if known for one, off, both in [known] if abs(off) + both < NEAR and one.Index != finest.name]
+        answers.append(f"in `{scheme}` " + (f"from {min(least):.2g} s of a core on ({finest.seconds:.0f} s swum)" if least else f"by none that was tried ({finest.seconds:.0f} s)"))
+        for k, ((n, substeps), own, known) in enumerate(settings):
+            distances = ", ".join(study.with_error(row.distance, study.half_interval(row.standard_deviation * row.starts**-0.5, row.starts), 3) if row.starts > 1 else "–" for row in own.itertuples())
+            off = "" if known is None or known[0].Index == finest.name else f"{study.with_error(100 * known[1], 100 * known[2], 0)} %".replace("-", "−")
+            seconds = ", ".join(f"{value:.0f}" for value in own.seconds)
+            rows.append([f"`{scheme}`, {scene}, after {seconds} s" if k == 0 else "", "1" if n == 1 else f"1/{n}", str(substeps), distances, off, f"{own.processor_seconds.iloc[-1]:.2g}"])
+    return (f"Whole swims are surely (95 %) within {100 * NEAR:.0f} % of what the finest step and spacing that were tried give {', '.join(answers)}.",
+            study.table(["swim", "spacing", "substeps", "distances", "last, off the finest", "processor s"], rows, "<<>>>>"))
+
+
+def draw_swims(file):
+    """How far whole swims are from the finest, with half the 95 % interval, over the time of a core."""
+    chart = study.Chart("whole swims: distance off that at the finest step and spacing", "seconds of a core", "part of the distance", log=True)
+    for (scheme, _, settings, finest), colour in zip(whole_swims(), (*study.COLOURS.values(), "#2a8a3a"), strict=False):
+        for mark, n in zip("os^", sorted({setting[0] for setting, *_ in settings}), strict=False):
+            shown = [known for (finer, _), _, known in settings if known and finer == n and known[0].Index != finest.name]
+            if shown:
+                times, offs, both = zip(*((one.processor_seconds, abs(off), half) for one, off, half in shown), strict=True)
+                chart.axes.errorbar(times, offs, both, fmt=mark, color=study.COLOURS.get(scheme, colour), label=f"{scheme}, spacing {'1' if n == 1 else f'1/{n}'}", capsize=3, linewidth=1)
+    chart.save(file)
 
 
 def in_double():
-    """How much further whole swims go, with half the 95 % interval (Student's t)."""
+    """How much further whole swims go, with half the 95 % interval (Welch's t)."""
     told, rows = [], pandas.read_csv(HERE / "swims.csv")
     for scheme, own in rows.groupby("scheme", sort=False):
         double = own[own.precision == "double"].iloc[0]
-        single = own[(own.precision == "float") & (own.substeps == double.substeps)].iloc[0]
+        single = own.query("precision == 'float' and finer == 1 and substeps == @double.substeps and seconds == @double.seconds").iloc[0]
         told.append(f"{study.with_error(*difference(double, single), 3)} units in `{scheme}`".replace("-", "−"))
     return f"- *In double* they go further by {', '.join(told)} (at 4, 4 and 24 substeps).\n"
 
@@ -132,6 +155,7 @@ def make(folder):
     (answer, falls), (of_swims, whole) = scenes(table), swims()
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer.rstrip() + f" {of_swims}\n", scenes=falls, settings=settings(table), momentum=momentum(table), laws=laws(table), float=float_beside_double(table), swims=whole, double=in_double()),
                                       encoding="utf-8")
+    draw_swims(folder / "precision-swims.png")
     # a setting that equals the reference has no error, and no place on a logarithmic axis
     table = table[(table.status == "ok") & (table[TIME] > 0) & (table[ERROR] > 0)]
     for scene, runs in table.groupby("scene", sort=False):

@@ -85,6 +85,7 @@ class DocumentsTest(unittest.TestCase):
                 ("plan.py --scene bench/small-tank --keep CONTRIBUTING.md", "state: is no saved state"),
                 ("steer.py --target 1 1 nan", "target[2] = nan: must be a finite number"),
                 ("learn.py build/none --num-envs 0", "num_envs = 0: must be a whole number from 1 on"),
+                ("learn.py build/none --rollouts 0", "--steps, --rollouts: must be at least 1"),
                 ("steer.py --scene no/such", 'unknown scene "no/such": must be one of')]:
             with self.subTest(command):
                 program, *options = command.split()

@@ -323,6 +323,8 @@ class VectorTest(unittest.TestCase):
     def test_bad_arguments_are_refused(self):
         with self.assertRaisesRegex(natator.InputError, "durration: is no argument"):
             gymnasium.make_vec("natator/Swimmer-v0", num_envs=2, **TANK, durration=0.1)
+        with self.assertRaisesRegex(natator.InputError, "durration: is no argument"):
+            natator.gym.SwimmerEnv(**TANK, durration=0.1)
         with self.assertRaisesRegex(natator.InputError, "num_envs = 5000: must be at most 4096"):
             natator.gym.SwimmerVectorEnv(5000, **TANK)
 

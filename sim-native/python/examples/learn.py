@@ -15,7 +15,7 @@ from skrl.trainers.jax import SequentialTrainer
 from skrl.utils import set_seed
 from skrl.utils.model_instantiators.jax import deterministic_model, gaussian_model
 
-from natator import gym, policy, script
+from natator import InputError, gym, policy, script
 
 GAIT = {"frequency": 2, "amplitude": [0.4, 0.35, 0.3, 0.25, 0.2], "phase": [0, 0.902, 0.804, 0.706, 0.608]}  # sim-native/examples/gaits/loach.json
 TASKS = {"ahead": {}, "turn": {"target": [[2.4, 0.01, -1.2], [3.9, 0.01, 2.8]], "reached": 0.25},
@@ -47,6 +47,8 @@ class Episodes(gym.SwimmerVectorEnv):
 
 
 def learn_and_swim(_):
+    if min(options.steps, options.rollouts) < 1:
+        raise InputError("--steps, --rollouts: must be at least 1")
     if not os.path.exists(f"{options.folder}/policy.json"):
         env = Episodes(options.num_envs, "SameStep", backend=options.backend, **environment)
         env.reset(seed=1000 * options.seed)

@@ -34,8 +34,9 @@ class SwimmerEnv(gymnasium.Env):
 
     def __init__(self, scene="pool/tadpole", actions="drive", gait=None, frames=3, duration=4.0, starts=16, flow=3,
                  target=None, reached=0.25, work_cost=0.0, render_mode=None, swim=None, **options):
-        if swim is not None and options:
-            raise InputError(f"{next(iter(options))}: is no argument of an environment")
+        unknown = options.keys() - (OF_STREAM if swim is None else ())
+        if unknown:
+            raise InputError(f"{min(unknown)}: is no argument of an environment")
         if actions not in ("drive", "gait"):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
         if gait is not None and actions == "drive":
@@ -538,7 +539,7 @@ def _check_in_tank(box, scene):
             raise InputError(f"target = {corner.tolist()}: must be in the tank, {', '.join(limits)}")
 
 
-OF_STREAM = ("overrides", "scheme", "start", "arguments", "program", "backend")
+OF_STREAM = {"overrides", "scheme", "start", "arguments", "program", "backend"}
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
 LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it

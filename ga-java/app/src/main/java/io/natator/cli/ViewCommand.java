@@ -137,6 +137,10 @@ final class ViewCommand implements Callable<Integer> {
                     "--policy has its own scene and gait; expected no --scene, --creature or --gait");
         }
         JsonNode environment = Json.read(policy, JsonNode.class, "--policy").path("environment");
+        if (!environment.path("scene").isTextual()) {
+            throw new InvalidInputException(
+                    "--policy: " + policy + ": must have an environment with the scene that it was learned in");
+        }
         InitialScene start = new InitialScene(environment.path("scene").asText(), InitialScene.patch(
                 MergePatch.both(environment.get("overrides"), sceneOptions.overrides()), sceneOptions.scheme()), null);
         check(start, program);

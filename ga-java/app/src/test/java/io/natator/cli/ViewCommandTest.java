@@ -155,6 +155,10 @@ class ViewCommandTest extends CommandTest {
                             + ": natator-sim: --policy: has 14 inputs and 4 outputs; "
                             + "must have 15 and 4 for this body\n");
         }
+        Path none = Files.writeString(folder.resolve("none.json"), "{\"layers\":[]}");
+        refused(natator("view --no-browser --port 0 --policy", none.toString()))
+                .isEqualTo("natator view: --policy: " + none
+                        + ": must have an environment with the scene that it was learned in\n");
         refused(natator("view --no-browser --port 0 --creature 1 --policy", policy(15).toString()))
                 .isEqualTo(
                         "natator view: --policy has its own scene and gait; expected no --scene, --creature or --gait\n");
