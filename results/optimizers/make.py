@@ -172,7 +172,7 @@ def choice_table(scene):
                 str(len(ranks)), study.interval_text(study.median_interval(ranks), 2) if ranks else "–"]
 
     return study.table(["optimizer", "runs", "selection loss", "runs", "rank correlation"],
-                       [cells(name, runs) for name, runs in [*scene.own.items(), ("all", scene.runs)]])
+                       [cells("all", scene.runs)])
 
 
 def section(scene, again, differences):

@@ -68,8 +68,12 @@ WaterRun shed(const WaterSetting& setting, double height) {
 
 }  // namespace
 
-WaterRun run_shedding_cylinder(const WaterSetting& setting) { return shed(setting, 10); }
+WaterRun run_shedding_cylinder(const WaterSetting& setting) {
+    return shed(setting, 10);
+}
 
-WaterRun run_tall_cylinder(const WaterSetting& setting) { return shed(setting, 20); }
+WaterRun run_tall_cylinder(const WaterSetting& setting) {
+    return shed(setting, 20);
+}
 
 }  // namespace natator::bench

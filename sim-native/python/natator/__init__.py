@@ -12,7 +12,7 @@ from natator.stream import Frame, Senses, Stream
 from natator.swimming import Swim, swim
 from natator.trajectory import Trajectory, record
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = [
     "Evolved", "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Swim", "Trajectory",
