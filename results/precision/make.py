@@ -135,12 +135,12 @@ def swims():
 def draw_swims(file):
     """How far whole swims are from the finest, with half the 95 % interval, over the time of a core."""
     chart = study.Chart("whole swims: distance off that at the finest step and spacing", "seconds of a core", "part of the distance", log=True)
-    for (scheme, _, settings, finest), colour in zip(whole_swims(), (*study.COLOURS.values(), "#2a8a3a"), strict=False):
+    for scheme, _, settings, finest in whole_swims():
         for mark, n in zip("os^", sorted({setting[0] for setting, *_ in settings}), strict=False):
             shown = [known for (finer, _), _, known in settings if known and finer == n and known[0].Index != finest.name]
             if shown:
                 times, offs, both = zip(*((one.processor_seconds, abs(off), half) for one, off, half in shown), strict=True)
-                chart.axes.errorbar(times, offs, both, fmt=mark, color=study.COLOURS.get(scheme, colour), label=f"{scheme}, spacing {'1' if n == 1 else f'1/{n}'}", capsize=3, linewidth=1)
+                chart.axes.errorbar(times, offs, both, fmt=mark, color=study.COLOURS.get(scheme, "#2a8a3a"), label=f"{scheme}, spacing {'1' if n == 1 else f'1/{n}'}", capsize=3, linewidth=1)
     chart.save(file)
 
 
