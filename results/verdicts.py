@@ -79,7 +79,7 @@ def optimizers():
             held = max(held, min(1, (3 - rank) * raw[pair]))  # Holm
             said = "< 0.001" if held < 0.001 else f"= {held:.{3 if held < 0.1 else 2}f}"
             first, second = sorted(pair, key=lambda name: -np.median(found[name]))
-            yield f"between {pair[0]} and {pair[1]} no difference is seen (p {said})" if held > 0.05 else f"{first} gets further than {second} (p {said})"
+            yield f"between {pair[0]} and {pair[1]} no difference is seen (p {said})" if held > 0.05 else f"{first} does better than {second} (p {said})"
 
 
 def precision():

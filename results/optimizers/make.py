@@ -140,9 +140,15 @@ def tests_table(found):
     return study.table(["first", "second", "difference of medians", "p", "A"], rows, "<<>>>") if rows else "nothing to compare\n"
 
 
+def measure(scene):
+    """In words, where the fitness is not the distance alone."""
+    return ", by distance less the work's price," if len(scene.runs[0]["settings"].get("objectives") or []) > 1 else ""
+
+
 def at_half_step(scene):
     """In words by which pairs of optimizers the winners' distances, by fresh starts at half the time step, surely differ. Where many of these swims
     end early, what they went is no measure."""
+    by = "by distance alone " if measure(scene) else ""
     fresh = [run["best"]["fresh"]["halfStep"] for runs in scene.own.values() for run in runs]
     whole, swims = sum(one["stopped"].get("completed", 0) for one in fresh), sum(one["runs"] for one in fresh)
     if whole < 0.9 * swims:
@@ -150,8 +156,8 @@ def at_half_step(scene):
     found = study.pairs({name: [run["best"]["fresh"]["halfStep"]["distance"]["mean"] for run in runs] for name, runs in scene.own.items()})
     alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if "further" not in row["verdict"]]
     if len(alike) == len(found):
-        return f"; at half the time step no difference is sure (p {study.chance(min(row['p_holm'] for row in found))})"
-    return f"; at half the time step that between {', '.join(alike)} is not sure" if alike else "; so at half the time step"
+        return f"; {by}at half the time step no difference is sure (p {study.chance(min(row['p_holm'] for row in found))})"
+    return f"; {by}at half the time step that between {', '.join(alike)} is not sure" if alike else f"; so {by}at half the time step"
 
 
 def answer(tables):
@@ -159,8 +165,8 @@ def answer(tables):
     def told(row):
         if row.verdict.startswith("no difference"):
             return f"between {row['first']} and {row['second']} no difference is seen (p {study.chance(row.p_holm)})"
-        return f"{row.verdict.split(' (')[0].replace(' further than', ' gets further than')} (p {study.chance(row.p_holm)})"
-    return "**" + "; ".join(f"with {scene.name} " + ", ".join(told(row) for _, row in found[found.equal == TOLD].iterrows())
+        return f"{row.verdict.split(' (')[0].replace(' further than', ' does better than')} (p {study.chance(row.p_holm)})"
+    return "**" + "; ".join(f"with {scene.name}{measure(scene)} " + ", ".join(told(row) for _, row in found[found.equal == TOLD].iterrows())
                             + at_half_step(scene) for scene, _, _, found in tables).replace("with", "With", 1) + ".**\n"
 
 
@@ -177,7 +183,7 @@ def choice_table(scene):
 
 def section(scene, again, differences):
     starts = max(4, 2 * scene.runs[0]["settings"].get("starts", 1))
-    parts = [f"## {scene.name}", f"![best distance against evaluations]({scene.name}.png)", said(scene.runs[0]["settings"]),
+    parts = [f"## {scene.name}", f"![best fitness against evaluations]({scene.name}.png)", said(scene.runs[0]["settings"]),
              f"Worth of the best gaits so far, from {starts} fresh starts each:", again_table(again),
              "Differences at the end:", tests_table(differences), "The choice:", choice_table(scene)]
     return "\n".join(part if part.endswith("\n") else part + "\n" for part in parts)
@@ -197,7 +203,7 @@ def said(settings):
 
 def draw(scene, file):
     """Best fitness against evaluations: the median of each optimizer's runs in a band from quartile to quartile."""
-    chart = study.Chart(f"{scene.name}: median and quartiles of the runs", "evaluations", "best distance so far (scene units)", size=(9, 5.6))
+    chart = study.Chart(f"{scene.name}: median and quartiles of the runs", "evaluations", "best fitness so far", size=(9, 5.6))
     for colour, (name, runs) in zip(COLOURS, scene.own.items(), strict=False):
         curves = np.array([curve(run) for run in runs])
         lower, median, upper = np.quantile(curves, [0.25, 0.5, 0.75], axis=0)
