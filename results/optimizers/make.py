@@ -171,14 +171,11 @@ def answer(tables):
 
 
 def choice_table(scene):
-    def cells(name, runs):
-        losses = [loss for run in runs if (loss := scene.loss(run)) is not None]
-        ranks = [rank for run in runs if (rank := scene.ranks.get((run["optimizer"], run["settings"]["seed"]))) is not None]
-        return [name, str(len(losses)), study.interval_text(study.median_interval(losses), 1, 100) + " %" if losses else "–",
-                str(len(ranks)), study.interval_text(study.median_interval(ranks), 2) if ranks else "–"]
-
-    return study.table(["optimizer", "runs", "selection loss", "runs", "rank correlation"],
-                       [cells("all", scene.runs)])
+    losses = [loss for run in scene.runs if (loss := scene.loss(run)) is not None]
+    ranks = [rank for rank in scene.ranks.values() if rank is not None]
+    return study.table(["optimizer", "runs", "selection loss", "runs", "rank correlation"], [[
+        "all", str(len(losses)), study.interval_text(study.median_interval(losses), 1, 100) + " %" if losses else "–",
+        str(len(ranks)), study.interval_text(study.median_interval(ranks), 2) if ranks else "–"]])
 
 
 def section(scene, again, differences):

@@ -42,13 +42,18 @@ def broken(runs):
             if scheme in set(runs.scheme) else "" for scheme in SCHEMES]
 
 
+def compared(one, other, *point):
+    """Rows of the same points, and those that end otherwise."""
+    both = one.merge(other, on=["scheme", "axis", "value", *point])
+    return both, both[both.status_x != both.status_y]
+
+
 def beyond(tank):
     """What the answer says of 60 s and of a large tank, and the table: points that break a law there, and of how many on a GPU the end is another."""
     longer, gpu = (pandas.read_csv(HERE / f"{name}.csv") for name in ("long", "gpu"))
     small, large = (gpu[gpu.scene == scene] for scene in ("small-tank", "large-tank"))
-    point = ["scheme", "axis", "value"]
-    both = small.merge(tank, on=point)
-    other = both[both.status_x != both.status_y]
+    both, other = compared(small, tank)
+
     def told(own):
         return " and ".join(f"{(own[own.scheme == scheme].status != 'ok').sum()} of {(own.scheme == scheme).sum()} in `{scheme}`" for scheme in SCHEMES)
 
@@ -65,9 +70,7 @@ def make(folder):
     of_beyond, further = beyond(tank)
     rows = [[axis, f"{own.value.min():g} to {own.value.max():g}", *(breaches(own, scheme) for scheme in SCHEMES)] for axis, own in tank.groupby("axis", sort=False)]
     calm = [f"{axis} ({extent})" for axis, extent, *found in rows if found == ["–", "–"]]
-    point = ["scheme", "scene", "axis", "value"]
-    both = single[single.precision == "double"].merge(single[single.precision == "float"], on=point)
-    otherwise = (both.status_x != both.status_y).sum()
+    both, otherwise = compared(single[single.precision == "double"], single[single.precision == "float"], "scene")
     scenes = [[scene, *broken(own)] for scene, own in single[single.scene != "small-tank"].groupby("scene", sort=False)]
     two = [[f"{first}, {second}", *(f"{(own[own.scheme == scheme].status != 'ok').sum()} of {(own.scheme == scheme).sum()}" for scheme in SCHEMES)]
            for (first, second), own in pairs.groupby(["axis", "second_axis"], sort=False)]
@@ -75,7 +78,7 @@ def make(folder):
     finite = "No value was infinite. " if not (table.law == "finite").any() else ""
     count = table.scheme.value_counts()
     answer = f"**{unstable.get('flex', 0)} of {count['flex']} runs in `flex` and {unstable.get('conserving', 0)} of {count['conserving']} in `conserving` break a law, in a small tank, mostly in 1 s.** {finite}" \
-             + f"Double and float differ in that at {otherwise} of {len(both)} points. {of_beyond} {of_lattice}\n"
+             + f"Double and float differ in that at {len(otherwise)} of {len(both)} points. {of_beyond} {of_lattice}\n"
     (folder / "README.md").write_text(study.filled(
         HERE / "README.md", answer=answer, axes=study.table(["axis", "range", *SCHEMES], [row for row in rows if row[2:] != ["–", "–"]], "<<<<")
         + f"\nNowhere: {', '.join(calm)}.\n", scenes=study.table(["scene", *SCHEMES], scenes, "<<<"),

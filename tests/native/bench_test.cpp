@@ -354,16 +354,17 @@ TEST(StabilityTest, AStartThatBreaksALawIsJudgedLater) {
 }
 
 TEST(StabilityTest, ScenesAreCalm) {
-    for (const StabilityScene& scene : stability_scenes())
+    for (const StabilityScene& scene : stability_scenes()) {
+        if (scene.name == "large-tank") continue;  // takes minutes: results/stability/gpu.csv
         for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
             if (scheme == Scheme::flex && scene.conserving_only) continue;
             StabilityCase subject = case_of(scene.name.c_str(), "dt", 1);
             subject.scene.scheme = scheme;
-            if (scene.name == "large-tank") continue;  // takes minutes: results/stability/gpu.csv
             const StabilityResult result = run_stability(subject, Precision::single_precision);
             EXPECT_FALSE(result.instability) << scene.name << ": " << result.instability->law;
             EXPECT_GT(result.margins.largest(), 0) << scene.name;
         }
+    }
     EXPECT_THROW(stability_scene("bathtub"), InputError);
     EXPECT_THROW(case_of("periodic-tank", "outside", 1), InputError) << "it has no wall there";
 }

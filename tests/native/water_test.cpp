@@ -105,7 +105,6 @@ TEST(Water, ViscosityIsWhatItIsSetTo) {
     EXPECT_LE(viscosity.value, 1.086 * viscosity.reference);
 }
 
-/// An ideal vortex has all of its amplitude left after a turn, a packing of grains none.
 /// Basset's for a sphere that hardly moves; of a faster one the wake carries it off, as 1 / age^2 (Mei and Adrian
 /// 1992).
 TEST(Water, WhatAFallRemembersIsThatOfBassetAtFirst) {
@@ -118,6 +117,7 @@ TEST(Water, WhatAFallRemembersIsThatOfBassetAtFirst) {
     EXPECT_NEAR(late / bench::history_of_drag(2e6, 0.09, diameter, viscosity), 4, 0.02);
 }
 
+/// An ideal vortex has all of its amplitude left after a turn, a packing of grains none.
 TEST(Water, AVortexOutlivesATurn) {
     const auto figures = figures_of("vortex", Scheme::conserving, 12);
     // Targets: 0.95 and Re 600 at resolution 20, where they are reached. Eight starts have 0.9435 and Re 332 here, with
