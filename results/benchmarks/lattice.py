@@ -13,7 +13,7 @@ import lakes  # noqa: E402
 
 HEIGHT_AND_WIDTH = (1.2, 1.2)
 # Width of cells and length of the water, units; frames of the shorter run of one swim, of 150, and of one on a core.
-SIZES = ((0.075, 2.85, 120, 40, 120), (0.0375, 2.85, 120, 12, 40), (0.025, 2.85, 60, 12, 8), (0.0125, 2.85, 30, 3, 1), (0.00625, 2.85, 8, 0, 0), (0.00375, 3.6, 1, 0, 0))
+SIZES = ((0.075, 2.85, 120, 40, 120), (0.0375, 2.85, 120, 12, 40), (0.025, 2.85, 60, 12, 8), (0.0125, 2.85, 30, 3, 1), (0.00625, 2.85, 8, 0, 0))
 REPEATS = 3
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Natator beside other programs, by turns: results/benchmarks/peers.py PYTHON [ROUNDS [GENESIS]] adds rounds to peers.csv.
+"""Natator beside other programs, by turns: results/benchmarks/peers.py PYTHON GENESIS [ROUNDS] adds rounds (3) to peers.csv.
 
-Each computes 4 s of the thesis' tank without a swimmer, by one thread. PYTHON is one with `pip install taichi==1.7.4 pysplishsplash==2.19.0`; with GENESIS, one
-with `pip install torch genesis-world==1.4.5`, rounds are of that program and the first. natator-sim and natator-bench are those of build/release/bin. Rows: round, program, seconds of the processor, mean of max(ρ − 1, 0) by each program's own kernel, version.
+Each computes 4 s of the thesis' tank without a swimmer, by one thread. PYTHON is one with `pip install taichi==1.7.4 pysplishsplash==2.19.0`, GENESIS one
+with `pip install torch genesis-world==1.4.5`. natator-sim and natator-bench are those of build/release/bin. Rows: round, program, seconds of the processor, mean of max(ρ − 1, 0) by each program's own kernel, version.
 """
 import csv
 import json
@@ -41,17 +41,15 @@ def genesis(python):
 
 
 def main():
-    if len(sys.argv) not in (2, 3, 4):
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    python, file = sys.argv[1], HERE / "peers.csv"
+    _, python, world, *rounds = sys.argv
+    file = HERE / "peers.csv"
     programs = {"Natator `flex` 4 × 4": lambda: natator("flex 4x4"), "Natator `conserving` 2 × 4": lambda: natator("conserving 2x4"),
                 "Natator `conserving` 4 × 4": lambda: natator("conserving 4x4"), "Taichi, position based, 4 × 4": lambda: taichi(python),
-                "SPlisHSPlasH, DFSPH": lambda: splishsplash(python)}
-    if len(sys.argv) > 3:
-        first = next(iter(programs))
-        programs = {first: programs[first], "Genesis, DFSPH": lambda: genesis(sys.argv[3])}
+                "SPlisHSPlasH, DFSPH": lambda: splishsplash(python), "Genesis, DFSPH": lambda: genesis(world)}
     done = max((int(row["round"]) for row in csv.DictReader(open(file, encoding="utf-8"))), default=0) if file.exists() else 0
-    for number in range(done + 1, done + 1 + int(sys.argv[2] if len(sys.argv) > 2 else 3)):
+    for number in range(done + 1, done + 1 + int(rounds[0] if rounds else 3)):
         rows = [[number, name, *run()] for name, run in programs.items()]
         with open(file, "a", encoding="utf-8", newline="") as output:
             csv.writer(output, lineterminator="\n").writerows(([] if file.stat().st_size else [["round", "program", "seconds", "density_error", "version"]]) + rows)

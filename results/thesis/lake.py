@@ -8,7 +8,7 @@
     ../redo.sh thesis                                       # tables/lake.csv, tables/lake-motions.csv and the page
 
 So were the rows made on an H200, of seeds 1 to 3 by a build of commit 795659c5 that computes several lakes in one launch and rounds otherwise; their runs in vacuum,
-`until walls` and mirrored, the wider lake and recorded ones on a CPU."""
+`until walls` and mirrored, and recorded ones on a CPU; of creature 4's seed 6 and in wider lakes by version 0.2.0 on an H200."""
 import csv
 import gzip
 import json
@@ -28,15 +28,17 @@ CELL = 0.025
 LENGTH, HEIGHT = 2.85, 1.2  # of the tank, which goes along with its swimmer
 # Of each evolution: the tank's width, where the body's rear is in it, whether touching a wall ends a run, and by which first seed how many evolved at once, for how long, s.
 LAKES = {"creature-1": (1.2, 0.8, False, ((1, 3, 360), (4, 2, 200))), "creature-2": (1.8, 0.72, True, ((1, 3, 190), (4, 2, 200))),
-         "creature-3": (1.2, 0.575, False, ((1, 3, 360), (4, 2, 200))), "creature-4": (1.2, 0.645, False, ((1, 3, 360), (4, 2, 200))),
+         "creature-3": (1.2, 0.575, False, ((1, 3, 360), (4, 2, 200))), "creature-4": (1.2, 0.645, False, ((1, 3, 360), (4, 2, 200), (6, 1, 760))),
          "creature-2-between-walls": (1.2, 0.72, False, ((1, 3, 360),))}
 # Of each condition: cells and steps so many times as fine, seconds, starts.
 SWIMS = {"water": (1, 1, 2, range(101, 105)), "half step": (1, 2, 2, (101, 102)), "half cells": (2, 1, 2, (101, 102)), "mirrored": (1, 1, 2, (101, 102)), "resting": (1, 1, 2, (101,)), "longer": (1, 1, 4, (101,)),
          "vacuum": (1, 2, 2, (101,)), "until walls": (1, 1, 2, range(105, 109))}
 UNTIL_WALLS = {"water": (1, 1, 4, range(1001, 1009)), "half step": (1, 2, 4, range(1001, 1009)), "half cells": (2, 1, 4, range(1001, 1005)), "mirrored": (1, 1, 4, (1001, 1002)),
                "resting": (1, 1, 4, (1001,)), "vacuum": (1, 2, 2, (101,))}
-# Who mostly touches the walls of its lake within 2 s, though walls end no run of its evolution, swims in a wider one, too.
-WIDER, WIDER_LAKE, WIDER_STARTS = {("creature-3", 5)}, 1.8, range(109, 113)
+# All but those between walls swim in a lake half as wide again, too, till they touch a wall.
+WIDER, WIDER_STARTS = 1.5, range(109, 113)
+# Who mostly touches the walls of its lake within 2 s, though walls end no run of its evolution, is recorded in a wider one.
+TOUCHES = {("creature-3", 5)}
 # In words, conditions in which a speed has to last.
 CONTROLS = {"half step": "at half the step", "half cells": "at half the cells and steps", "mirrored": "mirrored", "wider": "in a wider lake"}
 
@@ -57,21 +59,22 @@ def gait(evolution, seed):
 
 def swims():
     """(evolution, seed, condition, start) of each run, by its id."""
-    return [(one, seed, condition, start) for one in LAKES for seed in seeds(one) for condition, (*_, starts) in asked_of(one, seed).items() for start in starts]
+    return [(one, seed, condition, start) for one in LAKES for seed in seeds(one) for condition, (*_, starts) in asked_of(one).items() for start in starts]
 
 
 def seeds(evolution):
     return [seed for first, count, _ in LAKES[evolution][3] for seed in range(first, first + count)]
 
 
-def asked_of(evolution, seed):
-    return (UNTIL_WALLS if LAKES[evolution][2] else SWIMS) | ({"wider": (1, 1, 2, WIDER_STARTS)} if (evolution, seed) in WIDER else {})
+def asked_of(evolution):
+    asked = UNTIL_WALLS if LAKES[evolution][2] else SWIMS
+    return asked | ({"wider": (*asked["water"][:3], WIDER_STARTS)} if evolution.count("-") == 1 else {})
 
 
 def requests():
     for number, (evolution, seed, condition, start) in enumerate(swims()):
         own, ends = gait(evolution, seed), condition in ("until walls", "wider")
-        changes = tank(evolution, *asked_of(evolution, seed)[condition][:3], until_walls=ends or None, width=WIDER_LAKE if condition == "wider" else None)
+        changes = tank(evolution, *asked_of(evolution)[condition][:3], until_walls=ends or None, width=round(WIDER * LAKES[evolution][0], 6) if condition == "wider" else None)
         if condition == "vacuum":
             changes |= {"fluid": None, "planes": [], "movingTank": None}
         own = {"resting": plan.resting, "mirrored": plan.mirrored}.get(condition, dict)(own)
@@ -100,7 +103,7 @@ def record(evolution, seed):
     import natator
     from natator import motion
     own, times, bodies, wakes = gait(evolution, seed), [], [], []
-    width = 2.4 if LAKES[evolution][2] or (evolution, seed) in WIDER else LAKES[evolution][0]
+    width = 2.4 if LAKES[evolution][2] or (evolution, seed) in TOUCHES else LAKES[evolution][0]
     overrides = tank(evolution, seconds=3, until_walls=False, length=LENGTH + 0.9, width=width)
     with natator.Stream(scene(evolution), gait=own, start=101, fields=("position",), overrides=overrides) as stream:
         for frame in range(181):
@@ -179,15 +182,15 @@ class Lake:
 
     def verdict(self, swimmer):
         """(✔ ✘ or –, why): it swims if it gets further than a resting body by a twentieth of its length, on its own and not in vacuum, and has more than half
-        of its speed and less than one and a half at half the step, at half the cells and mirrored, and where it has one in a wider lake, whose walls it does not touch."""
+        of its speed and less than one and a half at half the step, at half the cells, mirrored, and in a wider lake; who evolved where touching a wall ends no run does not touch that lake's."""
         length, speed, rest = self.motions[swimmer[0].removesuffix("-between-walls")]["bodyLength"], self.speeds(swimmer), self.speeds(swimmer, "resting").mean
         least = 0.05 * length / self.lasts(swimmer)
         if speed.mean - rest < least or abs(self.speeds(swimmer, "vacuum").mean) > (speed.mean - rest) / 2:
             return "✘", "no further than at rest, or in vacuum"
-        wider = "wider" in self.runs[swimmer]
+        wider, ended = "wider" in self.runs[swimmer], LAKES[swimmer[0]][2]
         doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in CONTROLS.items()
                   if (condition != "wider" or wider) and not abs(change := self.change(swimmer, condition)) < 0.5]
-        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * self.walls(swimmer, "wider" if wider else "until walls")
+        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * (not ended and self.walls(swimmer, "wider" if wider else "until walls"))
         broken = sum(one["status"] != "ok" for runs in self.runs[swimmer].values() for one in runs)
         return ("–", "; ".join(doubts + [f"{broken} unstable"] * (broken > 0))) if doubts or broken else ("✔", "swims by every control")
 

@@ -148,8 +148,8 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(("–", True), (sign, words in said), said)
 
     def test_each_control_of_a_lake_can_fail(self):
-        found, eel = lake.Lake(PAGE / "nowhere"), ("eel", 1)
-        found.motions = {"eel": {"bodyLength": 1.0}}
+        found, eel = lake.Lake(PAGE / "nowhere"), ("creature-4", 1)
+        found.motions = {"creature-4": {"bodyLength": 1.0}, "creature-2": {"bodyLength": 1.0}}
         good = {"water": (0.8, 0.82), "resting": (0.0,), "vacuum": (0.0,), "half step": (0.7,), "half cells": (0.9,), "mirrored": (0.78,), "until walls": (0.8, 0.81)}
         for changed, sign, words in (
                 ({}, "✔", "swims"), ({"water": (0.02, 0.03), "until walls": ()}, "✘", "no further"), ({"vacuum": (-0.5,)}, "✘", "in vacuum"),
@@ -164,6 +164,9 @@ class Verdicts(unittest.TestCase):
             ways = {**good, **({"wider": wider} if wider else {})}
             found.runs = {eel: {name: swims(*own, simulated=2.0, **({"stopped": "touched-plane"} if name in touching else {})) for name, own in ways.items()}}
             self.assertEqual(verdict, found.verdict(eel))
+        ends = ("creature-2", 1)  # touching a wall ends its runs, so that it can't push off
+        found.runs = {ends: {name: swims(*own, simulated=2.0, stopped="touched-plane") for name, own in {**good, "until walls": (), "wider": (0.8, 0.9)}.items()}}
+        self.assertEqual(("✔", "swims by every control"), found.verdict(ends))
 
 
 class Motion(unittest.TestCase):
