@@ -32,7 +32,8 @@ def loach(seed):
 
 
 def estimates():
-    told = []
+    """In words of every seed, and how many surely change by more than 10 % at half the time step or half the cells and steps."""
+    told, unconverged = [], 0
     for seed in SEEDS["loach"]:
         converge = read("loach", seed, "converge.json")
         if converge:
@@ -40,8 +41,9 @@ def estimates():
             least = max(abs(level["change"]["mean"]) - 2 * level["change"]["error"] for level in converge["levels"] if "change" in level)
             one, length = converge["estimate"], converge["bodyLength"]
             sign = "is converged to within 10 %" if largest < 0.1 else "is not" if least > 0.1 else "may be or not"
+            unconverged += sign == "is not"
             told.append(f"seed {seed} {sign}: {study.with_error(one['speed'] / length, one['error'] / length, 2)} body lengths/s at time step and cells 0")
-    return "Converged? " + "; ".join(told) + ".\n"
+    return "Converged? " + "; ".join(told) + ".\n", unconverged
 
 
 def pool(seed):
@@ -59,12 +61,13 @@ def make(folder):
     speeds = [one["base"]["bodyLengths"]["mean"] for one in fresh]
     lost = {"half the time step": [1 - one["halfStep"]["bodyLengths"]["mean"] / speed for one, speed in zip(fresh, speeds)],
             "half the cells and steps": [-level["change"]["mean"] for one in SEEDS["loach"] for level in (read("loach", one, "converge.json") or {"levels": []})["levels"] if level["level"] == "spacing/2"]}
+    told, unconverged = estimates()
     answer = f"**The preset `quick` finds a swimmer of {min(speeds):.1f} to {max(speeds):.1f} body lengths/s by {len(speeds)} seeds, slower by " + \
-             ", by ".join(f"{100 * min(some):.0f} to {100 * max(some):.0f} % at {what}" for what, some in lost.items()) + ".**\n"
+             ", by ".join(f"{100 * min(some):.0f} to {100 * max(some):.0f} % at {what}" for what, some in lost.items()) + f": {unconverged} of {len(speeds)} have not converged to within 10 %.**\n"
     fish = study.table(["seed", "evaluations", "body lengths/s", "half the time step", "half the cells and steps, by starts 2·10⁻⁵ apart", "Reynolds", "Strouhal", "in vacuum"],
                        [loach(seed) for seed in SEEDS["loach"]])
     pools = study.table(["seed", "evaluations", "best distance in 2 s", "again", "half the time step", "change", "in vacuum"], [pool(seed) for seed in SEEDS["default"]])
-    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, loach=fish, estimates=estimates(), pool=pools), encoding="utf-8")
+    (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, loach=fish, estimates=told, pool=pools), encoding="utf-8")
 
 
 study.main(make)
