@@ -44,7 +44,7 @@ int run_converge(ConvergeOptions& options) {
 
 void add_converge(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("converge",
-                                           "The same swim from several perturbed starts, as asked for, at half the "
+                                           "The same swim from several starts, as asked for, at half the "
                                            "time step and at half the spacing of the "
                                            "particles: how far its speed depends on them, and what it goes to. One "
                                            "JSON object on standard output, a table "
@@ -52,9 +52,9 @@ void add_converge(CLI::App& app, int& status) {
     const auto options = std::make_shared<ConvergeOptions>();
     command->add_option(
         "request", options->request,
-        "File or JSON text: a request as for `evaluate`; its perturbation gives the amplitude of the "
-        "starts, else they are perturbed by 0.001 of fluidRestDistance. Default, and -: standard input.");
-    command->add_option("--starts", options->starts, "Perturbed starts: seeds 1 to this.")
+        "File or JSON text: a request as for `evaluate`; with a perturbation all starts are "
+        "perturbed by its amplitude, else they are as `start` chooses them. Default, and -: standard input.");
+    command->add_option("--starts", options->starts, "Starts 1 to this.")
         ->check(whole_number_in(2, 1000))
         ->capture_default_str();
     command->add_option("--levels", options->levels, "Of time/2, time/4, spacing/2 and both/2, beside the base.")

@@ -67,7 +67,8 @@ ordered_json convergence_json(const std::vector<LevelRuns>& levels, const std::o
     result["id"] = base.request.at("id");
     result["scheme"] = to_string(base.job.scene.scheme);
     result["precision"] = to_string(base.job.request.precision);
-    result["perturbation"] = base.job.request.perturbation.amplitude;
+    if (const double amplitude = base.job.request.perturbation.amplitude; amplitude > 0)
+        result["perturbation"] = amplitude;
     result["bodyLength"] = base.body_length;
     for (const LevelRuns& runs : levels) {
         ordered_json level;

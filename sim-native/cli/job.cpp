@@ -54,6 +54,11 @@ Evaluation evaluate_job(const Job& job, const Execution& execution) {
     return evaluate_one_on_gpu(job.scene, {job.gait, request.perturbation}, request.precision, job.backend, execution);
 }
 
+BatchMember member_of(const Job& job) {
+    return {job.gait, job.request.perturbation,
+            job.scene.fluid ? std::optional(job.scene.fluid->disorder) : std::nullopt};
+}
+
 BatchOptions batch_options(Precision precision, const BackendChoice& backend, const Execution& execution) {
     return {.precision = precision,
             .device = backend.device,

@@ -35,6 +35,9 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options);
 /// Evaluates one job by itself. Throws what evaluate and evaluate_on_gpu do.
 Evaluation evaluate_job(const Job& job, const Execution& execution);
 
+/// The job as one of a batch of the same scene but for the arrangement of its water.
+BatchMember member_of(const Job& job);
+
 /// How evaluate_on_gpu computes for a command; of `execution` its starts.
 BatchOptions batch_options(Precision precision, const BackendChoice& backend, const Execution& execution);
 

@@ -12,7 +12,6 @@
 #include "natator/instruction_set.h"
 #include "natator/model.h"
 #include "natator/version.h"
-#include "run/perturb.h"
 #include "scene/gait_json.h"
 #include "scene/merge_patches.h"
 #include "scene/scene_json.h"
@@ -65,7 +64,7 @@ json origin_of(const LevelRuns& runs) {
     return {{"definition", hash_text(hash.value())},
             {"gait", gait_json(runs.job.gait)},
             {"precision", to_string(request.precision)},
-            {"amplitude", request.perturbation.amplitude},
+            {"amplitude", request.perturbation.amplitude},  // 0: starts of the scene
             {"backend", on_gpu(runs.job.backend, runs.job.scene) ? "cuda" : "cpu"},
             {"wholeGpu", runs.job.backend.whole_gpu},
             {"version", NATATOR_VERSION},
@@ -103,10 +102,10 @@ std::vector<LevelRuns> read_levels(json request, const std::string& document, co
         !request["perturbation"].contains("seed"))
         request["perturbation"]["seed"] = 1u;  // only its amplitude counts, converge has seeds of its own
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, document, backend)};
-    Perturbation perturbation = levels.front().job.request.perturbation;
+    const Perturbation perturbation = levels.front().job.request.perturbation;
+    if (fields::has(request, "perturbation") && perturbation.amplitude == 0)
+        throw InputError(document + ": perturbation.amplitude = 0: must be above 0, without it starts are the scene's");
     const Scene scene = levels.front().job.scene;
-    if (perturbation.amplitude == 0) perturbation.amplitude = start_amplitude * scene.solver.fluid_rest_distance;
-    levels.front().job.request.perturbation = perturbation;
     request.erase("perturbation");
     levels.front().request = request;
     for (const std::string& name : names) {
@@ -133,33 +132,41 @@ void run_level(LevelRuns& runs, int starts, const Execution& execution, RunRecor
         runs.results[k] = record.find(of(k));
         if (runs.results[k].is_null()) missing.push_back(k);
     }
+    /// From start k: perturbed if the request asks for it, else as its `start` has it.
+    const auto job_of = [&](int k) {
+        Job job = runs.job;
+        Perturbation& perturbation = job.request.perturbation;
+        if (perturbation.amplitude > 0)
+            perturbation.seed = k + 1;
+        else
+            perturbation = choose_start(k + 1, job.scene);
+        return job;
+    };
     const int found = starts - static_cast<int>(missing.size());
     if (found > 0) say(runs.level.name + ": " + std::to_string(found) + " runs are recorded");
     const auto note = [&](int k, const Evaluation& evaluation) {
         json request = runs.request;
-        request["perturbation"] = {{"amplitude", runs.job.request.perturbation.amplitude}, {"seed", k + 1}};
+        if (const double amplitude = runs.job.request.perturbation.amplitude; amplitude > 0)
+            request["perturbation"] = {{"amplitude", amplitude}, {"seed", k + 1}};
+        else
+            request["start"] = k + 1;
         const ordered_json result =
             result_json(request.at("id"), evaluation, runs.job.scene.scheme, runs.job.request.precision);
         record.add(of(k), request, result);
         runs.results[k] = json::parse(result.dump());
     };
-    const auto perturbation = [&](int k) {
-        return Perturbation{runs.job.request.perturbation.amplitude, static_cast<std::uint64_t>(k + 1)};
-    };
     if (missing.empty()) return;
     if (on_gpu(runs.job.backend, runs.job.scene)) {
         say(runs.level.name + ": " + std::to_string(missing.size()) + " runs together");
         std::vector<BatchMember> members;
-        for (const int k : missing) members.push_back({runs.job.gait, perturbation(k)});
+        for (const int k : missing) members.push_back(member_of(job_of(k)));
         const std::vector<Evaluation> evaluations = evaluate_on_gpu(
             runs.job.scene, members, batch_options(runs.job.request.precision, runs.job.backend, execution));
         for (std::size_t i = 0; i < missing.size(); ++i) note(missing[i], evaluations[i]);
         return;
     }
     for (const int k : missing) {
-        Job job = runs.job;
-        job.request.perturbation = perturbation(k);
-        note(k, evaluate_job(job, execution));
+        note(k, evaluate_job(job_of(k), execution));
         const json& distance = runs.results[k].at("distance");
         say(runs.level.name + ": run " + std::to_string(k + 1) + " of " + std::to_string(starts) +
             (distance.is_null() ? ", unstable" : ", distance " + figure_text(distance.get<double>())));

@@ -17,7 +17,7 @@ namespace natator::cli {
 /// A level of `natator-sim converge`: its scene, and what its runs gave.
 struct LevelRuns {
     Level level;
-    nlohmann::json request;  ///< without a perturbation
+    nlohmann::json request;  ///< without a start
     Job job;
     int substeps = 0, particles = 0;
     double body_length = 0;
@@ -34,7 +34,7 @@ struct LevelRuns {
 std::vector<LevelRuns> read_levels(nlohmann::json request, const std::string& document,
                                    const std::vector<std::string>& names, const BackendChoice& backend);
 
-/// Does the runs of a level that are not recorded, from perturbed starts with seeds 1 to `starts`, and records them.
+/// Does the runs of a level that are not recorded, from starts 1 to `starts`, and records them.
 void run_level(LevelRuns& runs, int starts, const Execution& execution, RunRecord& record);
 
 /// What the speed goes to; none if no run as asked for was stable.

@@ -63,10 +63,7 @@ using GroupKey = std::tuple<std::string, std::string, Precision, int>;
 /// Evaluates jobs on the GPU, together but for those that cannot be done.
 void evaluate_group(const std::vector<SharedJob>& group, const Execution& execution) {
     std::vector<BatchMember> members;
-    for (const auto& [job, ids] : group) {
-        members.push_back({job.gait, job.request.perturbation});
-        if (job.scene.fluid) members.back().arrangement = job.scene.fluid->disorder;
-    }
+    for (const SharedJob& shared : group) members.push_back(member_of(shared.job));
     const Job& first = group.front().job;
     const auto together = [&](const std::vector<BatchMember>& some) {
         return evaluate_on_gpu(first.scene, some, batch_options(first.request.precision, first.backend, execution));

@@ -50,7 +50,7 @@ TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
     EXPECT_EQ(lines(outcome.out), 1);
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result["id"], 5);
-    EXPECT_NEAR(result["perturbation"].get<double>(), 1e-4, 1e-12);
+    EXPECT_FALSE(result.contains("perturbation"));
     ASSERT_EQ(result["levels"].size(), 3u);
     const json &base = result["levels"][0], &time = result["levels"][1], &space = result["levels"][2];
     EXPECT_EQ(base["level"], "base");
@@ -112,6 +112,7 @@ TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
     std::string line;
     for (int k = 0; k < 4 && std::getline(text, line); ++k) {
         const json run = json::parse(line);
+        EXPECT_EQ(run["request"]["start"], k % 2 + 1);
         EXPECT_EQ(json::parse(run_simulator({"evaluate"}, run["request"].dump()).out), run["result"]);
     }
 }
@@ -173,6 +174,9 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     refused({"converge", "-"}, "[]", "request");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/tank"})", "creature");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/creature-1","start":3})", "start: must not be given");
+    json still = one_swim;
+    still["perturbation"] = {{"amplitude", 0}};
+    refused({"converge", "-"}, still.dump(), "perturbation.amplitude = 0: must be above 0");
     json beyond = one_swim;
     beyond["overrides"] = {{"creature", {{"refinement", 5}}}};
     refused({"converge", "-"}, beyond.dump(), "refinement = 10");

@@ -5,8 +5,7 @@
 
 namespace natator {
 
-/// Amplitude of the perturbations that make many starts of one (choose_start, `converge`), in rest distances of the
-/// fluid.
+/// Amplitude of the perturbations by which choose_start makes many starts of one, in rest distances of the fluid.
 constexpr double start_amplitude = 1e-3;
 
 /// Shifts every coordinate of the starting positions by amplitude (2 u - 1), u in [0, 1) being the upper 53 bits of
