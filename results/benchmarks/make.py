@@ -36,7 +36,7 @@ def peers():
     flex, conserving, finer, taichi, dfsph, _ = names
     answer = (f"**For the thesis' tank a plain position based fluid in Taichi takes {known(rounds[taichi] / rounds[flex], 1)} times the time of `flex`, SPlisHSPlasH's DFSPH "
               f"{known(rounds[dfsph] / rounds[conserving], 1)} times that of `conserving` 2 × 4, "
-              f"{known(rounds[dfsph] / rounds[finer], 1)} times that of 4 × 4, on one core.**\n")
+              f"{known(rounds[dfsph] / rounds[finer], 1)} times that of 4 × 4, on one core (± standard errors of four rounds).**\n")
     return answer, study.table(["program", "seconds", "times that of `flex`", "density error, mean"], [
         [name, known(rounds[name], 2 if name == flex else 1), known(rounds[name] / rounds[flex], 1) if name != flex else "", f"{100 * errors[name]:.2g} %"]
         for name in names])

@@ -64,7 +64,7 @@ def make(folder):
     told, unconverged = estimates()
     answer = f"**The preset `quick` finds a swimmer of {min(speeds):.1f} to {max(speeds):.1f} body lengths/s by {len(speeds)} seeds, slower by " + \
              ", by ".join(f"{100 * min(some):.0f} to {100 * max(some):.0f} % at {what}" for what, some in lost.items()) + f": {unconverged} of {len(speeds)} have not converged to within 10 %.**\n"
-    fish = study.table(["seed", "evaluations", "body lengths/s", "half the time step", "half the cells and steps, by starts 2·10⁻⁵ apart", "Reynolds", "Strouhal", "in vacuum"],
+    fish = study.table(["seed", "evaluations", "body lengths/s", "half the time step", "half the cells and steps", "Reynolds", "Strouhal", "in vacuum"],
                        [loach(seed) for seed in SEEDS["loach"]])
     pools = study.table(["seed", "evaluations", "best distance in 2 s", "again", "half the time step", "change", "in vacuum"], [pool(seed) for seed in SEEDS["default"]])
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, loach=fish, estimates=told, pool=pools), encoding="utf-8")

@@ -54,10 +54,10 @@ def chance(one, other):
 
 
 class Trend:
-    """How a speed goes as a parameter moves away from its own value; the farthest is last. What differs, differs by chance of 5 % and a tenth."""
+    """How a speed goes as a parameter moves away from its own value; the farthest is last. What differs, differs by chance of 5 % and a tenth. `other`: on the other side of it."""
 
-    def __init__(self, usual, changed):
-        self.usual, self.changed, self.last = usual, changed, changed[-1] if changed else None
+    def __init__(self, usual, changed, other=()):
+        self.usual, self.changed, self.last, self.other = usual, changed, changed[-1] if changed else None, [one for one in other if one.count]
         self.is_known = usual.count > 1 and bool(changed) and all(one.count for one in changed)
         self.swims = usual.mean > (usual.interval if usual.count > 1 else 0)
 
@@ -83,8 +83,10 @@ class Trend:
         return told(self.differs(self.last, -1) and self.last.mean > self.usual.mean / 2)
 
     def is_unstable(self):
-        """Little is left of the swimming; open where nothing is sure."""
-        return HOLDS if self.last.mean < 0.1 * self.usual.mean else OPEN if self.last.mean < self.last.interval else FAILS
+        """Little is left of the swimming; open where nothing is sure, or where as little is left on the other side, so that the gait fits its own value alone."""
+        if self.last.mean < 0.1 * self.usual.mean:
+            return OPEN if any(one.mean < 0.1 * self.usual.mean for one in self.other) else HOLDS
+        return OPEN if self.last.mean < self.last.interval else FAILS
 
     def text(self):
         return f"{fixed(self.usual.mean)}: " + ", ".join(f"{100 * one.mean / self.usual.mean:.0f}" for one in self.changed) + " %"
@@ -179,8 +181,9 @@ def parameters(study, water):
             return
         usual, values = PARAMETERS[parameter][1][water]
         own = usual if own is None else own
-        values = [one for one in values if own < one <= (to or math.inf)] if above else [one for one in reversed(values) if one < own]
-        trends = [(one, Trend(speed(one, parameter, own), [speed(one, parameter, value) for value in values])) for one in study.studied(water)]
+        up, down = [one for one in values if own < one <= (to or math.inf)], [one for one in reversed(values) if one < own]
+        values, others = (up, down) if above else (down, up)
+        trends = [(one, Trend(speed(one, parameter, own), *([speed(one, parameter, value) for value in side] for side in (values, others)))) for one in study.studied(water)]
         trends = [(one, trend) for one, trend in trends if trend.is_known and trend.swims]
         if trends:
             yield Claim(says, water, f"{parameter} {', '.join(map(value_text, values))} — "

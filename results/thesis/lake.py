@@ -190,7 +190,7 @@ class Lake:
         wider, ended = "wider" in self.runs[swimmer], LAKES[swimmer[0]][2]
         doubts = [f"{measured.percent(1 + change)} of its speed {words}" for condition, words in CONTROLS.items()
                   if (condition != "wider" or wider) and not abs(change := self.change(swimmer, condition)) < 0.5]
-        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it pushes off walls"] * (not ended and self.walls(swimmer, "wider" if wider else "until walls"))
+        doubts += ["starts differ too much"] * (speed.mean - rest - 2 * speed.error < least) + ["it touches walls"] * (not ended and self.walls(swimmer, "wider" if wider else "until walls"))
         broken = sum(one["status"] != "ok" for runs in self.runs[swimmer].values() for one in runs)
         return ("–", "; ".join(doubts + [f"{broken} unstable"] * (broken > 0))) if doubts or broken else ("✔", "swims by every control")
 

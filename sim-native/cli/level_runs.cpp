@@ -180,7 +180,8 @@ std::optional<Estimate> estimate_speed(const std::vector<LevelRuns>& levels) {
     };
     const std::optional<Sample> base = speed("base"), half = speed("time/2");
     if (!base) return std::nullopt;
-    return estimate_of(*base, half, half ? speed("time/4") : std::nullopt, speed("spacing/2"));
+    return estimate_of(*base, half, half ? speed("time/4") : std::nullopt, speed("spacing/2"),
+                       levels.front().job.scene.scheme == Scheme::lattice);
 }
 
 }  // namespace natator::cli

@@ -78,6 +78,18 @@ TEST(Convergence, TheEstimateGoesToBothLimits) {
     EXPECT_EQ(alone.error, 0.1);
 }
 
+/// In scheme lattice half the spacing comes with half the time step, whose part counts once.
+TEST(Convergence, AStepHalvedWithTheSpacingCountsOnce) {
+    const double v = 1, by_step = -0.5, by_spacing = 0.25;  // what goes with h and with the spacing to the first order
+    const Sample base{v + by_step + by_spacing, 0.1, 8}, half{v + by_step / 2 + by_spacing, 0.2, 8},
+        finer{v + (by_step + by_spacing) / 2, 0.3, 8};
+    const Estimate estimate = estimate_of(base, half, std::nullopt, finer, true);
+    EXPECT_NEAR(estimate.value, v, 1e-12);
+    EXPECT_NEAR(estimate.statistical, std::hypot(0.1, 2 * 0.3), 1e-12);  // 2 finer - base
+    EXPECT_NEAR(estimate_of(base, std::nullopt, std::nullopt, finer, true).value, v, 1e-12);
+    EXPECT_NEAR(estimate_of(base, half, std::nullopt, finer).value, v - by_step, 1e-12);  // as if it had not come along
+}
+
 /// The weights of the errors are those of the values.
 TEST(Convergence, ErrorsGoWithTheirWeights) {
     const auto value = [](double base, double half, double quarter) {

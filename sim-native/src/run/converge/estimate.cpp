@@ -79,22 +79,34 @@ Limit limit_of(const Sample& base, const Sample& half, const std::optional<Sampl
 }
 
 Estimate estimate_of(const Sample& base, const std::optional<Sample>& half_time,
-                     const std::optional<Sample>& quarter_time, const std::optional<Sample>& half_space) {
+                     const std::optional<Sample>& quarter_time, const std::optional<Sample>& half_space,
+                     bool with_step) {
     Estimate estimate;
+    const bool from_half_time = with_step && half_time;
     if (half_time) estimate.time = limit_of(base, *half_time, quarter_time);
-    if (half_space) estimate.space = limit_of(base, *half_space, std::nullopt);
-    double base_weight = 1;
+    if (half_space) estimate.space = limit_of(from_half_time ? *half_time : base, *half_space, std::nullopt);
+    double base_weight = 1, half_time_weight = 0;
     estimate.value = base.mean;
-    const auto add = [&](const Limit& limit, const Sample& half, const std::optional<Sample>& quarter) {
-        base_weight += limit.base_weight;
+    const auto add = [&](const Limit& limit) {
         estimate.value += limit.from_base;
         estimate.discretisation = of_both(estimate.discretisation, limit.from_finest);
-        estimate.statistical = of_both(estimate.statistical, weighted(limit.half_weight, half));
-        if (quarter) estimate.statistical = of_both(estimate.statistical, weighted(limit.quarter_weight, *quarter));
     };
-    if (estimate.time) add(*estimate.time, *half_time, quarter_time);
-    if (estimate.space) add(*estimate.space, *half_space, std::nullopt);
-    estimate.statistical = of_both(estimate.statistical, weighted(base_weight, base));
+    const auto scatter = [&](double weight, const Sample& level) {
+        estimate.statistical = of_both(estimate.statistical, weighted(weight, level));
+    };
+    if (estimate.time) {
+        add(*estimate.time);
+        base_weight += estimate.time->base_weight;
+        half_time_weight += estimate.time->half_weight;
+        if (quarter_time) scatter(estimate.time->quarter_weight, *quarter_time);
+    }
+    if (estimate.space) {
+        add(*estimate.space);
+        (from_half_time ? half_time_weight : base_weight) += estimate.space->base_weight;
+        scatter(estimate.space->half_weight, *half_space);
+    }
+    if (half_time) scatter(half_time_weight, *half_time);
+    scatter(base_weight, base);
     estimate.error = of_both(estimate.statistical, estimate.discretisation);
     return estimate;
 }

@@ -13,7 +13,7 @@ struct Spread {
 /// Needs at least one value.
 Spread spread(const std::vector<double>& values);
 
-/// Mean of a figure over runs from perturbed starts.
+/// Mean of a figure over runs from several starts.
 struct Sample {
     double mean = 0;
     double error = 0;  ///< standard error of the mean; infinite where it is not known
@@ -52,8 +52,10 @@ struct Estimate {
     std::optional<Limit> time, space;
 };
 
-/// `space` is at half the spacing.
+/// `half_space` is at half the spacing; `with_step`: and at half the time step, so that it is compared with
+/// `half_time`.
 Estimate estimate_of(const Sample& base, const std::optional<Sample>& half_time,
-                     const std::optional<Sample>& quarter_time, const std::optional<Sample>& half_space);
+                     const std::optional<Sample>& quarter_time, const std::optional<Sample>& half_space,
+                     bool with_step = false);
 
 }  // namespace natator
