@@ -36,7 +36,7 @@ def endless():
     low, high = 100 * np.array(test.confidence_interval()) / fixed.mean()
     yield f"{(low + high) / 2:.1f} ± {(high - low) / 2:.1f} %"
     yield "No difference" if test.pvalue > 0.05 else "Distances differ"
-    yield "cavities are " + " and ".join(f"{np.mean(own):.2f} ± {stats.sem(own):.2f}" for own in ([one["swimming"]["cavities"] for one in some] for some in runs.values()))
+    yield "cavities are " + " and in the fixed one ".join(f"{np.mean(own):.2f} ± {stats.sem(own):.2f}" for own in ([one["swimming"]["cavities"] for one in some] for some in runs.values()))
 
 
 def flex_comparison():

@@ -29,11 +29,12 @@ def make(folder):
     table = study.table(["tank", "distances", "mean ± standard error"], [
         [name, ", ".join(f"{way:.3f}" for way in own), study.with_error(*of(own), 3)]
         for name, own in (("6 long", fixed), ("4 long, moving", moving))], "<<<")
+    differ = stats.ttest_ind(*opened).pvalue
     renewals = [one["renewal"] for one in runs["endless/creature-2"]]
     last, = (one for one in lines("results.jsonl") if scenes[one["id"]][1] == 60)
     answer = f"**{seen} between a moving tank 4 long (`endless/creature-2`) and a fixed one 6 long (`open-water/creature-2`): {100 * apart:.1f} ± " \
              f"{100 * interval:.1f} % (95 %, Student's t).** Creature 2, fish-like gait, 4 s, " \
-             f"{len(fixed)} starts each; cavities are {' and '.join(study.with_error(*of(cavities), 2) for cavities in opened)} (standard errors) of the body's volume:\n"
+             f"{len(fixed)} starts each; cavities are {' and in the fixed one '.join(study.with_error(*of(cavities), 2) for cavities in opened)} (standard errors; p {study.chance(differ)}) of the body's volume in the moving tank:\n"
     def ends(values, digits=0):
         least, most = (f"{end:.{digits}f}" for end in (min(values), max(values)))
         return least if least == most else f"{least} to {most}"

@@ -155,9 +155,9 @@ def make(folder):
     speeds = sorted(int(row["steps"]) / int(row["seconds"]) for row in trained)
     trainings = f"Of {speeds[0]:.0f} to {speeds[-1]:.0f} steps/s each (0.1 s), learning included,\n"
     forward, away = mean("ahead", "return", 4), mean("station", "away")
-    better = sum(any(forward(f"ahead-{seed}", level) > forward("evolved", level) or there(f"turn-{seed}", level) > there("steered-0.4", level) for level in LEVELS)
-                 for seed in LEARNED)
-    answer = (f"**Ahead and in turns {better or 'none'} of {len(LEARNED)} seeds does better: in {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns, also at half the time step, and in half the cells at that, to swim ahead at "
+    better, more = (sum(any(one(f"{task}-{seed}", level) > one(rival, level) for level in LEVELS) for seed in LEARNED)
+                    for task, one, rival in (("ahead", forward, "evolved"), ("turn", there, "steered-0.4")))
+    answer = (f"**Ahead {better or 'none'} of {len(LEARNED)} seeds does better, in turns {more or 'none'} reaches more targets than the best rule: in {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns, also at half the time step, and in half the cells at that, to swim ahead at "
               f"{learned('ahead', forward)} body lengths/s (the evolved gait: {ends(forward, ['evolved'])}), to reach {learned('turn', there)} of 16 targets (a rule that bends "
               f"that gait, its limit chosen: {ends(there, ['steered-0.4'])}), and to stay {learned('station', away)} body lengths from a station in a current (a resting body: "
               f"{ends(away, ['rest'])}).**\n")

@@ -154,10 +154,13 @@ def at_half_step(scene):
     if whole < 0.9 * swims:
         return f"; at half the time step, where {swims - whole} of {swims} swims end at a plane, it is not compared"
     found = study.pairs({name: [run["best"]["fresh"]["halfStep"]["distance"]["mean"] for run in runs] for name, runs in scene.own.items()})
-    alike = [f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])})" for row in found if "further" not in row["verdict"]]
+    def open_difference(row):
+        spans = f", but the interval of the medians' difference, {row['low']:.3f} to {row['high']:.3f}, takes in 0" if row["p_holm"] < 0.05 else ""
+        return f"{row['first']} and {row['second']} (p {study.chance(row['p_holm'])}{spans})"
+    alike = [open_difference(row) for row in found if "further" not in row["verdict"]]
     if len(alike) == len(found):
         return f"; {by}at half the time step no difference is sure (p {study.chance(min(row['p_holm'] for row in found))})"
-    return f"; {by}at half the time step that between {', '.join(alike)} is not sure" if alike else f"; so {by}at half the time step"
+    return f"; {by}at half the time step the difference between {', '.join(alike)} is not sure" if alike else f"; so {by}at half the time step"
 
 
 def answer(tables):

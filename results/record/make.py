@@ -101,7 +101,7 @@ def make(folder):
         ["with muscles at rest", study.fixed(statistics.fmean(ways["rest"]), 3), ""]])
     of_fry, fry_speeds, fry_does = fry()
     answer = of_fry + f"In `conserving` an eel swims {study.fixed(base, 2)} at a spacing of 0.1 and {study.fixed(levels['spacing/2'], 2)} at half of it; " \
-             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)}. It was chosen from twelve, whose mean estimate, weighted by errors, is " \
+             f"extrapolated to time step and spacing 0, {study.with_error(estimate, error, 2)} (standard error). It was chosen from twelve, whose mean estimate, weighted by errors, is " \
              f"{study.fixed(mean, 2)}.\n"
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, fry_speeds=fry_speeds, fry_does=fry_does, speeds=speeds), encoding="utf-8")
 

@@ -20,8 +20,8 @@ def make(folder):
                               for row in missed.itertuples())
         least, greatest = (pandas.to_numeric(finest[name]).fillna(bound) for name, bound in (("least", -np.inf), ("greatest", np.inf)))
         signs = finest[(least <= 0) & (greatest >= 0) | np.isinf(least) | np.isinf(greatest)]
-        confirmed = (finest.confirmed == "yes").sum()
-        told.append((f"In `{scheme}` {(finest.met == 'yes').sum()} of {len(finest)} targets ({confirmed} of the {len(finest)} confirmed) are met at its finest, among them {(signs.met == 'yes').sum()} of {len(signs)} signs or zeros",
+        confirmed = finest[finest.confirmed == "yes"]
+        told.append((f"In `{scheme}` {(finest.met == 'yes').sum()} of {len(finest)} targets are met at its finest ({(confirmed.met == 'yes').sum()} of the {len(confirmed)} whose figure is confirmed), among them {(signs.met == 'yes').sum()} of {len(signs)} signs or zeros",
                      f"; not: {', '.join(names)}."))
     (first, missed_first), second = told[0], "".join(told[1])
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=f"**{first}**{missed_first} {second}\n"), encoding="utf-8")
