@@ -46,7 +46,7 @@ def fry():
         return study.with_error(mean, interval, 3)
 
     rows = [[name] + [cell(seed, level) for seed in seeds] for level, name in enumerate(LEVELS)]
-    rows += [[name] + [study.fixed(speed[seed, number][0], 3) for seed in seeds] for number, name in ((902, "… in a tank 1.65 by 1.95, one swim"), (901, "… at rest, one swim"))]
+    rows += [[name] + [study.fixed(speed[seed, number][0], 3) for seed in seeds] for number, name in ((902, "cells of 0.01875 in a tank 1.65 by 1.95, one swim"), (901, "… at rest, one swim"))]
     best = max(seeds, key=lambda seed: statistics.fmean(speed[seed, 1]))
     mean = {level: statistics.fmean(speed[best, level]) for level in range(len(LEVELS))}
     (base, _, interval), others = sample(speed[best, 1]), [statistics.fmean(speed[seed, 1]) for seed in seeds if seed != best]

@@ -200,7 +200,7 @@ def make(folder):
     pair, turns = pairs()
     wake, left = wakes()
     locked = {level: f"{at(own)} ({len(own)} of {count} swims, {phases.count(statistics.mode(phases))} with phase {statistics.mode(phases)}{'' if chance < 0.05 else f'; open: p = {chance:.1g}'})" if len(own) > 2 else f"open ({len(own)} of {count} stay)" for level, (own, phases, count, chance) in turns.items()}
-    answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles where its gap over the wavelength plus its phase is {locked[1, 1]}, as for foils and fish; at half the step "
+    answer = (f"**{of_streets(held)} A follower that stays in a leader's wake settles at a gap that a phase moves by a wavelength a beat, as for foils and fish: gap over wavelength plus phase is {locked[1, 1]}; at half the step "
               f"{locked[1, 2]}, in half the cells {locked[2, 1]}.** Ten body lengths behind, {study.fixed(100 * left[0], 0)} % of the vorticity one behind are left (two swims).\n")
     (folder / "README.md").write_text(study.filled(HERE / "README.md", answer=answer, street=street, pair=pair, side=sides(), wake=wake, frame=frames()), encoding="utf-8")
     drawn_pairs(folder)
