@@ -68,7 +68,7 @@ def seeds(evolution):
 
 def asked_of(evolution):
     asked = UNTIL_WALLS if LAKES[evolution][2] else SWIMS
-    return asked | ({"wider": (*asked["water"][:3], WIDER_STARTS)} if evolution.count("-") == 1 else {})
+    return asked | ({"wider": (*asked["water"][:3], WIDER_STARTS)} if not evolution.endswith("-between-walls") else {})
 
 
 def requests():

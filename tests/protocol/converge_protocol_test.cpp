@@ -104,13 +104,20 @@ TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
 }
 
 TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
-    ASSERT_EQ(
-        run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, one_swim.dump())
-            .exit_code,
-        0);
+    json in_cells = one_swim;  // where another start is another place in the cells
+    in_cells["scene"] = "plane/loach";
+    in_cells["duration"] = 0.05;
+    const std::vector<double> five(5, 0.1);
+    in_cells["gait"] = {{"frequency", 1}, {"amplitude", five}, {"phase", five}};
+    for (const json& swim : {one_swim, in_cells})
+        ASSERT_EQ(
+            run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, swim.dump())
+                .exit_code,
+            0);
     std::istringstream text(recorded());
     std::string line;
-    for (int k = 0; k < 4 && std::getline(text, line); ++k) {
+    for (int k = 0; k < 8; ++k) {
+        ASSERT_TRUE(std::getline(text, line));
         const json run = json::parse(line);
         EXPECT_EQ(run["request"]["start"], k % 2 + 1);
         EXPECT_EQ(json::parse(run_simulator({"evaluate"}, run["request"].dump()).out), run["result"]);
