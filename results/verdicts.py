@@ -94,7 +94,7 @@ def precision():
             if max(abs(test.low), abs(test.high)) > 0.1 * abs(finest.distance):
                 break
             near = one.processor_seconds
-        yield f"in `{scheme}` " + (f"from {near:.2g} s of a core on" if near else "by none that was tried")
+        yield f"in `{scheme}` " + (f"by all settings from {near:.2g} s of a core on" if near else "by none that was tried")
 
 
 def norm(swim):

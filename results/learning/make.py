@@ -157,9 +157,9 @@ def make(folder):
     forward, away = mean("ahead", "return", 4), mean("station", "away")
     better, more = (sum(any(one(f"{task}-{seed}", level) > one(rival, level) for level in LEVELS) for seed in LEARNED)
                     for task, one, rival in (("ahead", forward, "evolved"), ("turn", there, "steered-0.4")))
-    answer = (f"**Ahead {better or 'none'} of {len(LEARNED)} seeds does better, in turns {more or 'none'} reaches more targets than the best rule: in {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns, also at half the time step, and in half the cells at that, to swim ahead at "
-              f"{learned('ahead', forward)} body lengths/s (the evolved gait: {ends(forward, ['evolved'])}), to reach {learned('turn', there)} of 16 targets (a rule that bends "
-              f"that gait, its limit chosen: {ends(there, ['steered-0.4'])}), and to stay {learned('station', away)} body lengths from a station in a current (a resting body: "
+    answer = (f"**Ahead {better or 'none'} of {len(LEARNED)} seeds does better, in turns {more or 'none'} reaches more targets than the best rule: in {max(int(row['seconds']) for row in trained) / 60:.1f} minutes PPO learns policies that, tried also at half the time step and in cells of half the size at that, swim ahead at "
+              f"{learned('ahead', forward)} body lengths/s (the evolved gait: {ends(forward, ['evolved'])}), reach {learned('turn', there)} of 16 targets (a rule that bends "
+              f"that gait, its limit chosen: {ends(there, ['steered-0.4'])}), and stay {learned('station', away)} body lengths from a station in a current (a resting body: "
               f"{ends(away, ['rest'])}).**\n")
     curves(folder)
     paths(folder)

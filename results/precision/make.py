@@ -122,7 +122,7 @@ def swims():
             if abs(off) + both > NEAR and one.Index != finest.name:
                 break
             least = one.processor_seconds if one.Index != finest.name else None
-        answers.append(f"in `{scheme}` " + (f"from {least:.2g} s of a core on ({finest.seconds:.0f} s swum)" if least else f"by none that was tried ({finest.seconds:.0f} s)"))
+        answers.append(f"in `{scheme}` " + (f"by all settings from {least:.2g} s of a core on ({finest.seconds:.0f} s swum)" if least else f"by none that was tried ({finest.seconds:.0f} s)"))
         for k, ((n, substeps), own, known) in enumerate(settings):
             distances = ", ".join(study.with_error(row.distance, study.half_interval(row.standard_deviation * row.starts**-0.5, row.starts), 3) if row.starts > 1 else "–" for row in own.itertuples())
             off = "" if known is None or known[0].Index == finest.name else f"{study.with_error(100 * known[1], 100 * known[2], 0)} %".replace("-", "−")

@@ -58,7 +58,8 @@ def beyond(tank):
         return " and ".join(f"{(own[own.scheme == scheme].status != 'ok').sum()} of {(own.scheme == scheme).sum()} in `{scheme}`" for scheme in SCHEMES)
 
     differ = "; ".join(f"{row.scheme}, {row.axis} {row.value:g}" for row in other.itertuples())
-    return f"With one thing made worse {told(longer)} do over 60 s, {told(large)} with 300 000 particles.", (
+    axes = large.axis.unique()
+    return f"With one thing made worse {told(longer)} do over 60 s; of {', '.join(axes)} alone {told(longer[longer.axis.isin(axes)])}, with 300 000 particles in 1 s or at least 8 frames {told(large)}.", (
         study.table(["", *SCHEMES], [["60 s, a processor", *broken(longer)], ["300 000 particles, 30 deep, a GPU", *broken(large)]], "<<<")
         + f"\nThe small tank on a GPU ends as on a processor at {len(both) - len(other)} of {len(both)} points" + (f" (not: {differ})" if differ else "") + ".\n")
 
